@@ -1,0 +1,26 @@
+//! Why a foreign file could not be read.
+
+use thiserror::Error;
+
+/// Why a foreign file could not be read. Each message names the place in the file or in space.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The bytes do not follow the format.
+    #[error("{format}: {reason}")]
+    Malformed {
+        /// Format name.
+        format: &'static str,
+        /// What is wrong, and where.
+        reason: String,
+    },
+    /// The format is known, but not for input.
+    #[error("{0} is not an input format")]
+    NotAnInput(&'static str),
+    /// The surface is well-formed but not what the pipe can work with.
+    #[error("{0}")]
+    BadSurface(String),
+    /// The document inside is damaged.
+    #[error(transparent)]
+    Tmesh(#[from] tmesh::DecodeError),
+}

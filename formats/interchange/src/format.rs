@@ -1,0 +1,113 @@
+//! The formats known, by name, extension and content.
+
+use crate::{MeshStream, ReadError};
+use std::io::{self, Write};
+use std::path::Path;
+use tmesh::Document;
+
+/// A format the tools can read or write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Format {
+    /// The document itself.
+    Tmesh,
+    /// Stereolithography, binary or ASCII, one or several solids.
+    Stl,
+    /// Wavefront OBJ.
+    Obj,
+    /// Stanford PLY.
+    Ply,
+    /// Object File Format.
+    Off,
+    /// TetGen piecewise linear complex.
+    Poly,
+    /// TetGen surface mesh.
+    Smesh,
+    /// Legacy VTK.
+    Vtk,
+    /// VTK XML unstructured grid.
+    Vtu,
+    /// A readable listing of a document.
+    Text,
+}
+
+impl Format {
+    /// All formats, in the order they are listed to users.
+    pub const ALL: [Self; 10] = [
+        Self::Tmesh,
+        Self::Stl,
+        Self::Obj,
+        Self::Ply,
+        Self::Off,
+        Self::Poly,
+        Self::Smesh,
+        Self::Vtk,
+        Self::Vtu,
+        Self::Text,
+    ];
+
+    /// The name used with `--from` and `--to`, which is also the usual extension.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tmesh => "tmesh",
+            Self::Stl => "stl",
+            Self::Obj => "obj",
+            Self::Ply => "ply",
+            Self::Off => "off",
+            Self::Poly => "poly",
+            Self::Smesh => "smesh",
+            Self::Vtk => "vtk",
+            Self::Vtu => "vtu",
+            Self::Text => "txt",
+        }
+    }
+
+    /// The format with this name, in any case.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|f| f.name().eq_ignore_ascii_case(name))
+    }
+
+    /// The format a path's extension stands for.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        Self::from_name(path.extension()?.to_str()?)
+    }
+
+    /// Whether its bytes are not text.
+    pub fn is_binary(self) -> bool {
+        matches!(self, Self::Tmesh | Self::Stl | Self::Vtk | Self::Vtu)
+    }
+}
+
+/// The format that the first bytes of a file show, if they show one.
+///
+/// `head` should be at least 1 KiB unless the file is shorter. `path` breaks ties only.
+pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
+    if head.starts_with(&tmesh::MAGIC) {
+        return Some(Format::Tmesh);
+    }
+    path.and_then(Format::from_path)
+}
+
+/// Reads a whole file of the given format into a document: one template in world coordinates, with
+/// regions, markers and [`tmesh::Source`] filled in.
+///
+/// # Errors
+/// Malformed bytes, and surfaces that do not bound a body.
+pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
+    match format {
+        Format::Tmesh => Ok(tmesh::read(bytes)?),
+        other => Err(ReadError::NotAnInput(other.name())),
+    }
+}
+
+/// Writes a mesh in a foreign format.
+///
+/// # Errors
+/// Fails when writing fails, or with `Unsupported` when the format is not for output.
+pub fn write(_mesh: &dyn MeshStream, format: Format, _out: &mut dyn Write) -> io::Result<()> {
+    Err(io::Error::new(
+        io::ErrorKind::Unsupported,
+        format!("{} is not an output format", format.name()),
+    ))
+}

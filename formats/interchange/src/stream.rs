@@ -1,0 +1,58 @@
+//! What a writer needs of a mesh, without the mesh being in memory as a whole.
+
+use glam::DVec3;
+use std::io;
+use tmesh::{Marker, Region};
+
+/// Some tetrahedra of one instance.
+pub struct TetBlock<'a> {
+    /// Four point ids each, positively oriented.
+    pub vertices: &'a [[u32; 4]],
+    /// Region id of each.
+    pub regions: &'a [u32],
+    /// Index of the instance they belong to.
+    pub instance: u32,
+}
+
+/// Some surface triangles of one instance.
+pub struct TriangleBlock<'a> {
+    /// Three point ids each, counter-clockwise seen from the front region.
+    pub vertices: &'a [[u32; 3]],
+    /// Marker id of each.
+    pub markers: &'a [u32],
+    /// Region in front of each, or [`tmesh::OUTSIDE`].
+    pub front: &'a [u32],
+    /// Region behind each, or [`tmesh::OUTSIDE`].
+    pub back: &'a [u32],
+    /// Wall of each: 0 for none, else one plus the position in [`MeshStream::wall_names`].
+    pub walls: &'a [u32],
+    /// Index of the instance they belong to.
+    pub instance: u32,
+}
+
+/// A mesh that can be passed over several times, block by block, always in the same order.
+pub trait MeshStream {
+    /// One line that says what this is and how it was made.
+    fn title(&self) -> String;
+    /// Number of points.
+    fn point_count(&self) -> u64;
+    /// Number of tetrahedra.
+    fn tet_count(&self) -> u64;
+    /// Number of surface triangles.
+    fn triangle_count(&self) -> u64;
+    /// Materials by id.
+    fn regions(&self) -> &[Region];
+    /// Boundary pieces by id.
+    fn markers(&self) -> &[Marker];
+    /// Names of walls; empty for an assembled mesh.
+    fn wall_names(&self) -> Vec<String>;
+    /// Gives all points, world coordinates, in the order of their ids.
+    fn points(&self, sink: &mut dyn FnMut(&[DVec3]) -> io::Result<()>) -> io::Result<()>;
+    /// Gives all tetrahedra.
+    fn tets(&self, sink: &mut dyn FnMut(&TetBlock<'_>) -> io::Result<()>) -> io::Result<()>;
+    /// Gives all surface triangles.
+    fn triangles(
+        &self,
+        sink: &mut dyn FnMut(&TriangleBlock<'_>) -> io::Result<()>,
+    ) -> io::Result<()>;
+}

@@ -1,0 +1,209 @@
+//! The document model.
+
+use crate::{Frame, Isometry, Symmetry, Wall};
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+/// Region id that means "no material": outside of the body, in a void, or beyond a wall.
+pub const OUTSIDE: u32 = u32::MAX;
+
+/// A surface triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Triangle {
+    /// Three vertex ids, counter-clockwise seen from the front region.
+    pub vertices: [u32; 3],
+    /// Id of the boundary piece the triangle belongs to; see [`Marker`].
+    pub marker: u32,
+    /// Region on the side the normal points to, or [`OUTSIDE`].
+    pub front: u32,
+    /// Region on the other side, or [`OUTSIDE`].
+    pub back: u32,
+}
+
+/// A linear tetrahedron, positively oriented: `(b - a) x (c - a) . (d - a) > 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Tet {
+    /// Four vertex ids.
+    pub vertices: [u32; 4],
+    /// Region id.
+    pub region: u32,
+}
+
+/// A piece of mesh that is stored once and placed by instances. Coordinates are canonical.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Template {
+    /// Vertex positions in the canonical frame, model units. All finite.
+    pub vertices: Vec<DVec3>,
+    /// Surface: outer boundary, region interfaces and walls.
+    pub triangles: Vec<Triangle>,
+    /// Volume; empty before the mesher ran.
+    pub tets: Vec<Tet>,
+    /// Where the template meets its images and other templates.
+    pub walls: Vec<Wall>,
+    /// Vertices on the symmetry axis (x = y = 0 exactly), increasing.
+    pub axis: Vec<u32>,
+}
+
+/// A placed copy of a template.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Instance {
+    /// Index of the template.
+    pub template: u32,
+    /// Placement in the canonical frame.
+    pub isometry: Isometry,
+    /// Index into [`Document::region_maps`] plus one; 0 leaves region ids as they are.
+    pub region_map: u32,
+}
+
+/// A renaming of regions that an instance applies to its template: (from, to) pairs, increasing in
+/// `from`; regions not listed keep their id.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RegionMap {
+    /// The pairs.
+    pub pairs: Vec<[u32; 2]>,
+}
+
+impl RegionMap {
+    /// Where a region goes.
+    pub fn get(&self, region: u32) -> u32 {
+        match self.pairs.binary_search_by_key(&region, |p| p[0]) {
+            Ok(i) => self.pairs[i][1],
+            Err(_) => region,
+        }
+    }
+}
+
+/// A material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Region {
+    /// Any id but [`OUTSIDE`].
+    pub id: u32,
+    /// Name, as the input gives it.
+    pub name: String,
+    /// Largest tetrahedron volume wanted, model units cubed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_volume: Option<f64>,
+    /// Volume in the input body, model units cubed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub volume: Option<f64>,
+}
+
+/// A named piece of boundary or interface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Marker {
+    /// Id used by [`Triangle::marker`].
+    pub id: u32,
+    /// Name, as the input gives it.
+    pub name: String,
+    /// Area in the input body, model units squared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<f64>,
+}
+
+/// What the document was read from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Source {
+    /// Name of the foreign format, such as `stl`.
+    pub format: String,
+    /// Triangles in the input, after welding.
+    pub triangles: u64,
+    /// Volume of the body, all regions, model units cubed.
+    pub volume: f64,
+    /// Area of the outer boundary (one side outside), model units squared.
+    pub boundary_area: f64,
+    /// Absolute error of a coordinate, model units: what the input's number format can hold at the
+    /// size of its largest coordinate.
+    pub precision: f64,
+}
+
+/// One step in the making of the document.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HistoryEntry {
+    /// Tool name.
+    pub tool: String,
+    /// Tool version.
+    pub version: String,
+    /// Arguments, without the tool's name.
+    pub arguments: Vec<String>,
+    /// What the tool chose and found, a sentence each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+/// The document that travels through the pipe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Document {
+    /// Pieces of mesh.
+    pub templates: Vec<Template>,
+    /// Placed copies.
+    pub instances: Vec<Instance>,
+    /// Renamings of regions used by instances.
+    pub region_maps: Vec<RegionMap>,
+    /// From canonical to world coordinates.
+    pub frame: Frame,
+    /// Symmetry, once `symdetect` ran.
+    pub symmetry: Option<Symmetry>,
+    /// Materials, increasing in id.
+    pub regions: Vec<Region>,
+    /// Boundary pieces, increasing in id.
+    pub markers: Vec<Marker>,
+    /// What the document was read from.
+    pub source: Option<Source>,
+    /// How the document was made, oldest first.
+    pub history: Vec<HistoryEntry>,
+}
+
+impl Document {
+    /// A document with one template in world coordinates and the identity instance.
+    pub fn single(template: Template) -> Self {
+        Self {
+            templates: vec![template],
+            instances: vec![Instance {
+                template: 0,
+                isometry: Isometry::IDENTITY,
+                region_map: 0,
+            }],
+            region_maps: Vec::new(),
+            frame: Frame::IDENTITY,
+            symmetry: None,
+            regions: Vec::new(),
+            markers: Vec::new(),
+            source: None,
+            history: Vec::new(),
+        }
+    }
+
+    /// Whether the document is a plain mesh: one template, placed once by the identity.
+    pub fn is_plain(&self) -> bool {
+        self.templates.len() == 1
+            && self.instances.len() == 1
+            && self.instances[0].isometry == Isometry::IDENTITY
+            && self.instances[0].region_map == 0
+    }
+
+    /// Region that `instance` gives to a region id of its template.
+    pub fn placed_region(&self, instance: &Instance, region: u32) -> u32 {
+        match instance.region_map {
+            0 => region,
+            i => self.region_maps[i as usize - 1].get(region),
+        }
+    }
+
+    /// Diagonal of the bounding box over all templates, in the canonical frame; 0 when empty.
+    pub fn diagonal(&self) -> f64 {
+        let mut low = DVec3::INFINITY;
+        let mut high = DVec3::NEG_INFINITY;
+        for p in self.templates.iter().flat_map(|t| &t.vertices) {
+            low = low.min(*p);
+            high = high.max(*p);
+        }
+        if low.x <= high.x {
+            (high - low).length()
+        } else {
+            0.0
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! The document that travels through the pipe, and its binary form `.tmesh`.
+//!
+//! A [`Document`] holds *templates* (a piece of surface or volume mesh stored once), the *walls*
+//! at which templates meet their images, and *instances* (isometries that place the templates).
+//! A plain surface or a whole mesh is the same document with one template and the identity
+//! instance. `SPEC.md` beside this crate is the normative description of the bytes.
+
+mod codec;
+mod document;
+mod error;
+mod frame;
+mod isometry;
+mod symmetry;
+mod validate;
+mod wall;
+
+pub use codec::{
+    ChunkInfo, ChunkWriter, MAGIC, VERSION_MAJOR, VERSION_MINOR, read, read_with_chunks, write,
+    write_metadata,
+};
+pub use document::{
+    Document, HistoryEntry, Instance, Marker, OUTSIDE, Region, RegionMap, Source, Template, Tet,
+    Triangle,
+};
+pub use error::DecodeError;
+pub use frame::Frame;
+pub use isometry::{Isometry, MAX_TURN_DENOMINATOR};
+pub use symmetry::{Axis, OtherAxis, Promise, RejectedOrder, Symmetry};
+pub use validate::{Violation, validate};
+pub use wall::{HubWall, MirrorWall, Plane, Seam, Wall};

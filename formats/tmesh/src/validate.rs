@@ -1,0 +1,642 @@
+//! Invariants of a document, in one place for decoder, tests and `meshqual --check`.
+
+use crate::{Document, Instance, Isometry, OUTSIDE, Template, Wall};
+use glam::DVec3;
+use std::collections::{BTreeSet, HashSet};
+use thiserror::Error;
+
+/// One broken invariant.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Violation {
+    /// No template.
+    #[error("it has no template")]
+    NoTemplate,
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {vertex} of template {template} has the coordinates ({}, {}, {})", .position.x, .position.y, .position.z)]
+    NotFinite {
+        /// Template index.
+        template: usize,
+        /// Vertex index.
+        vertex: usize,
+        /// Its position.
+        position: DVec3,
+    },
+    /// An element names a vertex that is not there.
+    #[error(
+        "{element} {index} of template {template} names vertex {vertex}, and there are {count}"
+    )]
+    VertexOutOfRange {
+        /// `triangle`, `tetrahedron`, `axis entry`, or a wall's name.
+        element: String,
+        /// Which one.
+        index: usize,
+        /// Template index.
+        template: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// Vertices there are.
+        count: usize,
+    },
+    /// A wall names a triangle that is not there.
+    #[error(
+        "wall '{wall}' of template {template} names triangle {triangle}, and there are {count}"
+    )]
+    TriangleOutOfRange {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// The triangle it names.
+        triangle: u32,
+        /// Triangles there are.
+        count: usize,
+    },
+    /// An element names a vertex twice.
+    #[error("{element} {index} of template {template} names vertex {vertex} twice")]
+    RepeatedVertex {
+        /// `triangle` or `tetrahedron`.
+        element: &'static str,
+        /// Which one.
+        index: usize,
+        /// Template index.
+        template: usize,
+        /// The vertex.
+        vertex: u32,
+    },
+    /// A region id is used that the region table does not list.
+    #[error(
+        "{element} {index} of template {template} has region {region}, which the region table does not list"
+    )]
+    UnknownRegion {
+        /// `triangle` or `tetrahedron`.
+        element: &'static str,
+        /// Which one.
+        index: usize,
+        /// Template index.
+        template: usize,
+        /// The region id.
+        region: u32,
+    },
+    /// The region or marker table has an id twice, out of order, or the reserved one.
+    #[error("the {table} table lists id {id} twice, out of order, or where it must not be")]
+    BadTable {
+        /// `region` or `marker`.
+        table: &'static str,
+        /// The id.
+        id: u32,
+    },
+    /// A wall's list is not increasing.
+    #[error(
+        "wall '{wall}' of template {template}: its list of {what} is not increasing at entry {index}"
+    )]
+    Unordered {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// `vertices`, `triangles` or `pairs`.
+        what: &'static str,
+        /// First entry that is not larger than the one before.
+        index: usize,
+    },
+    /// A mirror wall's plane is not that of its reflection.
+    #[error(
+        "wall '{wall}' of template {template}: the plane is not the mirror plane of its reflection"
+    )]
+    BadPlane {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+    },
+    /// A vertex listed on a mirror wall is away from its plane.
+    #[error(
+        "wall '{wall}' of template {template}: vertex {vertex} is {distance:e} away from the plane"
+    )]
+    OffPlane {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// The vertex.
+        vertex: u32,
+        /// Its distance, model units.
+        distance: f64,
+    },
+    /// A pair of a seam or hub wall whose members are not images of each other.
+    #[error(
+        "wall '{wall}' of template {template}: vertex {second} is not the image of vertex {first} (distance {distance:e})"
+    )]
+    NotAnImage {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// First vertex of the pair.
+        first: u32,
+        /// Second vertex of the pair.
+        second: u32,
+        /// Distance between the image of one and the other, model units.
+        distance: f64,
+    },
+    /// A pair of triangles whose vertices are not paired.
+    #[error(
+        "wall '{wall}' of template {template}: triangles {first} and {second} are paired, but their vertices are not"
+    )]
+    TrianglesDiffer {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// First triangle of the pair.
+        first: u32,
+        /// Second triangle of the pair.
+        second: u32,
+    },
+    /// An axis vertex is away from the axis.
+    #[error(
+        "vertex {vertex} of template {template} is listed on the axis, but lies {distance:e} away from it"
+    )]
+    OffAxis {
+        /// Template index.
+        template: usize,
+        /// The vertex.
+        vertex: u32,
+        /// Its distance, model units.
+        distance: f64,
+    },
+    /// An instance or a hub wall names something that is not there.
+    #[error("{what} names {target} {index}, and there are {count}")]
+    IndexOutOfRange {
+        /// Who names it.
+        what: String,
+        /// `template` or `region map`.
+        target: &'static str,
+        /// The index it names.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// Two instances place the same template in the same way.
+    #[error("template {template} is placed twice by {isometry}")]
+    RepeatedInstance {
+        /// Template index.
+        template: usize,
+        /// The placement.
+        isometry: Isometry,
+    },
+    /// The instance beyond a wall is missing.
+    #[error(
+        "instance {isometry} of template {template} has no neighbour {neighbour} across wall '{wall}'"
+    )]
+    MissingNeighbour {
+        /// Template index.
+        template: usize,
+        /// The instance's placement.
+        isometry: Isometry,
+        /// The placement that is missing.
+        neighbour: Isometry,
+        /// The wall's name.
+        wall: String,
+    },
+    /// The frame is not a rotation and a finite shift.
+    #[error("the frame is not a rotation and a finite shift")]
+    BadFrame,
+}
+
+/// Distance from a mirror plane, relative to the template's extent, up to which a vertex counts as
+/// on the plane: a few units in the last place of the coordinates.
+const PLANE_ROUNDING: f64 = 1e-14;
+
+/// Deviation from orthonormality up to which a frame counts as a rotation.
+const FRAME_ROUNDING: f64 = 1e-12;
+
+/// All broken invariants of a document; empty when it is valid.
+///
+/// Stops collecting after 1000, so that a damaged document does not produce a list of its own size.
+/// Linear in the document.
+pub fn validate(document: &Document) -> Vec<Violation> {
+    let mut found = Collector(Vec::new());
+    if document.templates.is_empty() {
+        found.add(Violation::NoTemplate);
+    }
+    check_frame(document, &mut found);
+    check_tables(document, &mut found);
+    let regions: HashSet<u32> = document.regions.iter().map(|r| r.id).collect();
+    for (index, template) in document.templates.iter().enumerate() {
+        check_template(index, template, &regions, &mut found);
+    }
+    // Walls compare coordinates of vertices they name: only where all names are in range.
+    if found.0.is_empty() {
+        for (index, template) in document.templates.iter().enumerate() {
+            check_walls(index, template, document, &mut found);
+        }
+    }
+    if found.0.is_empty() {
+        check_instances(document, &mut found);
+    }
+    found.0
+}
+
+struct Collector(Vec<Violation>);
+
+impl Collector {
+    fn add(&mut self, violation: Violation) {
+        if self.0.len() < 1000 {
+            self.0.push(violation);
+        }
+    }
+}
+
+fn check_frame(document: &Document, found: &mut Collector) {
+    let q = document.frame.rotation;
+    let gram = q.transpose() * q - glam::DMat3::IDENTITY;
+    let off = gram
+        .to_cols_array()
+        .iter()
+        .fold(0.0_f64, |m, x| m.max(x.abs()));
+    // A NaN anywhere makes both comparisons false.
+    if !(off <= FRAME_ROUNDING && q.determinant() > 0.0 && document.frame.origin.is_finite()) {
+        found.add(Violation::BadFrame);
+    }
+}
+
+fn check_tables(document: &Document, found: &mut Collector) {
+    let mut check = |table: &'static str, ids: &mut dyn Iterator<Item = u32>| {
+        let mut last = None;
+        for id in ids {
+            if id == OUTSIDE || last.is_some_and(|l| id <= l) {
+                found.add(Violation::BadTable { table, id });
+            }
+            last = Some(id);
+        }
+    };
+    check("region", &mut document.regions.iter().map(|r| r.id));
+    check("marker", &mut document.markers.iter().map(|m| m.id));
+    for map in &document.region_maps {
+        check("region map", &mut map.pairs.iter().map(|p| p[0]));
+    }
+}
+
+fn check_template(
+    index: usize,
+    template: &Template,
+    regions: &HashSet<u32>,
+    found: &mut Collector,
+) {
+    let count = template.vertices.len();
+    for (vertex, &position) in template.vertices.iter().enumerate() {
+        if !position.is_finite() {
+            found.add(Violation::NotFinite {
+                template: index,
+                vertex,
+                position,
+            });
+        }
+    }
+    let mut out_of_range = |element: &str, i: usize, vertex: u32| {
+        if vertex as usize >= count {
+            found.add(Violation::VertexOutOfRange {
+                element: element.to_owned(),
+                index: i,
+                template: index,
+                vertex,
+                count,
+            });
+        }
+    };
+    for (i, t) in template.triangles.iter().enumerate() {
+        t.vertices
+            .iter()
+            .for_each(|&v| out_of_range("triangle", i, v));
+    }
+    for (i, t) in template.tets.iter().enumerate() {
+        t.vertices
+            .iter()
+            .for_each(|&v| out_of_range("tetrahedron", i, v));
+    }
+    for (i, &v) in template.axis.iter().enumerate() {
+        out_of_range("axis entry", i, v);
+    }
+    for wall in &template.walls {
+        wall.vertices().enumerate().for_each(|(i, v)| {
+            // Hub pairs name vertices of two templates; Wall::vertices yields only ours.
+            out_of_range(&format!("wall '{}'", wall.name()), i, v);
+        });
+    }
+    let triangles = template.triangles.len();
+    for wall in &template.walls {
+        for triangle in wall.triangles().filter(|&t| t as usize >= triangles) {
+            found.add(Violation::TriangleOutOfRange {
+                wall: wall.name().to_owned(),
+                template: index,
+                triangle,
+                count: triangles,
+            });
+        }
+    }
+    // Elements come in long runs of one region: a look-up per change of region.
+    let mut known = OUTSIDE;
+    let mut unknown = |region: u32| {
+        region != known && region != OUTSIDE && {
+            let missing = !regions.contains(&region);
+            if !missing {
+                known = region;
+            }
+            missing
+        }
+    };
+    for (i, t) in template.triangles.iter().enumerate() {
+        let [a, b, c] = t.vertices;
+        if a == b || b == c || a == c {
+            let vertex = if b == c { b } else { a };
+            found.add(Violation::RepeatedVertex {
+                element: "triangle",
+                index: i,
+                template: index,
+                vertex,
+            });
+        }
+        for region in [t.front, t.back] {
+            if unknown(region) {
+                found.add(Violation::UnknownRegion {
+                    element: "triangle",
+                    index: i,
+                    template: index,
+                    region,
+                });
+            }
+        }
+    }
+    for (i, t) in template.tets.iter().enumerate() {
+        let [a, b, c, d] = t.vertices;
+        if a == b || a == c || a == d || b == c || b == d || c == d {
+            let vertex = if b == c || b == d {
+                b
+            } else if c == d {
+                c
+            } else {
+                a
+            };
+            found.add(Violation::RepeatedVertex {
+                element: "tetrahedron",
+                index: i,
+                template: index,
+                vertex,
+            });
+        }
+        if t.region == OUTSIDE || unknown(t.region) {
+            found.add(Violation::UnknownRegion {
+                element: "tetrahedron",
+                index: i,
+                template: index,
+                region: t.region,
+            });
+        }
+    }
+}
+
+fn check_walls(index: usize, template: &Template, document: &Document, found: &mut Collector) {
+    let extent = template
+        .vertices
+        .iter()
+        .fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
+    for &vertex in &template.axis {
+        let p = template.vertices[vertex as usize];
+        if p.x != 0.0 || p.y != 0.0 {
+            let distance = p.x.hypot(p.y);
+            found.add(Violation::OffAxis {
+                template: index,
+                vertex,
+                distance,
+            });
+        }
+    }
+    for wall in &template.walls {
+        match wall {
+            Wall::Mirror(w) => {
+                let unordered = first_unordered(w.vertices.iter().copied())
+                    .map(|i| ("vertices", i))
+                    .or(first_unordered(w.triangles.iter().copied()).map(|i| ("triangles", i)));
+                if let Some((what, i)) = unordered {
+                    found.add(Violation::Unordered {
+                        wall: w.name.clone(),
+                        template: index,
+                        what,
+                        index: i,
+                    });
+                }
+                // A reflection maps the normal to its opposite and fixes the plane.
+                let image = w.reflection.apply(w.plane.normal);
+                let unit = (w.plane.normal.length() - 1.0).abs() <= FRAME_ROUNDING;
+                let opposite = (image + w.plane.normal).length() <= FRAME_ROUNDING;
+                if !(unit && opposite && w.plane.offset == 0.0) {
+                    found.add(Violation::BadPlane {
+                        wall: w.name.clone(),
+                        template: index,
+                    });
+                }
+                for &vertex in &w.vertices {
+                    let distance = w.plane.distance(template.vertices[vertex as usize]).abs();
+                    if distance > PLANE_ROUNDING * extent {
+                        found.add(Violation::OffPlane {
+                            wall: w.name.clone(),
+                            template: index,
+                            vertex,
+                            distance,
+                        });
+                    }
+                }
+            }
+            Wall::Seam(w) => {
+                let pairs = Pairs {
+                    wall: &w.name,
+                    index,
+                    vertex_pairs: &w.vertex_pairs,
+                    triangle_pairs: &w.triangle_pairs,
+                };
+                pairs.check(template, template, w.rotation, false, found);
+            }
+            Wall::Hub(w) => {
+                let count = document.templates.len();
+                let Some(other) = document.templates.get(w.other as usize) else {
+                    found.add(Violation::IndexOutOfRange {
+                        what: format!("wall '{}' of template {index}", w.name),
+                        target: "template",
+                        index: w.other as usize,
+                        count,
+                    });
+                    continue;
+                };
+                let vertex = w.vertex_pairs.iter().map(|p| p[1]).max();
+                let triangle = w.triangle_pairs.iter().map(|p| p[1]).max();
+                if let Some(vertex) = vertex.filter(|&v| v as usize >= other.vertices.len()) {
+                    found.add(Violation::VertexOutOfRange {
+                        element: format!("wall '{}'", w.name),
+                        index: 0,
+                        template: w.other as usize,
+                        vertex,
+                        count: other.vertices.len(),
+                    });
+                    continue;
+                }
+                if let Some(triangle) = triangle.filter(|&t| t as usize >= other.triangles.len()) {
+                    found.add(Violation::TriangleOutOfRange {
+                        wall: w.name.clone(),
+                        template: w.other as usize,
+                        triangle,
+                        count: other.triangles.len(),
+                    });
+                    continue;
+                }
+                let pairs = Pairs {
+                    wall: &w.name,
+                    index,
+                    vertex_pairs: &w.vertex_pairs,
+                    triangle_pairs: &w.triangle_pairs,
+                };
+                pairs.check(template, other, w.placement, true, found);
+            }
+        }
+    }
+}
+
+struct Pairs<'a> {
+    wall: &'a str,
+    index: usize,
+    vertex_pairs: &'a [[u32; 2]],
+    triangle_pairs: &'a [[u32; 2]],
+}
+
+impl Pairs<'_> {
+    /// Checks that second members are images of first ones (`of_second` false), or first members
+    /// images of second ones (`of_second` true), and that paired triangles have paired vertices.
+    fn check(
+        &self,
+        first: &Template,
+        second: &Template,
+        isometry: Isometry,
+        of_second: bool,
+        found: &mut Collector,
+    ) {
+        if let Some(i) = first_unordered(self.vertex_pairs.iter().map(|p| p[0])) {
+            found.add(Violation::Unordered {
+                wall: self.wall.to_owned(),
+                template: self.index,
+                what: "pairs",
+                index: i,
+            });
+            return;
+        }
+        let placed = isometry.placed();
+        for &[a, b] in self.vertex_pairs {
+            let p = first.vertices[a as usize];
+            let q = second.vertices[b as usize];
+            let (image, target) = if of_second {
+                (placed.apply(q), p)
+            } else {
+                (placed.apply(p), q)
+            };
+            if image != target {
+                found.add(Violation::NotAnImage {
+                    wall: self.wall.to_owned(),
+                    template: self.index,
+                    first: a,
+                    second: b,
+                    distance: (image - target).length(),
+                });
+            }
+        }
+        let partner = |v: u32| {
+            self.vertex_pairs
+                .binary_search_by_key(&v, |p| p[0])
+                .ok()
+                .map(|i| self.vertex_pairs[i][1])
+        };
+        for &[a, b] in self.triangle_pairs {
+            let low = first.triangles[a as usize].vertices.map(partner);
+            let [x, y, z] = second.triangles[b as usize].vertices;
+            // The two faces face each other: reverse orientation.
+            let reversed = [[x, z, y], [z, y, x], [y, x, z]].map(|r| r.map(Some));
+            if !reversed.contains(&low) {
+                found.add(Violation::TrianglesDiffer {
+                    wall: self.wall.to_owned(),
+                    template: self.index,
+                    first: a,
+                    second: b,
+                });
+            }
+        }
+    }
+}
+
+fn first_unordered(values: impl Iterator<Item = u32>) -> Option<usize> {
+    let mut last = None;
+    for (i, v) in values.enumerate() {
+        if last.is_some_and(|l| v <= l) {
+            return Some(i);
+        }
+        last = Some(v);
+    }
+    None
+}
+
+fn check_instances(document: &Document, found: &mut Collector) {
+    let mut placed: Vec<BTreeSet<Isometry>> = vec![BTreeSet::new(); document.templates.len()];
+    for (i, instance) in document.instances.iter().enumerate() {
+        let Instance {
+            template,
+            isometry,
+            region_map,
+        } = *instance;
+        let count = document.templates.len();
+        if template as usize >= count {
+            found.add(Violation::IndexOutOfRange {
+                what: format!("instance {i}"),
+                target: "template",
+                index: template as usize,
+                count,
+            });
+            return;
+        }
+        if region_map as usize > document.region_maps.len() {
+            found.add(Violation::IndexOutOfRange {
+                what: format!("instance {i}"),
+                target: "region map",
+                index: region_map as usize,
+                count: document.region_maps.len(),
+            });
+        }
+        if !placed[template as usize].insert(isometry) {
+            found.add(Violation::RepeatedInstance {
+                template: template as usize,
+                isometry,
+            });
+        }
+    }
+    // One instance alone is a wedge taken out of its context: a sector.
+    if document.instances.len() <= 1 {
+        return;
+    }
+    for (index, template) in document.templates.iter().enumerate() {
+        for wall in &template.walls {
+            let (target, step) = match wall {
+                Wall::Mirror(w) => (index, w.reflection),
+                Wall::Seam(w) => (index, w.rotation),
+                Wall::Hub(w) => (w.other as usize, w.placement),
+            };
+            for &isometry in &placed[index] {
+                let neighbour = isometry.compose(step);
+                if !placed[target].contains(&neighbour) {
+                    found.add(Violation::MissingNeighbour {
+                        template: index,
+                        isometry,
+                        neighbour,
+                        wall: wall.name().to_owned(),
+                    });
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Reading the one input document.
+
+use crate::{Failure, Session};
+use interchange::{Format, ReadError, sniff};
+use std::fs::File;
+use std::io::{BufReader, IsTerminal, Read};
+use std::path::Path;
+use tmesh::{DecodeError, Document};
+
+/// Bytes looked at to tell the format.
+const HEAD: u64 = 4096;
+
+impl Session {
+    /// Reads the input named on the command line, whatever its format.
+    pub fn read(&self) -> Result<Document, Failure> {
+        let path = self
+            .common
+            .input
+            .as_deref()
+            .filter(|p| *p != Path::new("-"));
+        let document = match path {
+            Some(path) => {
+                let name = path.display();
+                let open = |e: std::io::Error| Failure::Input(format!("cannot read {name}: {e}"));
+                let file = File::open(path).map_err(open)?;
+                if file.metadata().is_ok_and(|m| m.is_dir()) {
+                    return Err(Failure::Input(format!(
+                        "cannot read {name}: it is a directory"
+                    )));
+                }
+                self.read_from(file, Some(path))
+                    .map_err(|text| Failure::Input(format!("{name}: {text}")))?
+            }
+            None => {
+                let stdin = std::io::stdin();
+                if stdin.is_terminal() {
+                    return Err(Failure::Usage(
+                        "no input: name a file, or pipe a mesh into standard input (see --help)"
+                            .to_owned(),
+                    ));
+                }
+                self.read_from(stdin.lock(), None)
+                    .map_err(|text| Failure::Input(format!("standard input: {text}")))?
+            }
+        };
+        let (vertices, triangles, tets) = document.templates.iter().fold((0, 0, 0), |n, t| {
+            (
+                n.0 + t.vertices.len(),
+                n.1 + t.triangles.len(),
+                n.2 + t.tets.len(),
+            )
+        });
+        self.info(&format!(
+            "read {vertices} vertices, {triangles} triangles, {tets} tetrahedra"
+        ));
+        Ok(document)
+    }
+
+    fn read_from(&self, input: impl Read, path: Option<&Path>) -> Result<Document, String> {
+        // Unbuffered reads of large arrays go straight through the buffer.
+        let mut input = BufReader::with_capacity(1 << 16, input);
+        let mut head = Vec::new();
+        let read = |e: std::io::Error| format!("cannot read: {e}");
+        (&mut input)
+            .take(HEAD)
+            .read_to_end(&mut head)
+            .map_err(read)?;
+        if head.is_empty() {
+            return Err(DecodeError::Empty.to_string());
+        }
+        let format = match self.common.from.or_else(|| sniff(&head, path)) {
+            Some(format) => format,
+            None => {
+                return Err(
+                    "the format is not recognized from the content; name it with --from".to_owned(),
+                );
+            }
+        };
+        if format == Format::Tmesh {
+            return tmesh::read(head.as_slice().chain(input)).map_err(|e| e.to_string());
+        }
+        input.read_to_end(&mut head).map_err(read)?;
+        interchange::read(&head, format).map_err(|e: ReadError| e.to_string())
+    }
+}

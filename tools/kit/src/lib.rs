@@ -1,0 +1,16 @@
+//! What the mains of the tools share: arguments, reading and writing, messages, exit codes.
+//!
+//! A tool is a clap structure that implements [`Command`]; its `main` is `kit::main::<Cli>()`.
+
+mod args;
+mod failure;
+mod input;
+mod output;
+mod run;
+mod session;
+
+pub use args::CommonArgs;
+pub use failure::Failure;
+pub use output::Output;
+pub use run::{Command, main};
+pub use session::{Progress, Session};

@@ -1,0 +1,173 @@
+//! Writing the one output: to standard output, or to a file that appears only when it is whole.
+
+use crate::{Failure, Session};
+use interchange::Format;
+use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+use tmesh::Document;
+
+/// Collects small writes; large ones pass through.
+const BUFFER: usize = 1 << 18;
+
+/// Where a tool writes. Nothing appears under a file's name before [`Output::commit`].
+pub struct Output {
+    target: Target,
+    name: String,
+}
+
+enum Target {
+    Stdout(BufWriter<Stdout>),
+    File {
+        file: BufWriter<NamedTempFile>,
+        path: PathBuf,
+    },
+    /// A device or pipe that a path names: written in place.
+    Special(BufWriter<std::fs::File>),
+}
+
+impl Output {
+    /// Opens `path`, or standard output; refuses binary output to a terminal.
+    pub fn create(path: Option<&Path>, binary: bool) -> Result<Self, Failure> {
+        let Some(path) = path.filter(|p| *p != Path::new("-")) else {
+            let stdout = io::stdout();
+            if binary && stdout.is_terminal() {
+                return Err(Failure::Usage(
+                    "binary output goes to a file or a pipe, not to a terminal; use -o PATH, or \
+                     --to txt for a readable listing"
+                        .to_owned(),
+                ));
+            }
+            let target = Target::Stdout(BufWriter::with_capacity(BUFFER, stdout));
+            return Ok(Self {
+                target,
+                name: "standard output".to_owned(),
+            });
+        };
+        let name = path.display().to_string();
+        let fail = |e: io::Error| Failure::writing(&name, &e);
+        let special = path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir());
+        let target = if special {
+            let file = std::fs::OpenOptions::new()
+                .write(true)
+                .open(path)
+                .map_err(fail)?;
+            Target::Special(BufWriter::with_capacity(BUFFER, file))
+        } else {
+            if path.is_dir() {
+                return Err(Failure::Output(format!(
+                    "cannot write {name}: it is a directory"
+                )));
+            }
+            let folder = match path.parent() {
+                Some(p) if !p.as_os_str().is_empty() => p,
+                _ => Path::new("."),
+            };
+            let stem = path.file_name().unwrap_or_default().to_string_lossy();
+            let file = tempfile::Builder::new()
+                .prefix(&format!(".{stem}."))
+                .suffix(".part")
+                .permissions(default_permissions())
+                .tempfile_in(folder)
+                .map_err(fail)?;
+            let file = BufWriter::with_capacity(BUFFER, file);
+            Target::File {
+                file,
+                path: path.to_owned(),
+            }
+        };
+        Ok(Self { target, name })
+    }
+
+    /// Flushes, and moves a file to its final name.
+    pub fn commit(self) -> Result<(), Failure> {
+        let fail = |e: io::Error| Failure::writing(&self.name, &e);
+        match self.target {
+            Target::Stdout(mut out) => out.flush().map_err(fail),
+            Target::Special(mut out) => out.flush().map_err(fail),
+            Target::File { file, path } => {
+                let file = file.into_inner().map_err(|e| fail(e.into_error()))?;
+                file.persist(path).map_err(|e| fail(e.error))?;
+                Ok(())
+            }
+        }
+    }
+
+    /// The failure that an error while writing here means.
+    pub fn failure(&self, error: &io::Error) -> Failure {
+        Failure::writing(&self.name, error)
+    }
+}
+
+#[cfg(unix)]
+fn default_permissions() -> std::fs::Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    // As any newly created file: the process's umask takes away from this.
+    std::fs::Permissions::from_mode(0o666)
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.target {
+            Target::Stdout(out) => out.write(bytes),
+            Target::Special(out) => out.write(bytes),
+            Target::File { file, .. } => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.target {
+            Target::Stdout(out) => out.flush(),
+            Target::Special(out) => out.flush(),
+            Target::File { file, .. } => file.flush(),
+        }
+    }
+}
+
+impl Session {
+    /// The output's format: `--to`, else the output's extension, else `default`.
+    pub fn output_format(&self, default: Format) -> Result<Format, Failure> {
+        if let Some(format) = self.common.to {
+            return Ok(format);
+        }
+        match self
+            .common
+            .output
+            .as_deref()
+            .filter(|p| *p != Path::new("-"))
+        {
+            None => Ok(default),
+            Some(path) if path.extension().is_none() => Ok(default),
+            Some(path) => match Format::from_path(path) {
+                Some(format) => Ok(format),
+                None if !path.is_file() && path.exists() => Ok(default),
+                None => Err(Failure::Usage(format!(
+                    "the extension of {} names no known format; add --to FMT",
+                    path.display()
+                ))),
+            },
+        }
+    }
+
+    /// Opens the output named on the command line.
+    pub fn create_output(&self, format: Format) -> Result<Output, Failure> {
+        Output::create(self.common.output.as_deref(), format.is_binary())
+    }
+
+    /// Writes a document as the command line asks, `tmesh` by default.
+    pub fn write(&self, document: &Document) -> Result<(), Failure> {
+        let format = self.output_format(Format::Tmesh)?;
+        let mut out = self.create_output(format)?;
+        let result = match format {
+            Format::Tmesh => tmesh::write(document, &mut out),
+            other => Err(io::Error::new(
+                io::ErrorKind::Unsupported,
+                format!("{} is not an output format", other.name()),
+            )),
+        };
+        result.map_err(|e| out.failure(&e))?;
+        out.commit()?;
+        self.info("written");
+        Ok(())
+    }
+}

@@ -1,0 +1,54 @@
+//! The frame around a tool's run.
+
+use crate::{CommonArgs, Failure, Session};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::ExitCode;
+
+/// A tool, as its command line.
+pub trait Command: clap::Parser {
+    /// The options every tool has.
+    fn common(&self) -> &CommonArgs;
+
+    /// Does the work.
+    fn run(self, session: &Session) -> Result<(), Failure>;
+}
+
+/// Parses the command line, runs the tool, reports a failure as `tool: sentence`, and returns the
+/// exit code of the contract.
+pub fn main<C: Command>() -> ExitCode {
+    let arguments: Vec<_> = std::env::args_os().collect();
+    let cli = match C::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version go to standard output with exit 0, mistakes to standard error with 2.
+            let code = if error.use_stderr() { 2 } else { 0 };
+            return match error.print() {
+                Ok(()) => ExitCode::from(code),
+                Err(_) => ExitCode::from(4),
+            };
+        }
+    };
+    let name = C::command().get_name().to_owned();
+    let session = Session::new(&name, cli.common().clone(), &arguments);
+    std::panic::set_hook(Box::new({
+        let name = name.clone();
+        move |panic| {
+            let place = panic
+                .location()
+                .map(|l| format!(" at {}:{}", l.file(), l.line()));
+            let text = panic.payload_as_str().unwrap_or("unknown");
+            let place = place.unwrap_or_default();
+            eprintln!("{name}: internal error{place}: {text}; this is a bug, please report it");
+        }
+    }));
+    match catch_unwind(AssertUnwindSafe(|| cli.run(&session))) {
+        Ok(Ok(())) => ExitCode::SUCCESS,
+        Ok(Err(failure)) => {
+            if !matches!(failure, Failure::ClosedPipe) {
+                session.error(&failure.to_string());
+            }
+            ExitCode::from(failure.code())
+        }
+        Err(_) => ExitCode::from(1),
+    }
+}

@@ -1,0 +1,114 @@
+//! One run of a tool: its name, its options, and the way it talks to the user.
+
+use crate::CommonArgs;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::ffi::OsString;
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+use tmesh::HistoryEntry;
+
+/// One run of a tool.
+pub struct Session {
+    name: String,
+    arguments: Vec<String>,
+    pub(crate) common: CommonArgs,
+    begun: Instant,
+}
+
+impl Session {
+    pub(crate) fn new(name: &str, common: CommonArgs, arguments: &[OsString]) -> Self {
+        let arguments = arguments
+            .iter()
+            .skip(1)
+            .map(|a| a.to_string_lossy().into_owned())
+            .collect();
+        Self {
+            name: name.to_owned(),
+            arguments,
+            common,
+            begun: Instant::now(),
+        }
+    }
+
+    /// The tool's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The options every tool has.
+    pub fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+
+    /// Says something the user should know; silent with `-q`.
+    pub fn note(&self, text: &str) {
+        if !self.common.quiet {
+            eprintln!("{}: {text}", self.name);
+        }
+    }
+
+    /// Says what is being done, with the time since the start; only with `-v`.
+    pub fn info(&self, text: &str) {
+        if self.common.verbose > 0 {
+            let seconds = self.begun.elapsed().as_secs_f64();
+            eprintln!("{}: [{seconds:8.3} s] {text}", self.name);
+        }
+    }
+
+    /// Details; only with `-vv`.
+    pub fn detail(&self, text: &str) {
+        if self.common.verbose > 1 {
+            eprintln!("{}: {text}", self.name);
+        }
+    }
+
+    /// Whether `-v` was given.
+    pub fn is_verbose(&self) -> bool {
+        self.common.verbose > 0
+    }
+
+    pub(crate) fn error(&self, text: &str) {
+        eprintln!("{}: error: {text}", self.name);
+    }
+
+    /// A progress bar for work of `length` steps; shown on a terminal only, and only when the work
+    /// lasts.
+    pub fn progress(&self, length: u64, text: &str) -> Progress {
+        if self.common.quiet || !std::io::stderr().is_terminal() {
+            return Progress(ProgressBar::hidden());
+        }
+        let bar = ProgressBar::new(length).with_message(format!("{}: {text}", self.name));
+        bar.set_style(
+            ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}% {eta}")
+                .unwrap_or_else(|_| ProgressStyle::default_bar()),
+        );
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Progress(bar)
+    }
+
+    /// The entry this run adds to a document's history.
+    pub fn history_entry(&self, notes: Vec<String>) -> HistoryEntry {
+        HistoryEntry {
+            tool: self.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            arguments: self.arguments.clone(),
+            notes,
+        }
+    }
+}
+
+/// A progress bar that goes away when dropped.
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    /// Work done so far.
+    pub fn set(&self, position: u64) {
+        self.0.set_position(position);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -1,0 +1,5 @@
+//! Passes a document on.
+
+mod cli;
+
+pub use cli::Cli;

@@ -1,0 +1,5 @@
+//! The `rotassemble` tool; see its library.
+
+fn main() -> std::process::ExitCode {
+    kit::main::<rotassemble::Cli>()
+}

@@ -1,0 +1,23 @@
+//! The command line of `wedgecut`.
+
+use kit::{Command, CommonArgs, Failure, Session};
+
+/// Passes a document on
+#[derive(clap::Parser, Debug)]
+#[command(name = "wedgecut", version)]
+pub struct Cli {
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+impl Command for Cli {
+    fn common(&self) -> &CommonArgs {
+        &self.common
+    }
+
+    fn run(self, session: &Session) -> Result<(), Failure> {
+        let mut document = session.read()?;
+        document.history.push(session.history_entry(Vec::new()));
+        session.write(&document)
+    }
+}
