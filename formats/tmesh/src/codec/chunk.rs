@@ -251,7 +251,7 @@ impl<R: Read> ChunkReader<R> {
     /// The payload as one array.
     pub fn array<T: Pod>(&mut self, info: &ChunkInfo) -> Result<Vec<T>, DecodeError> {
         let size = size_of::<T>() as u64;
-        if info.length % size != 0 {
+        if !info.length.is_multiple_of(size) {
             return Err(info.bad(format!(
                 "{} bytes are not a whole number of {size}",
                 info.length
