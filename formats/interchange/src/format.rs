@@ -1,9 +1,8 @@
 //! The formats known, by name, extension and content.
 
-use crate::{MeshStream, ReadError};
+use crate::MeshStream;
 use std::io::{self, Write};
 use std::path::Path;
-use tmesh::Document;
 
 /// A format the tools can read or write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -76,28 +75,6 @@ impl Format {
     /// Whether its bytes are not text.
     pub fn is_binary(self) -> bool {
         matches!(self, Self::Tmesh | Self::Stl | Self::Vtk | Self::Vtu)
-    }
-}
-
-/// The format that the first bytes of a file show, if they show one.
-///
-/// `head` should be at least 1 KiB unless the file is shorter. `path` breaks ties only.
-pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
-    if head.starts_with(&tmesh::MAGIC) {
-        return Some(Format::Tmesh);
-    }
-    path.and_then(Format::from_path)
-}
-
-/// Reads a whole file of the given format into a document: one template in world coordinates, with
-/// regions, markers and [`tmesh::Source`] filled in.
-///
-/// # Errors
-/// Malformed bytes, and surfaces that do not bound a body.
-pub fn read(bytes: &[u8], format: Format) -> Result<Document, ReadError> {
-    match format {
-        Format::Tmesh => Ok(tmesh::read(bytes)?),
-        other => Err(ReadError::NotAnInput(other.name())),
     }
 }
 

@@ -2,8 +2,15 @@
 
 mod error;
 mod format;
+mod read;
+mod soup;
+mod stl;
 mod stream;
+mod surface;
+mod tokens;
+mod weld;
 
 pub use error::ReadError;
-pub use format::{Format, read, sniff, write};
+pub use format::{Format, write};
+pub use read::{Imported, read, sniff};
 pub use stream::{MeshStream, TetBlock, TriangleBlock};

@@ -1,7 +1,7 @@
 //! Reading the one input document.
 
 use crate::{Failure, Session};
-use interchange::{Format, ReadError, sniff};
+use interchange::{Format, Imported, ReadError, sniff};
 use std::fs::File;
 use std::io::{BufReader, IsTerminal, Read};
 use std::path::Path;
@@ -18,7 +18,7 @@ impl Session {
             .input
             .as_deref()
             .filter(|p| *p != Path::new("-"));
-        let document = match path {
+        let Imported { document, notices } = match path {
             Some(path) => {
                 let name = path.display();
                 let open = |e: std::io::Error| Failure::Input(format!("cannot read {name}: {e}"));
@@ -43,6 +43,9 @@ impl Session {
                     .map_err(|text| Failure::Input(format!("standard input: {text}")))?
             }
         };
+        for notice in &notices {
+            self.note(notice);
+        }
         let (vertices, triangles, tets) = document.templates.iter().fold((0, 0, 0), |n, t| {
             (
                 n.0 + t.vertices.len(),
@@ -56,7 +59,7 @@ impl Session {
         Ok(document)
     }
 
-    fn read_from(&self, input: impl Read, path: Option<&Path>) -> Result<Document, String> {
+    fn read_from(&self, input: impl Read, path: Option<&Path>) -> Result<Imported, String> {
         // Unbuffered reads of large arrays go straight through the buffer.
         let mut input = BufReader::with_capacity(1 << 16, input);
         let mut head = Vec::new();
@@ -77,7 +80,13 @@ impl Session {
             }
         };
         if format == Format::Tmesh {
-            return tmesh::read(head.as_slice().chain(input)).map_err(|e| e.to_string());
+            return match tmesh::read(head.as_slice().chain(input)) {
+                Ok(document) => Ok(Imported {
+                    document,
+                    notices: Vec::new(),
+                }),
+                Err(e) => Err(e.to_string()),
+            };
         }
         input.read_to_end(&mut head).map_err(read)?;
         interchange::read(&head, format).map_err(|e: ReadError| e.to_string())

@@ -1,0 +1,43 @@
+//! Reading a whole file, and telling its format from its first bytes.
+
+use crate::{Format, ReadError, stl, surface};
+use std::path::Path;
+use tmesh::Document;
+
+/// What a file holds.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// One template in world coordinates, unless the file is a document already.
+    pub document: Document,
+    /// What the user should know about the file, a sentence each.
+    pub notices: Vec<String>,
+}
+
+/// The format that the first bytes of a file show, if they show one.
+///
+/// `head` should be at least 1 KiB unless the file is shorter. `path` breaks ties only.
+pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
+    if head.starts_with(&tmesh::MAGIC) {
+        return Some(Format::Tmesh);
+    }
+    if stl::looks_ascii(head) || stl::looks_binary(head) {
+        return Some(Format::Stl);
+    }
+    path.and_then(Format::from_path)
+}
+
+/// Reads a whole file of the given format into a document: one template in world coordinates, with
+/// regions, markers and [`tmesh::Source`] filled in.
+///
+/// # Errors
+/// Malformed bytes, and surfaces that do not bound a body.
+pub fn read(bytes: &[u8], format: Format) -> Result<Imported, ReadError> {
+    match format {
+        Format::Tmesh => Ok(Imported {
+            document: tmesh::read(bytes)?,
+            notices: Vec::new(),
+        }),
+        Format::Stl => surface::build(stl::read(bytes)?, "stl"),
+        other => Err(ReadError::NotAnInput(other.name())),
+    }
+}

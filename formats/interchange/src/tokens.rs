@@ -1,0 +1,184 @@
+//! Words of a text file, with line numbers, and what its numbers show about their precision.
+
+use crate::ReadError;
+use crate::soup::{DOUBLE, SINGLE};
+
+/// Words of a text, separated by white space.
+pub struct Tokens<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+    format: &'static str,
+    precision: TextPrecision,
+}
+
+impl<'a> Tokens<'a> {
+    /// Words of `bytes`; `format` names the format in errors.
+    pub fn new(bytes: &'a [u8], format: &'static str) -> Self {
+        let start = if bytes.starts_with(b"\xef\xbb\xbf") {
+            3
+        } else {
+            0
+        };
+        Self {
+            bytes,
+            at: start,
+            line: 1,
+            format,
+            precision: TextPrecision::default(),
+        }
+    }
+
+    /// Line of the word read last, counted from 1.
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// Bytes read so far.
+    pub fn position(&self) -> usize {
+        self.at
+    }
+
+    /// What the coordinates read so far show.
+    pub fn precision(&self) -> &TextPrecision {
+        &self.precision
+    }
+
+    /// An error at the current line.
+    pub fn error(&self, reason: impl std::fmt::Display) -> ReadError {
+        ReadError::Malformed {
+            format: self.format,
+            reason: format!("line {}: {reason}", self.line),
+        }
+    }
+
+    /// The next word, or `None` at the end.
+    pub fn next_word(&mut self) -> Option<&'a [u8]> {
+        while let Some(&b) = self.bytes.get(self.at) {
+            if !b.is_ascii_whitespace() {
+                break;
+            }
+            self.line += usize::from(b == b'\n');
+            self.at += 1;
+        }
+        let rest = &self.bytes[self.at..];
+        let length = rest
+            .iter()
+            .position(u8::is_ascii_whitespace)
+            .unwrap_or(rest.len());
+        self.at += length;
+        (length > 0).then(|| &rest[..length])
+    }
+
+    /// The rest of the line, trimmed; the line's end is left to be read.
+    pub fn rest_of_line(&mut self) -> &'a [u8] {
+        let rest = &self.bytes[self.at..];
+        let length = rest
+            .iter()
+            .position(|&b| b == b'\n' || b == b'\r')
+            .unwrap_or(rest.len());
+        self.at += length;
+        rest[..length].trim_ascii()
+    }
+
+    /// The next word, which must be this one, in any case.
+    ///
+    /// # Errors
+    /// Another word, or the end.
+    pub fn expect(&mut self, word: &str) -> Result<(), ReadError> {
+        match self.next_word() {
+            Some(w) if w.eq_ignore_ascii_case(word.as_bytes()) => Ok(()),
+            Some(w) => Err(self.error(format!("'{word}' expected, found '{}'", shown(w)))),
+            None => Err(self.error(format!("'{word}' expected, but the file ends here"))),
+        }
+    }
+
+    /// The next word as a finite coordinate.
+    ///
+    /// # Errors
+    /// Not a number, not finite, or the end.
+    pub fn coordinate(&mut self) -> Result<f64, ReadError> {
+        let Some(word) = self.next_word() else {
+            return Err(self.error("a coordinate expected, but the file ends here"));
+        };
+        let value =
+            number(word).ok_or_else(|| self.error(format!("'{}' is not a number", shown(word))))?;
+        if !value.is_finite() {
+            return Err(self.error(format!("the coordinate '{}' is not finite", shown(word))));
+        }
+        self.precision.note(word, value);
+        Ok(value)
+    }
+}
+
+/// A word as text for a message, shortened.
+pub fn shown(word: &[u8]) -> String {
+    let cut = &word[..word.len().min(40)];
+    let more = if cut.len() < word.len() { "..." } else { "" };
+    format!("{}{more}", String::from_utf8_lossy(cut).escape_debug())
+}
+
+/// A floating-point number; Fortran's exponent letter `d` counts as `e`.
+pub fn number(word: &[u8]) -> Option<f64> {
+    let text = std::str::from_utf8(word).ok()?;
+    match text.parse() {
+        Ok(value) => Some(value),
+        Err(_) => text
+            .contains(['d', 'D'])
+            .then(|| text.replace(['d', 'D'], "e").parse().ok())?,
+    }
+}
+
+/// What the printed coordinates of a text file show about the numbers behind them.
+#[derive(Clone, Debug)]
+pub struct TextPrecision {
+    digits: u32,
+    single: bool,
+}
+
+impl Default for TextPrecision {
+    fn default() -> Self {
+        Self {
+            digits: 0,
+            single: true,
+        }
+    }
+}
+
+impl TextPrecision {
+    /// Takes a coordinate into account.
+    pub fn note(&mut self, word: &[u8], value: f64) {
+        let digits = significant_digits(word);
+        self.digits = self.digits.max(digits);
+        if self.single && digits > 9 {
+            // A single printed with more digits than it has lies within the printed rounding of
+            // itself.
+            let off = (value - f64::from(value as f32)).abs();
+            self.single = off <= 10.0_f64.powi(1 - digits as i32) * value.abs();
+        }
+    }
+
+    /// Error of a coordinate relative to the largest one: single precision unless more than nine
+    /// significant digits are printed that single precision cannot hold.
+    pub fn relative(&self) -> f64 {
+        if self.single || self.digits <= 9 {
+            SINGLE
+        } else {
+            (0.5 * 10.0_f64.powi(1 - self.digits as i32)).max(DOUBLE)
+        }
+    }
+}
+
+/// Digits of a printed number without leading zeros and exponent.
+fn significant_digits(word: &[u8]) -> u32 {
+    let mut digits = 0;
+    for &b in word {
+        match b {
+            b'0' if digits == 0 => {}
+            b'0'..=b'9' => digits += 1,
+            b'e' | b'E' | b'd' | b'D' => break,
+            _ => {}
+        }
+    }
+    digits
+}
