@@ -1,13 +1,75 @@
 //! The command line of `wedgecut`.
 
+use crate::{Domain, Params, cut};
 use kit::{Command, CommonArgs, Failure, Session};
 
-/// Passes a document on
+const EXAMPLES: &str = "Examples:
+  symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
+  symdetect gear.stl | wedgecut --order 4 --to vtk -o wedge.vtk
+  symdetect fan.stl | wedgecut --domain rotation --start-angle 15 | tetwedge | rotassemble > fan.vtk";
+
+/// Cut one wedge out of a symmetric body.
+///
+/// Reads a document that symdetect has written. The wedge reaches from one mirror plane to the next
+/// (angle 180/n degrees), or, for bodies without mirror planes, over 360/n degrees with cut faces
+/// that match under the rotation. The cut faces carry the interfaces between materials.
 #[derive(clap::Parser, Debug)]
-#[command(name = "wedgecut", version)]
+#[command(name = "wedgecut", version, after_help = EXAMPLES)]
 pub struct Cli {
     #[command(flatten)]
     common: CommonArgs,
+
+    /// Kind of wedge
+    #[arg(long, value_enum, default_value_t)]
+    domain: Domain,
+
+    /// Order of the rotation to use: `auto` takes the order found, else one of its divisors
+    #[arg(long, value_name = "auto|N", default_value = "auto", value_parser = order)]
+    order: Order,
+
+    /// Angle of the first cut face from the mirror direction (rotation wedges: any; mirror wedges:
+    /// a multiple of 180/n)
+    #[arg(long, value_name = "DEG|auto", default_value = "auto", value_parser = angle)]
+    #[arg(allow_hyphen_values = true)]
+    start_angle: Angle,
+
+    /// Move points within this distance of a cut face onto it, relative to the radius about the
+    /// axis [default: from the input's precision and the symmetry's residual]
+    #[arg(long, value_name = "REL", value_parser = relative)]
+    snap: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Order(Option<u32>);
+
+#[derive(Clone, Copy, Debug)]
+struct Angle(Option<f64>);
+
+fn order(text: &str) -> Result<Order, String> {
+    match text {
+        "auto" => Ok(Order(None)),
+        _ => match text.parse() {
+            Ok(n) if n > 0 => Ok(Order(Some(n))),
+            _ => Err("expected `auto` or a positive whole number".to_owned()),
+        },
+    }
+}
+
+fn angle(text: &str) -> Result<Angle, String> {
+    match text {
+        "auto" => Ok(Angle(None)),
+        _ => match text.parse::<f64>() {
+            Ok(degrees) if degrees.is_finite() => Ok(Angle(Some(degrees))),
+            _ => Err("expected `auto` or an angle in degrees".to_owned()),
+        },
+    }
+}
+
+fn relative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (0.0..=0.01).contains(&x) => Ok(x),
+        _ => Err("expected a number from 0 to 0.01".to_owned()),
+    }
 }
 
 impl Command for Cli {
@@ -16,8 +78,16 @@ impl Command for Cli {
     }
 
     fn run(self, session: &Session) -> Result<(), Failure> {
-        let mut document = session.read()?;
-        document.history.push(session.history_entry(Vec::new()));
+        let params = Params {
+            domain: self.domain,
+            order: self.order.0,
+            start_angle: self.start_angle.0.map(f64::to_radians),
+            snap: self.snap,
+        };
+        let document = session.read()?;
+        let (mut document, report) = cut(document, &params)?;
+        report.notes.iter().for_each(|note| session.info(note));
+        document.history.push(session.history_entry(report.notes));
         session.write(&document)
     }
 }

@@ -1,0 +1,133 @@
+//! Why a wedge could not be cut.
+
+use glam::DVec3;
+use kit::Failure;
+use thiserror::Error;
+
+/// Why a wedge could not be cut. Positions are in the frame of the input.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CutError {
+    /// `symdetect` did not run.
+    #[error("the document states no symmetry; run symdetect first")]
+    NoSymmetry,
+    /// The document is not a surface in world coordinates.
+    #[error("wedgecut takes the surface of a whole body, but {0}")]
+    NotASurface(&'static str),
+    /// The order asked for does not divide the order found.
+    #[error(
+        "--order {asked} does not divide the order found, {found}; its divisors are {divisors}"
+    )]
+    NotADivisor {
+        /// Order asked for.
+        asked: u32,
+        /// Order found.
+        found: u32,
+        /// Divisors of the order found, as text.
+        divisors: String,
+    },
+    /// Mirror walls asked for, but there are no mirror planes.
+    #[error(
+        "--domain mirror needs mirror planes that contain the axis, and the body is {0}; use --domain rotation"
+    )]
+    NoMirror(String),
+    /// A start angle that is not a mirror plane's.
+    #[error(
+        "--start-angle {angle} is not a mirror plane: mirror planes follow each other every {step} degrees from 0"
+    )]
+    NotAMirrorPlane {
+        /// Degrees.
+        angle: f64,
+        /// Degrees.
+        step: f64,
+    },
+    /// The axis or its reference direction is unusable.
+    #[error("the symmetry's axis ({0}, {1}, {2}) or mirror direction is not a direction")]
+    BadAxis(f64, f64, f64),
+    /// The section of the body with a cut plane is not a clean planar figure.
+    #[error(
+        "the body's section at {wall} is not a clean figure: {reason}, near ({:.6}, {:.6}, {:.6}); \
+         the surface intersects itself there", .near.x, .near.y, .near.z
+    )]
+    BadSection {
+        /// The wall's name.
+        wall: &'static str,
+        /// What is wrong.
+        reason: String,
+        /// Where.
+        near: DVec3,
+    },
+    /// The sections at the two sides of a rotation wedge are not images of each other.
+    #[error(
+        "the sections at the two sides of the wedge do not match: {low} points against {high}, the \
+         farthest {distance:.3e} from a partner (tolerance {tolerance:.3e}) near ({:.6}, {:.6}, {:.6})",
+        .near.x, .near.y, .near.z
+    )]
+    SectionsDiffer {
+        /// Points on the low side.
+        low: usize,
+        /// Points on the high side.
+        high: usize,
+        /// Largest distance of a point to its nearest partner, model units.
+        distance: f64,
+        /// What is allowed, model units.
+        tolerance: f64,
+        /// Where.
+        near: DVec3,
+    },
+    /// The sections have matching points, but other edges or regions between them.
+    #[error(
+        "the sections at the two sides of the wedge have the same points but are joined differently \
+         near ({:.6}, {:.6}, {:.6})", .near.x, .near.y, .near.z
+    )]
+    SectionsJoinedDifferently {
+        /// Where.
+        near: DVec3,
+    },
+    /// The wedge's surface does not close.
+    #[error(
+        "the cut surface does not close at {count} edges, the first near ({:.6}, {:.6}, {:.6})",
+        .near.x, .near.y, .near.z
+    )]
+    NotClosed {
+        /// Edges where regions do not add up.
+        count: usize,
+        /// Where.
+        near: DVec3,
+    },
+    /// The wedge's copies do not add up to the body.
+    #[error(
+        "{copies} copies of the wedge have the volume {wedge:.9e}, the body has {body:.9e}: {relative:.1e} \
+         apart, more than the symmetry's residual allows ({allowed:.1e}); the body is less symmetric than stated"
+    )]
+    VolumeDiffers {
+        /// Number of instances.
+        copies: usize,
+        /// Volume of all copies, model units cubed.
+        wedge: f64,
+        /// Volume of the body, model units cubed.
+        body: f64,
+        /// Relative difference.
+        relative: f64,
+        /// Largest relative difference accepted.
+        allowed: f64,
+    },
+    /// Nothing of the body lies in the wedge.
+    #[error("the wedge is empty")]
+    Empty,
+}
+
+impl From<CutError> for Failure {
+    fn from(error: CutError) -> Self {
+        match error {
+            CutError::NotADivisor { .. } | CutError::NoMirror(_) => {
+                Self::Impossible(error.to_string())
+            }
+            CutError::NotAMirrorPlane { .. } => Self::Usage(error.to_string()),
+            CutError::NoSymmetry | CutError::NotASurface(_) | CutError::BadAxis(..) => {
+                Self::Input(error.to_string())
+            }
+            _ => Self::Impossible(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! The two half planes that bound the wedge, and where points lie with respect to them.
+//!
+//! Side A is the half plane y = 0, x >= 0; side B is A turned by the wedge's angle. Each point is
+//! classified once, moved onto the planes it counts as lying on, and its class is kept; nothing
+//! asks again with another tolerance.
+
+use glam::DVec3;
+use tmesh::Isometry;
+
+/// Which of the two cut planes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The plane y = 0.
+    A,
+    /// The plane at the wedge's angle.
+    B,
+}
+
+/// Where a point lies: for each cut plane -1 beyond it, 0 on it, 1 on the wedge's side. On both
+/// planes exactly when on the axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Class {
+    /// With respect to side A.
+    pub a: i8,
+    /// With respect to side B.
+    pub b: i8,
+}
+
+impl Class {
+    /// On the axis.
+    pub const AXIS: Self = Self { a: 0, b: 0 };
+
+    /// The class for one side.
+    pub fn of(self, side: Side) -> i8 {
+        match side {
+            Side::A => self.a,
+            Side::B => self.b,
+        }
+    }
+}
+
+/// The wedge's opening: its angle in (0, pi].
+#[derive(Clone, Copy, Debug)]
+pub struct Opening {
+    turn: Isometry,
+    cos: f64,
+    sin: f64,
+    /// Distance up to which a point counts as on a plane or the axis, model units.
+    tolerance: f64,
+}
+
+impl Opening {
+    /// The opening of a wedge of angle `turn`, at most half a turn.
+    pub fn new(turn: Isometry, tolerance: f64) -> Self {
+        let (cos, sin) = turn.cos_sin();
+        Self {
+            turn,
+            cos,
+            sin,
+            tolerance,
+        }
+    }
+
+    /// Whether both sides lie in one plane.
+    pub fn is_half(&self) -> bool {
+        self.turn == Isometry::rotation(1, 2)
+    }
+
+    /// The planes to clip with: one for a half space, else two.
+    pub fn sides(&self) -> &'static [Side] {
+        if self.is_half() {
+            &[Side::A]
+        } else {
+            &[Side::A, Side::B]
+        }
+    }
+
+    /// Normal of a side's plane into the wedge.
+    pub fn inward(&self, side: Side) -> DVec3 {
+        match side {
+            Side::A => DVec3::Y,
+            Side::B => DVec3::new(self.sin, -self.cos, 0.0),
+        }
+    }
+
+    /// Signed distance of a point of the given class from a side's plane, model units; exactly zero
+    /// for points on it.
+    pub fn distance(&self, side: Side, p: DVec3, class: Class) -> f64 {
+        match (class.of(side), side) {
+            (0, _) => 0.0,
+            (_, Side::A) => p.y,
+            (_, Side::B) => p.x * self.sin - p.y * self.cos,
+        }
+    }
+
+    /// Distance of a point on a side from the axis, measured along the side (negative beyond the
+    /// axis).
+    pub fn radius_on(&self, side: Side, p: DVec3) -> f64 {
+        match side {
+            Side::A => p.x,
+            Side::B => p.x * self.cos + p.y * self.sin,
+        }
+    }
+
+    /// Classifies a point and moves it onto the planes it counts as lying on.
+    pub fn classify(&self, p: DVec3) -> (DVec3, Class) {
+        if p.x.hypot(p.y) <= self.tolerance {
+            return (DVec3::new(0.0, 0.0, p.z), Class::AXIS);
+        }
+        let (a, b) = (p.y, p.x * self.sin - p.y * self.cos);
+        if self.is_half() {
+            if a.abs() <= self.tolerance {
+                return (DVec3::new(p.x, 0.0, p.z), Class { a: 0, b: 1 });
+            }
+            return (p, Class { a: sign(a), b: 1 });
+        }
+        if a.abs().min(b.abs()) > self.tolerance {
+            return (
+                p,
+                Class {
+                    a: sign(a),
+                    b: sign(b),
+                },
+            );
+        }
+        if a.abs() <= b.abs() {
+            self.put(Side::A, p)
+        } else {
+            self.put(Side::B, p)
+        }
+    }
+
+    /// The crossing of the segment `p q` with a side's plane, where the ends have opposite classes.
+    ///
+    /// The result does not depend on the order of the ends, and points that share x and y with
+    /// others give crossings that do so, to the bit: vertical faces stay vertical.
+    pub fn crossing(&self, side: Side, p: (DVec3, Class), q: (DVec3, Class)) -> (DVec3, Class) {
+        let ordered = |u: DVec3, v: DVec3| {
+            (u.x, u.y, u.z).partial_cmp(&(v.x, v.y, v.z)) != Some(std::cmp::Ordering::Greater)
+        };
+        let (p, q) = if ordered(p.0, q.0) { (p, q) } else { (q, p) };
+        let (dp, dq) = (self.distance(side, p.0, p.1), self.distance(side, q.0, q.1));
+        let t = dp / (dp - dq);
+        let x = p.0 + (q.0 - p.0) * t;
+        let other = if side == Side::A { Side::B } else { Side::A };
+        if !self.is_half() && p.1.of(other) == 0 && q.1.of(other) == 0 {
+            return (DVec3::new(0.0, 0.0, x.z), Class::AXIS);
+        }
+        self.put(side, x)
+    }
+
+    /// The point where a segment within side A's plane passes the axis; its ends lie on opposite
+    /// sides of it.
+    pub fn axis_crossing(&self, p: DVec3, q: DVec3) -> (DVec3, Class) {
+        let (p, q) = if p.x < q.x { (p, q) } else { (q, p) };
+        let t = p.x / (p.x - q.x);
+        (DVec3::new(0.0, 0.0, p.z + (q.z - p.z) * t), Class::AXIS)
+    }
+
+    fn put(&self, side: Side, p: DVec3) -> (DVec3, Class) {
+        let r = self.radius_on(side, p);
+        if r.abs() <= self.tolerance {
+            return (DVec3::new(0.0, 0.0, p.z), Class::AXIS);
+        }
+        match side {
+            Side::A if self.is_half() => (DVec3::new(r, 0.0, p.z), Class { a: 0, b: 1 }),
+            Side::A => (DVec3::new(r, 0.0, p.z), Class { a: 0, b: sign(r) }),
+            Side::B => (
+                DVec3::new(r * self.cos, r * self.sin, p.z),
+                Class { a: sign(r), b: 0 },
+            ),
+        }
+    }
+}
+
+fn sign(x: f64) -> i8 {
+    if x > 0.0 { 1 } else { -1 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_near_a_plane_are_moved_onto_it() {
+        let opening = Opening::new(Isometry::rotation(1, 12), 1e-6);
+        let (p, class) = opening.classify(DVec3::new(0.5, 3e-7, 1.0));
+        assert_eq!(
+            (p, class),
+            (DVec3::new(0.5, 0.0, 1.0), Class { a: 0, b: 1 })
+        );
+        let (c, s) = Isometry::rotation(1, 12).cos_sin();
+        let (p, class) = opening.classify(DVec3::new(2.0 * c + 4e-7, 2.0 * s, 1.0));
+        assert_eq!(class, Class { a: 1, b: 0 });
+        assert_eq!(
+            p,
+            Isometry::rotation(1, 12).apply(DVec3::new(opening.radius_on(Side::B, p), 0.0, 1.0))
+        );
+        assert_eq!(
+            opening.classify(DVec3::new(5e-7, -5e-7, 2.0)).1,
+            Class::AXIS
+        );
+        // On A's plane, but beyond the axis: outside of B.
+        assert_eq!(
+            opening.classify(DVec3::new(-0.5, 0.0, 0.0)).1,
+            Class { a: 0, b: -1 }
+        );
+    }
+
+    #[test]
+    fn crossings_do_not_depend_on_direction_or_height() {
+        let opening = Opening::new(Isometry::rotation(1, 14), 1e-9);
+        let at = |x: f64, y: f64, z: f64| opening.classify(DVec3::new(x, y, z));
+        let (p, q) = (at(0.7, 0.1, 0.0), at(0.31, 0.9, 0.0));
+        let low = opening.crossing(Side::B, p, q);
+        assert_eq!(low, opening.crossing(Side::B, q, p));
+        let (p, q) = (at(0.7, 0.1, 0.3), at(0.31, 0.9, 1.7));
+        let slanted = opening.crossing(Side::B, p, q);
+        assert_eq!((low.0.x, low.0.y), (slanted.0.x, slanted.0.y));
+        assert_eq!(low.1, Class { a: 1, b: 0 });
+    }
+}

@@ -1,0 +1,214 @@
+//! Which piece of the body becomes the wedge, and which copies of it make the body.
+
+use crate::error::CutError;
+use glam::DVec3;
+use tmesh::{Instance, Isometry, RegionMap, Symmetry};
+
+/// Which walls the wedge gets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Domain {
+    /// Mirror walls where the body has mirror planes, a seam elsewhere
+    #[default]
+    Auto,
+    /// A wedge of angle pi/n between two mirror planes
+    Mirror,
+    /// A wedge of angle 2 pi/n whose sides are images of each other
+    Rotation,
+}
+
+/// What to cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Params {
+    /// Walls.
+    pub domain: Domain,
+    /// Order used for meshing, a divisor of the order found; `None` takes the order found.
+    pub order: Option<u32>,
+    /// Angle of the first side from the mirror direction, radians; `None` chooses.
+    pub start_angle: Option<f64>,
+    /// Distance up to which points are moved onto a cut plane or the axis, relative to the radius
+    /// about the axis; `None` derives it from the precision of the input and the residual of the
+    /// symmetry.
+    pub snap: Option<f64>,
+}
+
+/// The wedge and its copies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Order of the rotation used.
+    pub order: u32,
+    /// Whether the sides are mirror walls.
+    pub mirror: bool,
+    /// Angle of the wedge as a turn: `pi / order` or `2 pi / order`.
+    pub opening: Isometry,
+    /// All copies.
+    pub instances: Vec<Instance>,
+    /// Region renamings the copies use.
+    pub region_maps: Vec<RegionMap>,
+}
+
+impl Plan {
+    /// Chooses domain and order.
+    ///
+    /// # Errors
+    /// An order that does not divide the order found; mirror walls without mirror planes.
+    pub fn new(symmetry: &Symmetry, params: &Params) -> Result<Self, CutError> {
+        let found = symmetry.order;
+        let order = params.order.unwrap_or(found);
+        if order == 0 || !found.is_multiple_of(order) {
+            let divisors: Vec<_> = (1..=found)
+                .filter(|d| found.is_multiple_of(*d))
+                .map(|d| d.to_string())
+                .collect();
+            return Err(CutError::NotADivisor {
+                asked: order,
+                found,
+                divisors: divisors.join(", "),
+            });
+        }
+        let mirror = match params.domain {
+            Domain::Auto => symmetry.mirror,
+            Domain::Rotation => false,
+            Domain::Mirror if symmetry.mirror => true,
+            Domain::Mirror => return Err(CutError::NoMirror(symmetry.group.clone())),
+        };
+        let opening = Isometry::rotation(1, if mirror { 2 * order } else { order });
+        let mut plan = Self {
+            order,
+            mirror,
+            opening,
+            instances: Vec::new(),
+            region_maps: Vec::new(),
+        };
+        plan.add_instances(symmetry);
+        Ok(plan)
+    }
+
+    /// Whether the wedge is the whole body.
+    pub fn is_whole(&self) -> bool {
+        self.order == 1 && !self.mirror
+    }
+
+    /// Whether both sides lie in one plane: the wedge is half of space.
+    pub fn is_half(&self) -> bool {
+        self.opening == Isometry::rotation(1, 2)
+    }
+
+    fn add_instances(&mut self, symmetry: &Symmetry) {
+        let step = symmetry.order / self.order;
+        let regions = Permutations::new(symmetry);
+        for k in 0..self.order {
+            for mirrored in [false, true] {
+                if mirrored && !self.mirror {
+                    continue;
+                }
+                let pairs = regions.of(k * step, mirrored);
+                let region_map = if pairs.is_empty() {
+                    0
+                } else {
+                    let map = RegionMap { pairs };
+                    let at = self.region_maps.iter().position(|m| *m == map);
+                    1 + at.unwrap_or_else(|| {
+                        self.region_maps.push(map);
+                        self.region_maps.len() - 1
+                    }) as u32
+                };
+                let isometry = Isometry::new(i64::from(k), self.order, mirrored, false);
+                self.instances.push(Instance {
+                    template: 0,
+                    isometry,
+                    region_map,
+                });
+            }
+        }
+    }
+}
+
+/// How group elements rename regions.
+struct Permutations {
+    rotation: RegionMap,
+    mirror: RegionMap,
+    ids: Vec<u32>,
+}
+
+impl Permutations {
+    fn new(symmetry: &Symmetry) -> Self {
+        let map = |pairs: &[[u32; 2]]| {
+            let mut pairs = pairs.to_vec();
+            pairs.sort_unstable();
+            RegionMap { pairs }
+        };
+        let (rotation, mirror) = (
+            map(&symmetry.rotation_regions),
+            map(&symmetry.mirror_regions),
+        );
+        let mut ids: Vec<u32> = rotation
+            .pairs
+            .iter()
+            .chain(&mirror.pairs)
+            .map(|p| p[0])
+            .collect();
+        ids.sort_unstable();
+        ids.dedup();
+        Self {
+            rotation,
+            mirror,
+            ids,
+        }
+    }
+
+    /// Renaming by `R^steps M^mirrored`, pairs of ids that change.
+    fn of(&self, steps: u32, mirrored: bool) -> Vec<[u32; 2]> {
+        let image = |id: u32| {
+            let start = if mirrored { self.mirror.get(id) } else { id };
+            (0..steps).fold(start, |id, _| self.rotation.get(id))
+        };
+        self.ids
+            .iter()
+            .map(|&id| [id, image(id)])
+            .filter(|p| p[0] != p[1])
+            .collect()
+    }
+}
+
+/// Angle for the first side of a rotation wedge, radians: the middle of the largest gap between the
+/// angles of the vertices modulo the wedge's opening, so that the sides cut edges cleanly between
+/// vertices. The smallest such angle when several gaps are equal.
+pub fn clear_angle(vertices: &[DVec3], order: u32, axis_tolerance: f64) -> f64 {
+    let opening = std::f64::consts::TAU / f64::from(order);
+    let mut angles: Vec<f64> = vertices
+        .iter()
+        .filter(|p| p.x.hypot(p.y) > axis_tolerance)
+        .map(|p| libm::atan2(p.y, p.x).rem_euclid(opening))
+        .collect();
+    angles.sort_unstable_by(f64::total_cmp);
+    let (Some(first), Some(last)) = (angles.first(), angles.last()) else {
+        return 0.0;
+    };
+    let wrap = (last - opening, *first);
+    let gaps = std::iter::once(wrap).chain(angles.windows(2).map(|w| (w[0], w[1])));
+    // Gaps equal up to rounding count as equal, so that noise does not choose.
+    let mut best = wrap;
+    for gap in gaps {
+        if gap.1 - gap.0 > (best.1 - best.0) * (1.0 + 1e-6) {
+            best = gap;
+        }
+    }
+    (0.5 * (best.0 + best.1)).rem_euclid(opening)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_clear_angle_avoids_vertices() {
+        let at = |degrees: f64| {
+            let a = degrees.to_radians();
+            DVec3::new(a.cos(), a.sin(), 0.0)
+        };
+        let vertices = [at(0.0), at(10.0), at(90.0), at(100.0), at(200.0)];
+        // Modulo 90: 0, 10, 0, 10, 20; the largest gap is 20 to 90.
+        let angle = clear_angle(&vertices, 4, 1e-9).to_degrees();
+        assert!((angle - 55.0).abs() < 1e-9, "{angle}");
+    }
+}

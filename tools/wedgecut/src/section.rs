@@ -1,0 +1,284 @@
+//! The section of the clipped surface with a side of the wedge, and the cap that closes it.
+
+use crate::error::CutError;
+use crate::opening::{Class, Opening, Side};
+use crate::planar::{PlanarError, Segment, triangulate};
+use crate::surface::Surface;
+use geom::edges::orientation;
+use glam::DVec3;
+use rustc_hash::{FxHashMap, FxHashSet};
+use tmesh::{Frame, OUTSIDE, Triangle};
+
+/// Marker of triangles on walls: they belong to no boundary piece of the body.
+pub const NO_MARKER: u32 = u32::MAX;
+
+/// Which part of which plane a wall takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// The half plane of a side.
+    HalfPlane(Side),
+    /// All of the plane of side A: the one mirror wall of half a body.
+    WholePlane,
+    /// The part of side A's plane beyond the axis: the second side of a wedge of half a turn.
+    FarHalf,
+}
+
+impl Extent {
+    /// The plane.
+    pub fn side(self) -> Side {
+        match self {
+            Self::HalfPlane(side) => side,
+            _ => Side::A,
+        }
+    }
+
+    /// Whether a point of the clipped surface lies on the wall.
+    pub fn contains(self, opening: &Opening, p: DVec3, class: Class) -> bool {
+        class.of(self.side()) == 0
+            && match self {
+                Self::WholePlane => true,
+                Self::HalfPlane(_) if !opening.is_half() => true,
+                Self::HalfPlane(_) => class == Class::AXIS || p.x > 0.0,
+                Self::FarHalf => class == Class::AXIS || p.x < 0.0,
+            }
+    }
+
+    /// Distance from the axis along the wall.
+    pub fn radius(self, opening: &Opening, p: DVec3) -> f64 {
+        match self {
+            Self::FarHalf => -p.x,
+            other => opening.radius_on(other.side(), p),
+        }
+    }
+
+    /// Whether turning from the direction away from the axis to the axis direction, within the
+    /// wall, is counter-clockwise seen from outside of the wedge.
+    fn faces_out(self) -> bool {
+        matches!(self, Self::WholePlane | Self::HalfPlane(Side::A))
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::WholePlane | Self::HalfPlane(Side::A) => "wall-a",
+            _ => "wall-b",
+        }
+    }
+}
+
+/// An edge of a section with the regions on either side of it within the wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SectionEdge {
+    /// Point ids, lower one first.
+    pub ends: [u32; 2],
+    /// Region to the left, seen with the axis upwards and the axis on the left hand.
+    pub left: u32,
+    /// Region to the right.
+    pub right: u32,
+}
+
+/// Where the clipped surface meets a wall.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// The wall.
+    pub extent: Extent,
+    /// Points of the surface on the wall, increasing.
+    pub points: Vec<u32>,
+    /// Edges, in order of their ends.
+    pub edges: Vec<SectionEdge>,
+}
+
+impl Section {
+    /// Collects the points and edges of the clipped surface on a wall.
+    pub fn new(surface: &Surface, opening: &Opening, extent: Extent) -> Self {
+        let on: Vec<bool> = surface
+            .points
+            .iter()
+            .zip(&surface.classes)
+            .map(|(&p, &class)| extent.contains(opening, p, class))
+            .collect();
+        let mut points = FxHashSet::default();
+        let mut fans: FxHashMap<[u32; 2], Vec<(u32, bool)>> = FxHashMap::default();
+        for (i, face) in surface.faces.iter().enumerate() {
+            for k in 0..3 {
+                let (v, w) = (face.vertices[k], face.vertices[(k + 1) % 3]);
+                if !on[v as usize] {
+                    continue;
+                }
+                points.insert(v);
+                if on[w as usize] {
+                    let (key, forward) = if v < w {
+                        ([v, w], true)
+                    } else {
+                        ([w, v], false)
+                    };
+                    fans.entry(key).or_default().push((i as u32, forward));
+                }
+            }
+        }
+        let mut points: Vec<u32> = points.into_iter().collect();
+        points.sort_unstable();
+        let mut edges: Vec<SectionEdge> = fans
+            .into_iter()
+            .map(|(ends, fan)| Self::edge(surface, extent, ends, &fan))
+            .collect();
+        edges.sort_unstable_by_key(|e| e.ends);
+        Self {
+            extent,
+            points,
+            edges,
+        }
+    }
+
+    /// The regions beside an edge: those that its outermost faces turn towards the wall.
+    fn edge(surface: &Surface, extent: Extent, ends: [u32; 2], fan: &[(u32, bool)]) -> SectionEdge {
+        let [a, b] = ends.map(|v| surface.points[v as usize]);
+        let apex = |f: u32| {
+            let v = surface.faces[f as usize]
+                .vertices
+                .into_iter()
+                .find(|v| !ends.contains(v));
+            surface.points[v.unwrap_or(ends[0]) as usize]
+        };
+        // All apexes lie on one side of the wall, so pairwise order is a total one. A positive
+        // orientation puts q to the left of p on walls that face out as (radius, height) does.
+        let out = if extent.faces_out() { 1.0 } else { -1.0 };
+        let (mut leftmost, mut rightmost) = (fan[0], fan[0]);
+        for &use_ in &fan[1..] {
+            if out * orientation(a, b, apex(leftmost.0), apex(use_.0)) > 0.0 {
+                leftmost = use_;
+            }
+            if out * orientation(a, b, apex(rightmost.0), apex(use_.0)) < 0.0 {
+                rightmost = use_;
+            }
+        }
+        let towards = |(f, forward): (u32, bool), left: bool| {
+            let face = &surface.faces[f as usize];
+            if (forward == extent.faces_out()) == left {
+                face.front
+            } else {
+                face.back
+            }
+        };
+        SectionEdge {
+            ends,
+            left: towards(leftmost, true),
+            right: towards(rightmost, false),
+        }
+    }
+
+    /// Closes the wedge on this wall: triangles that face out of it, each with the region behind.
+    ///
+    /// Where the wall ends at the axis, consecutive axis points are joined, so that the caps of both
+    /// sides share those edges.
+    ///
+    /// # Errors
+    /// A section whose edges cross, or do not agree on what is inside.
+    pub fn cap(
+        &self,
+        surface: &Surface,
+        opening: &Opening,
+        frame: &Frame,
+    ) -> Result<Vec<Triangle>, CutError> {
+        let local: FxHashMap<u32, u32> = self
+            .points
+            .iter()
+            .enumerate()
+            .map(|(i, &v)| (v, i as u32))
+            .collect();
+        let plane: Vec<[f64; 2]> = self
+            .points
+            .iter()
+            .map(|&v| {
+                let p = surface.points[v as usize];
+                [self.extent.radius(opening, p), p.z]
+            })
+            .collect();
+        let mut segments: Vec<Segment> = self
+            .edges
+            .iter()
+            .filter(|e| (e.left, e.right) != (OUTSIDE, OUTSIDE))
+            .map(|e| Segment {
+                ends: e.ends.map(|v| local[&v]),
+                left: Some(e.left),
+                right: Some(e.right),
+            })
+            .collect();
+        if self.extent != Extent::WholePlane {
+            let mut axis: Vec<u32> = self
+                .points
+                .iter()
+                .copied()
+                .filter(|&v| surface.classes[v as usize] == Class::AXIS)
+                .collect();
+            axis.sort_unstable_by(|&v, &w| {
+                surface.points[v as usize]
+                    .z
+                    .total_cmp(&surface.points[w as usize].z)
+            });
+            for pair in axis.windows(2) {
+                let key = if pair[0] < pair[1] {
+                    [pair[0], pair[1]]
+                } else {
+                    [pair[1], pair[0]]
+                };
+                if self.edges.binary_search_by_key(&key, |e| e.ends).is_err() {
+                    let ends = key.map(|v| local[&v]);
+                    segments.push(Segment {
+                        ends,
+                        left: None,
+                        right: None,
+                    });
+                }
+            }
+        }
+        let triangles = triangulate(&plane, &segments, OUTSIDE).map_err(|error| {
+            let at = match error {
+                PlanarError::Coincident(a, _) | PlanarError::Crossing(a, _) => a,
+                PlanarError::Ambiguous { near, .. } => near,
+                PlanarError::Coordinate => 0,
+            };
+            let near = self
+                .points
+                .get(at as usize)
+                .map_or(DVec3::ZERO, |&v| frame.to_world(surface.points[v as usize]));
+            let reason = match error {
+                PlanarError::Coincident(..) => "two of its points coincide".to_owned(),
+                PlanarError::Coordinate => "a coordinate cannot be represented".to_owned(),
+                PlanarError::Crossing(..) => "two of its edges cross or touch".to_owned(),
+                PlanarError::Ambiguous { labels: [a, b], .. } => {
+                    format!("{} and {} claim the same part of it", name(a), name(b))
+                }
+            };
+            CutError::BadSection {
+                wall: self.extent.name(),
+                reason,
+                near,
+            }
+        })?;
+        Ok(triangles
+            .into_iter()
+            .map(|([a, b, c], region)| {
+                let [a, b, c] = [a, b, c].map(|i| self.points[i as usize]);
+                let vertices = if self.extent.faces_out() {
+                    [a, b, c]
+                } else {
+                    [a, c, b]
+                };
+                Triangle {
+                    vertices,
+                    marker: NO_MARKER,
+                    front: OUTSIDE,
+                    back: region,
+                }
+            })
+            .collect())
+    }
+}
+
+fn name(region: u32) -> String {
+    if region == OUTSIDE {
+        "the outside".to_owned()
+    } else {
+        format!("region {region}")
+    }
+}

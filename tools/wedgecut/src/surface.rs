@@ -1,0 +1,159 @@
+//! The surface being cut: points with their class, faces with their attributes and flat patch.
+
+use crate::opening::{Class, Opening};
+use geom::edges::Edges;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use tmesh::Triangle;
+
+/// A surface in the canonical frame, with every point classified.
+#[derive(Clone, Debug, Default)]
+pub struct Surface {
+    /// Positions, model units.
+    pub points: Vec<DVec3>,
+    /// Class of each point.
+    pub classes: Vec<Class>,
+    /// Triangles with their attributes.
+    pub faces: Vec<Triangle>,
+    /// Flat patch of each face.
+    pub patches: Vec<u32>,
+}
+
+impl Surface {
+    /// Classifies points against the opening, joins points that have become one, drops faces that
+    /// have lost their area with them, and finds flat patches.
+    pub fn new(points: Vec<DVec3>, faces: Vec<Triangle>, opening: &Opening, flatness: f64) -> Self {
+        let mut surface = Self::default();
+        let mut at: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+        let mut renumbered = Vec::with_capacity(points.len());
+        for p in points {
+            let (p, class) = opening.classify(p);
+            let key = (p + DVec3::ZERO).to_array().map(f64::to_bits);
+            renumbered.push(*at.entry(key).or_insert_with(|| surface.add(p, class)));
+        }
+        for mut face in faces {
+            face.vertices = face.vertices.map(|v| renumbered[v as usize]);
+            let [a, b, c] = face.vertices;
+            if a != b && b != c && a != c {
+                surface.faces.push(face);
+            }
+        }
+        cancel_opposite(&mut surface.faces);
+        surface.patches = flat_patches(&surface.points, &surface.faces, flatness);
+        surface
+    }
+
+    /// Adds a point.
+    pub fn add(&mut self, p: DVec3, class: Class) -> u32 {
+        self.points.push(p);
+        self.classes.push(class);
+        self.points.len() as u32 - 1
+    }
+
+    /// Position and class of a point.
+    pub fn at(&self, v: u32) -> (DVec3, Class) {
+        (self.points[v as usize], self.classes[v as usize])
+    }
+}
+
+/// Removes pairs of faces on the same three points that face each other with the same material
+/// between them or outside of them: what is left of a sliver whose points were joined.
+fn cancel_opposite(faces: &mut Vec<Triangle>) {
+    let mut seen: FxHashMap<[u32; 3], usize> = FxHashMap::default();
+    let mut keep = vec![true; faces.len()];
+    for (i, f) in faces.iter().enumerate() {
+        let mut key = f.vertices;
+        key.sort_unstable();
+        let Some(j) = seen.remove(&key) else {
+            seen.insert(key, i);
+            continue;
+        };
+        let g = &faces[j];
+        let same = (0..3).any(|k| {
+            let [a, b, c] = f.vertices;
+            [[a, b, c], [b, c, a], [c, a, b]][k] == g.vertices
+        });
+        // From one outer side through both faces to the other outer side.
+        let (outer_f, outer_g) = if same {
+            (f.back, g.front)
+        } else {
+            (f.front, g.front)
+        };
+        keep[i] = false;
+        if outer_f == outer_g {
+            keep[j] = false;
+        } else {
+            seen.insert(key, j);
+        }
+    }
+    let mut at = 0;
+    faces.retain(|_| {
+        at += 1;
+        keep[at - 1]
+    });
+}
+
+/// Cosine above which neighbouring normals may belong to one flat patch; flatness decides, this
+/// only keeps folds of tiny faces out.
+const PATCH_COSINE: f64 = 0.99;
+
+/// Numbers connected sets of faces with equal attributes that lie within `flatness` (model units)
+/// of the plane of their largest face.
+pub fn flat_patches(points: &[DVec3], faces: &[Triangle], flatness: f64) -> Vec<u32> {
+    let corner_ids: Vec<[u32; 3]> = faces.iter().map(|f| f.vertices).collect();
+    let edges = Edges::new(&corner_ids);
+    let mut neighbours = vec![[u32::MAX; 3]; faces.len()];
+    for e in 0..edges.len() {
+        if let [u, v] = edges.around(e)
+            && u.forward != v.forward
+        {
+            neighbours[u.triangle as usize][u.corner as usize] = v.triangle;
+            neighbours[v.triangle as usize][v.corner as usize] = u.triangle;
+        }
+    }
+    let normals: Vec<DVec3> = faces
+        .iter()
+        .map(|f| {
+            let [a, b, c] = geom::measure::corners(points, f);
+            geom::measure::double_area_vector(a, b, c)
+        })
+        .collect();
+    let mut order: Vec<u32> = (0..faces.len() as u32).collect();
+    order.sort_by(|&i, &j| {
+        let size = |k: u32| normals[k as usize].length_squared();
+        size(j).total_cmp(&size(i)).then(i.cmp(&j))
+    });
+    let mut patch = vec![u32::MAX; faces.len()];
+    let mut count = 0;
+    let mut stack = Vec::new();
+    for seed in order {
+        if patch[seed as usize] != u32::MAX {
+            continue;
+        }
+        patch[seed as usize] = count;
+        let normal = normals[seed as usize].normalize_or_zero();
+        let origin = points[faces[seed as usize].vertices[0] as usize];
+        stack.push(seed);
+        while let Some(f) = stack.pop() {
+            for n in neighbours[f as usize] {
+                if n == u32::MAX || patch[n as usize] != u32::MAX {
+                    continue;
+                }
+                let (face, other) = (&faces[n as usize], &faces[f as usize]);
+                let alike =
+                    (face.marker, face.front, face.back) == (other.marker, other.front, other.back);
+                let flat = face
+                    .vertices
+                    .iter()
+                    .all(|&v| (points[v as usize] - origin).dot(normal).abs() <= flatness);
+                let turned = normals[n as usize];
+                if alike && flat && turned.dot(normal) >= PATCH_COSINE * turned.length() {
+                    patch[n as usize] = count;
+                    stack.push(n);
+                }
+            }
+        }
+        count += 1;
+    }
+    patch
+}
