@@ -4,3 +4,4 @@
 pub mod edges;
 pub mod measure;
 pub mod sides;
+pub mod tet;
