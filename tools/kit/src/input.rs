@@ -18,19 +18,8 @@ impl Session {
             .input
             .as_deref()
             .filter(|p| *p != Path::new("-"));
-        let Imported { document, notices } = match path {
-            Some(path) => {
-                let name = path.display();
-                let open = |e: std::io::Error| Failure::Input(format!("cannot read {name}: {e}"));
-                let file = File::open(path).map_err(open)?;
-                if file.metadata().is_ok_and(|m| m.is_dir()) {
-                    return Err(Failure::Input(format!(
-                        "cannot read {name}: it is a directory"
-                    )));
-                }
-                self.read_from(file, Some(path))
-                    .map_err(|text| Failure::Input(format!("{name}: {text}")))?
-            }
+        let document = match path {
+            Some(path) => self.read_file(path, self.common.from)?,
             None => {
                 let stdin = std::io::stdin();
                 if stdin.is_terminal() {
@@ -39,13 +28,10 @@ impl Session {
                             .to_owned(),
                     ));
                 }
-                self.read_from(stdin.lock(), None)
+                self.read_from(stdin.lock(), None, self.common.from)
                     .map_err(|text| Failure::Input(format!("standard input: {text}")))?
             }
         };
-        for notice in &notices {
-            self.note(notice);
-        }
         let (vertices, triangles, tets) = document.templates.iter().fold((0, 0, 0), |n, t| {
             (
                 n.0 + t.vertices.len(),
@@ -59,7 +45,30 @@ impl Session {
         Ok(document)
     }
 
-    fn read_from(&self, input: impl Read, path: Option<&Path>) -> Result<Imported, String> {
+    /// Reads a further input, whose format its content shows.
+    pub fn read_other(&self, path: &Path) -> Result<Document, Failure> {
+        self.read_file(path, None)
+    }
+
+    fn read_file(&self, path: &Path, from: Option<Format>) -> Result<Document, Failure> {
+        let name = path.display();
+        let open = |e: std::io::Error| Failure::Input(format!("cannot read {name}: {e}"));
+        let file = File::open(path).map_err(open)?;
+        if file.metadata().is_ok_and(|m| m.is_dir()) {
+            return Err(Failure::Input(format!(
+                "cannot read {name}: it is a directory"
+            )));
+        }
+        self.read_from(file, Some(path), from)
+            .map_err(|text| Failure::Input(format!("{name}: {text}")))
+    }
+
+    fn read_from(
+        &self,
+        input: impl Read,
+        path: Option<&Path>,
+        from: Option<Format>,
+    ) -> Result<Document, String> {
         // Unbuffered reads of large arrays go straight through the buffer.
         let mut input = BufReader::with_capacity(1 << 16, input);
         let mut head = Vec::new();
@@ -71,7 +80,7 @@ impl Session {
         if head.is_empty() {
             return Err(DecodeError::Empty.to_string());
         }
-        let format = match self.common.from.or_else(|| sniff(&head, path)) {
+        let format = match from.or_else(|| sniff(&head, path)) {
             Some(format) => format,
             None => {
                 return Err(
@@ -80,15 +89,14 @@ impl Session {
             }
         };
         if format == Format::Tmesh {
-            return match tmesh::read(head.as_slice().chain(input)) {
-                Ok(document) => Ok(Imported {
-                    document,
-                    notices: Vec::new(),
-                }),
-                Err(e) => Err(e.to_string()),
-            };
+            return tmesh::read(head.as_slice().chain(input)).map_err(|e| e.to_string());
         }
         input.read_to_end(&mut head).map_err(read)?;
-        interchange::read(&head, format).map_err(|e: ReadError| e.to_string())
+        let Imported { document, notices } =
+            interchange::read(&head, format).map_err(|e: ReadError| e.to_string())?;
+        for notice in &notices {
+            self.note(notice);
+        }
+        Ok(document)
     }
 }
