@@ -17,6 +17,8 @@ mod seam;
 mod section;
 mod snap;
 mod surface;
+#[cfg(test)]
+mod tests;
 
 pub use cli::Cli;
 pub use error::CutError;

@@ -1,0 +1,333 @@
+//! Wedges of made bodies: volume, walls, seams, regions.
+
+use crate::{CutError, Domain, Params, cut};
+use glam::{DMat3, DVec3};
+use tmesh::{
+    Axis, Document, Marker, OUTSIDE, Region, Source, Symmetry, Template, Triangle, Wall, validate,
+};
+
+const DEFAULT: Params = Params {
+    domain: Domain::Auto,
+    order: None,
+    start_angle: None,
+    snap: None,
+};
+
+/// Nested rings of points around the axis, extruded and twisted; region k + 1 lies inside ring k.
+/// Caps are fans or strips whose diagonals do not share the symmetry.
+struct Body {
+    rings: Vec<Vec<[f64; 2]>>,
+    bore: bool,
+    heights: Vec<f64>,
+    twist: f64,
+}
+
+impl Body {
+    fn regular(n: usize, radii: &[f64]) -> Self {
+        let ring = |r: &f64| {
+            (0..n)
+                .map(|k| {
+                    let a = std::f64::consts::TAU * k as f64 / n as f64;
+                    [r * a.cos(), r * a.sin()]
+                })
+                .collect()
+        };
+        Self {
+            rings: radii.iter().map(ring).collect(),
+            bore: false,
+            heights: vec![0.0, 1.0],
+            twist: 0.0,
+        }
+    }
+
+    /// Saw teeth: chiral.
+    fn ratchet(n: usize, bore: bool) -> Self {
+        let mut body = Self::regular(2 * n, &[1.0]);
+        for (k, p) in body.rings[0].iter_mut().enumerate() {
+            let a = std::f64::consts::TAU / n as f64 * ((k / 2) as f64 + 0.9 * (k % 2) as f64);
+            let r = if k % 2 == 0 { 0.7 } else { 1.0 };
+            *p = [r * a.cos(), r * a.sin()];
+        }
+        if bore {
+            let inner = |p: &[f64; 2]| p.map(|x| 0.3 * x / p[0].hypot(p[1]));
+            body.rings.push(body.rings[0].iter().map(inner).collect());
+            body.bore = true;
+        }
+        body
+    }
+
+    fn document(&self, group: (u32, bool), place: Option<u64>, scale: f64) -> Document {
+        let (n, layers, rings) = (self.rings[0].len(), self.heights.len(), self.rings.len());
+        let mut t = Template::default();
+        for (level, &z) in self.heights.iter().enumerate() {
+            let a = self.twist * level as f64 / (layers - 1) as f64;
+            for [x, y] in self.rings.iter().flatten() {
+                t.vertices.push(DVec3::new(
+                    x * a.cos() - y * a.sin(),
+                    x * a.sin() + y * a.cos(),
+                    z,
+                ));
+            }
+        }
+        // Fans of the innermost ring start off the axis, so that they have no symmetry.
+        let hubs = [0, layers - 1].map(|level| {
+            t.vertices.push(DVec3::new(0.01, 0.004, self.heights[level]));
+            t.vertices.len() as u32 - 1
+        });
+        let id =
+            |level: usize, ring: usize, k: usize| (level * rings * n + ring * n + k % n) as u32;
+        let region = |ring: usize| {
+            if ring == rings || (self.bore && ring == rings - 1) {
+                OUTSIDE
+            } else {
+                ring as u32 + 1
+            }
+        };
+        let mut put = |a, b, c, front, back| {
+            t.triangles.push(Triangle {
+                vertices: [a, b, c],
+                marker: 1,
+                front,
+                back,
+            });
+        };
+        for ring in 0..rings {
+            let outer = if ring == 0 { OUTSIDE } else { region(ring - 1) };
+            for level in 0..layers - 1 {
+                for k in 0..n {
+                    let [a, b] = [id(level, ring, k), id(level, ring, k + 1)];
+                    let [c, d] = [id(level + 1, ring, k), id(level + 1, ring, k + 1)];
+                    put(a, b, d, outer, region(ring));
+                    put(a, d, c, outer, region(ring));
+                }
+            }
+            if region(ring) == OUTSIDE {
+                continue;
+            }
+            for (level, up) in [(0, false), (layers - 1, true)] {
+                let mut cap = |a: u32, b: u32, c: u32| {
+                    let [b, c] = if up { [b, c] } else { [c, b] };
+                    put(a, b, c, OUTSIDE, region(ring));
+                };
+                for k in 0..n {
+                    if ring + 1 < rings {
+                        let [a, b] = [id(level, ring, k), id(level, ring, k + 1)];
+                        let [c, d] = [id(level, ring + 1, k), id(level, ring + 1, k + 1)];
+                        // One diagonal or the other, without symmetry.
+                        if (k * 7 + level) % 3 == 0 {
+                            cap(a, b, d);
+                            cap(a, d, c);
+                        } else {
+                            cap(a, b, c);
+                            cap(b, d, c);
+                        }
+                    } else {
+                        cap(
+                            hubs[usize::from(up)],
+                            id(level, ring, k),
+                            id(level, ring, k + 1),
+                        );
+                    }
+                }
+            }
+        }
+        let regions = (0..rings)
+            .filter(|&r| region(r) != OUTSIDE)
+            .map(|r| Region {
+                id: r as u32 + 1,
+                name: format!("r{r}"),
+                max_volume: None,
+                volume: None,
+            })
+            .collect();
+        let (rotation, shift) = place.map_or((DMat3::IDENTITY, DVec3::ZERO), placement);
+        for p in &mut t.vertices {
+            *p = (rotation * *p + shift) * scale;
+        }
+        let mut document = Document::single(t);
+        document.regions = regions;
+        document.markers = vec![Marker {
+            id: 1,
+            name: "skin".to_owned(),
+            area: None,
+        }];
+        document.source = Some(Source {
+            format: "stl".to_owned(),
+            triangles: document.templates[0].triangles.len() as u64,
+            volume: 0.0,
+            boundary_area: 0.0,
+            precision: 1e-15 * scale,
+        });
+        document.symmetry = Some(Symmetry {
+            group: format!("C{}{}", group.0, if group.1 { "v" } else { "" }),
+            order: group.0,
+            mirror: group.1,
+            horizontal_mirror: false,
+            axis: Axis {
+                point: (shift * scale).to_array(),
+                direction: rotation.z_axis.to_array(),
+            },
+            mirror_direction: rotation.x_axis.to_array(),
+            residual: 1e-14,
+            tolerance: 1e-3,
+            axisymmetric: false,
+            radius: scale,
+            other_axes: Vec::new(),
+            rejected: Vec::new(),
+            rotation_regions: Vec::new(),
+            mirror_regions: Vec::new(),
+            horizontal_regions: Vec::new(),
+            promise: None,
+        });
+        document
+    }
+}
+
+/// A rotation and shift that depend on a seed.
+fn placement(seed: u64) -> (DMat3, DVec3) {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let axis = DVec3::new(next(), next(), next() + 0.01).normalize();
+    let turn = DMat3::from_axis_angle(axis, 6.0 * next());
+    (turn, DVec3::new(next(), next(), next()))
+}
+
+fn volume(template: &Template, region: u32) -> f64 {
+    geom::measure::region_volume(template, region)
+}
+
+fn check(body: &Document, params: &Params, copies: usize) -> Document {
+    let (wedge, _) = cut(body.clone(), params).unwrap();
+    assert_eq!(validate(&wedge), []);
+    assert_eq!(wedge.instances.len(), copies);
+    for region in &body.regions {
+        let whole = volume(&body.templates[0], region.id);
+        let part = volume(&wedge.templates[0], region.id) * copies as f64;
+        assert!(
+            (part / whole - 1.0).abs() < 1e-9,
+            "region {}: {part} of {whole}",
+            region.id
+        );
+    }
+    let extent = wedge.templates[0]
+        .vertices
+        .iter()
+        .map(|p| p.x.hypot(p.y))
+        .fold(0.0, f64::max);
+    for p in &wedge.templates[0].vertices {
+        assert!(p.y >= -1e-12 * extent, "{p} is outside of the wedge");
+    }
+    wedge
+}
+
+#[test]
+fn mirror_wedges_of_prisms() {
+    for n in [3, 4, 5, 8, 16, 33, 128] {
+        for (place, scale) in [(None, 1.0), (Some(7), 1.0), (Some(8), 1e-6), (Some(9), 1e6)] {
+            for radii in [&[1.0][..], &[1.0, 0.5, 0.495]] {
+                let body = Body::regular(n, radii).document((n as u32, true), place, scale);
+                let wedge = check(&body, &DEFAULT, 2 * n);
+                let t = &wedge.templates[0];
+                assert_eq!(t.axis.len(), 2, "the axis enters and leaves");
+                // Half a sector per layer and the core: nothing of the caps' diagonals is left.
+                assert_eq!(t.vertices.len(), 2 + 4 * radii.len());
+            }
+        }
+    }
+}
+
+#[test]
+fn divisors_domains_and_bores() {
+    let mut body = Body::regular(12, &[1.0, 0.4]);
+    body.bore = true;
+    let body = body.document((12, true), Some(3), 1.0);
+    for order in [1, 2, 3, 4, 6, 12] {
+        let params = Params {
+            order: Some(order),
+            ..DEFAULT
+        };
+        let wedge = check(&body, &params, 2 * order as usize);
+        assert!(wedge.templates[0].axis.is_empty());
+        let params = Params {
+            domain: Domain::Rotation,
+            ..params
+        };
+        if order > 1 {
+            check(&body, &params, order as usize);
+        }
+    }
+    let params = Params {
+        order: Some(5),
+        ..DEFAULT
+    };
+    assert!(matches!(
+        cut(body, &params),
+        Err(CutError::NotADivisor { asked: 5, .. })
+    ));
+}
+
+#[test]
+fn seams_of_chiral_bodies() {
+    for n in [2, 3, 7, 12, 30] {
+        for bore in [false, true] {
+            for place in [None, Some(1), Some(5)] {
+                let body = Body::ratchet(n, bore).document((n as u32, false), place, 1.0);
+                let wedge = check(&body, &DEFAULT, n);
+                let t = &wedge.templates[0];
+                let [Wall::Seam(seam)] = &t.walls[..] else {
+                    panic!("one seam")
+                };
+                assert!(!seam.triangle_pairs.is_empty());
+                let fixed = seam.vertex_pairs.iter().filter(|p| p[0] == p[1]).count();
+                assert_eq!(fixed, if bore { 0 } else { 2 });
+                assert_eq!(t.axis.len(), fixed);
+            }
+        }
+    }
+    let params = Params {
+        domain: Domain::Mirror,
+        ..DEFAULT
+    };
+    let body = Body::ratchet(7, true).document((7, false), None, 1.0);
+    assert!(matches!(cut(body, &params), Err(CutError::NoMirror(_))));
+}
+
+#[test]
+fn twisted_bodies_and_start_angles() {
+    let mut body = Body::ratchet(5, true);
+    body.heights = (0..9).map(|k| f64::from(k) / 8.0).collect();
+    body.twist = 0.7;
+    let body = body.document((5, false), Some(11), 1.0);
+    check(&body, &DEFAULT, 5);
+    for degrees in [0.0_f64, 10.0, 33.3, -20.0] {
+        let params = Params {
+            start_angle: Some(degrees.to_radians()),
+            ..DEFAULT
+        };
+        check(&body, &params, 5);
+    }
+}
+
+#[test]
+fn wrong_documents_are_refused() {
+    let body = Body::regular(6, &[1.0]).document((6, true), None, 1.0);
+    let (wedge, _) = cut(body.clone(), &DEFAULT).unwrap();
+    assert!(matches!(
+        cut(wedge, &DEFAULT),
+        Err(CutError::NotASurface(_))
+    ));
+    let mut without = body.clone();
+    without.symmetry = None;
+    assert!(matches!(cut(without, &DEFAULT), Err(CutError::NoSymmetry)));
+    // Stated order 5 on a hexagon: the sections or the volume give it away.
+    let mut wrong = body;
+    let symmetry = wrong.symmetry.as_mut().unwrap();
+    symmetry.order = 5;
+    symmetry.mirror = false;
+    assert!(cut(wrong, &DEFAULT).is_err());
+}
