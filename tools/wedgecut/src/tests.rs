@@ -71,7 +71,8 @@ impl Body {
         }
         // Fans of the innermost ring start off the axis, so that they have no symmetry.
         let hubs = [0, layers - 1].map(|level| {
-            t.vertices.push(DVec3::new(0.01, 0.004, self.heights[level]));
+            t.vertices
+                .push(DVec3::new(0.01, 0.004, self.heights[level]));
             t.vertices.len() as u32 - 1
         });
         let id =
@@ -202,6 +203,10 @@ fn volume(template: &Template, region: u32) -> f64 {
 }
 
 fn check(body: &Document, params: &Params, copies: usize) -> Document {
+    check_to(body, params, copies, 1e-9)
+}
+
+fn check_to(body: &Document, params: &Params, copies: usize, accuracy: f64) -> Document {
     let (wedge, _) = cut(body.clone(), params).unwrap();
     assert_eq!(validate(&wedge), []);
     assert_eq!(wedge.instances.len(), copies);
@@ -209,7 +214,7 @@ fn check(body: &Document, params: &Params, copies: usize) -> Document {
         let whole = volume(&body.templates[0], region.id);
         let part = volume(&wedge.templates[0], region.id) * copies as f64;
         assert!(
-            (part / whole - 1.0).abs() < 1e-9,
+            (part / whole - 1.0).abs() < accuracy,
             "region {}: {part} of {whole}",
             region.id
         );
@@ -330,4 +335,46 @@ fn wrong_documents_are_refused() {
     symmetry.order = 5;
     symmetry.mirror = false;
     assert!(cut(wrong, &DEFAULT).is_err());
+}
+
+/// As a binary STL would hold it.
+fn single_precision(mut document: Document) -> Document {
+    let t = &mut document.templates[0];
+    let mut largest = 0.0_f64;
+    for p in &mut t.vertices {
+        *p = p.as_vec3().as_dvec3();
+        largest = largest.max(p.abs().max_element());
+    }
+    let precision = largest * (-24.0_f64).exp2();
+    document.source.as_mut().unwrap().precision = precision;
+    let symmetry = document.symmetry.as_mut().unwrap();
+    symmetry.residual = 4.0 * precision / symmetry.radius;
+    document
+}
+
+#[test]
+fn single_precision_bodies_anywhere() {
+    for seed in 0..8 {
+        for scale in [1.0, 1e-6, 1e6] {
+            for n in [3_u32, 7, 16, 64] {
+                let tsv = Body::regular(n as usize, &[1.0, 0.5, 0.495]);
+                let body = single_precision(tsv.document((n, true), Some(seed), scale));
+                let wedge = check_to(&body, &DEFAULT, 2 * n as usize, 1e-4);
+                let t = &wedge.templates[0];
+                assert_eq!(t.vertices.len(), 2 + 4 * 3);
+                assert_eq!(distinct(t.vertices.iter().map(|p| p.z)), 2);
+                let ratchet = Body::ratchet(n as usize, seed % 2 == 0);
+                let body = single_precision(ratchet.document((n, false), Some(seed), scale));
+                let wedge = check_to(&body, &DEFAULT, n as usize, 1e-4);
+                assert_eq!(distinct(wedge.templates[0].vertices.iter().map(|p| p.z)), 2);
+            }
+        }
+    }
+}
+
+fn distinct(values: impl Iterator<Item = f64>) -> usize {
+    let mut bits: Vec<u64> = values.map(f64::to_bits).collect();
+    bits.sort_unstable();
+    bits.dedup();
+    bits.len()
 }
