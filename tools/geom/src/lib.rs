@@ -1,7 +1,11 @@
 //! Geometry shared by the tools: measures of triangles and tetrahedra, edge adjacency, the order of
-//! triangles around an edge, and the cells a triangle complex divides space into.
+//! triangles around an edge, the cells a triangle complex divides space into, and where triangles
+//! meet that should not.
 
+pub mod cells;
+pub mod contacts;
 pub mod edges;
 pub mod measure;
 pub mod sides;
 pub mod tet;
+pub mod tree;

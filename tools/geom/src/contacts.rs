@@ -1,0 +1,244 @@
+//! Where triangles meet in any other way than in common vertices and edges.
+
+use crate::edges::orientation;
+use crate::tree::Tree;
+use glam::DVec3;
+use robust::{Coord, orient2d};
+
+/// Two triangles that cross, overlap or touch away from their common vertices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Triangle indices, lower one first.
+    pub triangles: [u32; 2],
+    /// A point of the contact; rounded.
+    pub point: DVec3,
+}
+
+/// How a search for contacts ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// All pairs were looked at, or the caller had seen enough.
+    Done,
+    /// There are far more pairs of triangles with meeting boxes than triangles; the rest was not
+    /// looked at.
+    GaveUp,
+}
+
+/// Finds contacts between triangles of different groups, and hands them to `found` until it returns
+/// false. Two triangles with the same three vertices are no contact; neither is one without area.
+///
+/// Tests are exact. O(n log n) where few boxes overlap; the number of pairs looked at is bounded by
+/// a multiple of the number of triangles.
+pub fn contacts(
+    vertices: &[DVec3],
+    triangles: &[[u32; 3]],
+    group: impl Fn(u32) -> u32,
+    mut found: impl FnMut(Contact) -> bool,
+) -> Search {
+    let tree = Tree::new(vertices, triangles, &group);
+    let mut left = 1000 * triangles.len() as u64 + 10_000_000;
+    let mut end = Search::Done;
+    tree.pairs(&group, |s, t| {
+        left -= 1;
+        if left == 0 {
+            end = Search::GaveUp;
+            return false;
+        }
+        let (s, t) = (s.min(t), s.max(t));
+        match contact(vertices, &triangles[s as usize], &triangles[t as usize]) {
+            Some(point) => found(Contact {
+                triangles: [s, t],
+                point,
+            }),
+            None => true,
+        }
+    });
+    end
+}
+
+/// A point in which two triangles meet away from their common vertices and edge, if there is one.
+pub fn contact(vertices: &[DVec3], s: &[u32; 3], t: &[u32; 3]) -> Option<DVec3> {
+    let at = |v: u32| vertices[v as usize];
+    let position = |u: u32, in_: &[u32; 3]| in_.iter().position(|&v| v == u);
+    let shared: Vec<(usize, usize)> = (0..3)
+        .filter_map(|i| Some((i, position(s[i], t)?)))
+        .collect();
+    let (p, q) = (s.map(at), t.map(at));
+    match shared.as_slice() {
+        [] => {
+            let one_side = |[a, b, c]: [DVec3; 3], v: [DVec3; 3]| {
+                let d = v.map(|x| orientation(a, b, c, x));
+                d.iter().all(|&x| x > 0.0) || d.iter().all(|&x| x < 0.0)
+            };
+            if one_side(q, p) || one_side(p, q) || is_flat(p) || is_flat(q) {
+                return None;
+            }
+            (0..3)
+                .find_map(|i| segment_meets(p[i], p[(i + 1) % 3], q))
+                .or_else(|| (0..3).find_map(|i| segment_meets(q[i], q[(i + 1) % 3], p)))
+        }
+        &[(i, j)] => {
+            if is_flat(p) || is_flat(q) {
+                return None;
+            }
+            segment_meets(p[(i + 1) % 3], p[(i + 2) % 3], q)
+                .or_else(|| segment_meets(q[(j + 1) % 3], q[(j + 2) % 3], p))
+        }
+        &[(i, j), (k, l)] => {
+            let (apex, other) = (p[3 - i - k], q[3 - j - l]);
+            let (a, b) = (p[i], p[k]);
+            if orientation(a, b, apex, other) != 0.0 || is_flat(p) || is_flat(q) {
+                return None;
+            }
+            let plane = Plane2::of(p)?;
+            let side = |x| plane.turn(a, b, x) > 0.0;
+            (side(apex) == side(other)).then(|| (a + b + apex) / 3.0)
+        }
+        _ => None,
+    }
+}
+
+/// A coordinate plane onto which a triangle projects without losing its area.
+#[derive(Clone, Copy)]
+struct Plane2(usize);
+
+impl Plane2 {
+    fn of([a, b, c]: [DVec3; 3]) -> Option<Self> {
+        (0..3).map(Self).find(|p| p.turn(a, b, c) != 0.0)
+    }
+
+    fn turn(self, a: DVec3, b: DVec3, c: DVec3) -> f64 {
+        let flat = |v: DVec3| {
+            let v = v.to_array();
+            Coord {
+                x: v[(self.0 + 1) % 3],
+                y: v[(self.0 + 2) % 3],
+            }
+        };
+        orient2d(flat(a), flat(b), flat(c))
+    }
+}
+
+/// Whether three points are on a line, exactly.
+pub fn is_flat(triangle: [DVec3; 3]) -> bool {
+    Plane2::of(triangle).is_none()
+}
+
+/// A common point of a segment and a triangle with area, both closed; exact but for the point.
+fn segment_meets(p: DVec3, q: DVec3, t: [DVec3; 3]) -> Option<DVec3> {
+    let [a, b, c] = t;
+    let (sp, sq) = (orientation(a, b, c, p), orientation(a, b, c, q));
+    if (sp > 0.0 && sq > 0.0) || (sp < 0.0 && sq < 0.0) {
+        return None;
+    }
+    if sp == 0.0 && sq == 0.0 {
+        return coplanar_segment_meets(p, q, t);
+    }
+    let d = [(a, b), (b, c), (c, a)].map(|(u, v)| orientation(p, q, u, v));
+    if d.iter().any(|&x| x > 0.0) && d.iter().any(|&x| x < 0.0) {
+        return None;
+    }
+    let f = sp / (sp - sq);
+    Some(p + (q - p) * if f.is_finite() { f } else { 0.5 })
+}
+
+fn coplanar_segment_meets(p: DVec3, q: DVec3, t: [DVec3; 3]) -> Option<DVec3> {
+    let plane = Plane2::of(t)?;
+    let inside = |x: DVec3| {
+        let d: [f64; 3] = std::array::from_fn(|i| plane.turn(t[i], t[(i + 1) % 3], x));
+        !(d.iter().any(|&x| x > 0.0) && d.iter().any(|&x| x < 0.0))
+    };
+    if inside(p) {
+        return Some(p);
+    }
+    if inside(q) {
+        return Some(q);
+    }
+    // Neither end is inside: the segment meets the triangle when it crosses an edge.
+    (0..3).find_map(|i| {
+        let (u, v) = (t[i], t[(i + 1) % 3]);
+        let (du, dv) = (plane.turn(p, q, u), plane.turn(p, q, v));
+        let (dp, dq) = (plane.turn(u, v, p), plane.turn(u, v, q));
+        let across = |x: f64, y: f64| !((x > 0.0 && y > 0.0) || (x < 0.0 && y < 0.0));
+        let on_one_line = du == 0.0 && dv == 0.0;
+        (across(du, dv) && across(dp, dq) && !on_one_line).then(|| {
+            let f = dp / (dp - dq);
+            p + (q - p) * if f.is_finite() { f } else { 0.5 }
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(list: &[[f64; 3]]) -> Vec<DVec3> {
+        list.iter().map(|&p| DVec3::from(p)).collect()
+    }
+
+    #[test]
+    fn crossing_and_touching_triangles_are_found() {
+        let v = points(&[
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [0.0, 2.0, 0.0],
+            // Crosses the first one.
+            [0.5, 0.5, -1.0],
+            [0.5, 0.5, 1.0],
+            [5.0, 5.0, 0.0],
+            // Stands on its edge.
+            [1.0, 0.0, 0.0],
+            [1.0, -1.0, 1.0],
+            [1.0, -1.0, 2.0],
+            // In the plane: inside, and across.
+            [0.5, 0.5, 0.0],
+            [0.6, 0.5, 0.0],
+            [0.5, 0.6, 0.0],
+            [-1.0, 1.0, 0.0],
+            [3.0, 1.0, 0.0],
+            [3.0, 1.5, 0.0],
+            // Away.
+            [0.5, 0.5, 1e-12],
+            [0.6, 0.5, 1e-12],
+            [0.5, 0.6, 1e-12],
+        ]);
+        let base = [0, 1, 2];
+        let met = |t: [u32; 3]| {
+            let (one, two) = (contact(&v, &base, &t), contact(&v, &t, &base));
+            assert_eq!(one.is_some(), two.is_some());
+            one.is_some()
+        };
+        assert!(met([3, 4, 5]));
+        assert!(met([6, 7, 8]));
+        assert!(met([9, 10, 11]));
+        assert!(met([12, 13, 14]));
+        assert!(!met([15, 16, 17]));
+        assert!(!met([2, 1, 0]));
+    }
+
+    #[test]
+    fn common_vertices_and_edges_are_no_contact() {
+        let v = points(&[
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [0.0, 2.0, 0.0],
+            [2.0, 2.0, 0.0],
+            [0.5, 0.5, 0.0],
+            [0.5, 0.5, 1.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.5, 0.5, -1.0],
+            [0.6, 0.5, 0.0],
+        ]);
+        let met = |s: [u32; 3], t: [u32; 3]| contact(&v, &s, &t).is_some();
+        // Neighbours in the plane, and folded over each other.
+        assert!(!met([0, 1, 2], [3, 2, 1]));
+        assert!(met([0, 1, 2], [1, 2, 4]));
+        assert!(!met([0, 1, 2], [0, 1, 5]));
+        // One common vertex: beside, in the plane, and through.
+        assert!(!met([0, 1, 2], [0, 6, 7]));
+        assert!(met([0, 1, 2], [0, 3, 9]));
+        assert!(met([0, 1, 2], [0, 5, 8]));
+        assert!(!met([0, 1, 2], [0, 6, 5]));
+    }
+}
