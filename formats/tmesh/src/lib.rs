@@ -15,8 +15,8 @@ mod validate;
 mod wall;
 
 pub use codec::{
-    ChunkInfo, ChunkWriter, MAGIC, VERSION_MAJOR, VERSION_MINOR, read, read_with_chunks, write,
-    write_metadata,
+    ChunkInfo, ChunkWriter, MAGIC, TETS, TRIANGLES, VERSION_MAJOR, VERSION_MINOR, VERTICES, read,
+    read_with_chunks, write, write_instances, write_metadata,
 };
 pub use document::{
     Document, HistoryEntry, Instance, Marker, OUTSIDE, Region, RegionMap, Source, Template, Tet,

@@ -74,10 +74,8 @@ pub(super) fn read<R: Read>(
     Ok(true)
 }
 
-pub(super) fn write<W: Write>(
-    instances: &[Instance],
-    chunks: &mut ChunkWriter<W>,
-) -> io::Result<()> {
+/// Writes the instances of a document, the chunk after the last template.
+pub fn write<W: Write>(instances: &[Instance], chunks: &mut ChunkWriter<W>) -> io::Result<()> {
     let stored: Vec<StoredInstance> = instances
         .iter()
         .map(|i| StoredInstance {

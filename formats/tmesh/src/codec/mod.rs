@@ -8,7 +8,9 @@ mod template;
 mod wall;
 
 pub use chunk::{ChunkInfo, ChunkWriter, MAGIC, VERSION_MAJOR, VERSION_MINOR};
+pub use instances::write as write_instances;
 pub use metadata::write_metadata;
+pub use template::{TETS, TRIANGLES, VERTICES};
 
 use crate::{DecodeError, Document, Frame, validate};
 use chunk::ChunkReader;

@@ -4,9 +4,12 @@ use super::chunk::{ChunkInfo, ChunkReader, ChunkWriter};
 use crate::{DecodeError, Document, Template};
 use std::io::{self, Read, Write};
 
-pub(super) const VERTICES: [u8; 4] = *b"VERT";
-pub(super) const TRIANGLES: [u8; 4] = *b"TRIS";
-pub(super) const TETS: [u8; 4] = *b"TETS";
+/// Chunk of a template's vertices, [`glam::DVec3`] each; the template's first chunk.
+pub const VERTICES: [u8; 4] = *b"VERT";
+/// Chunk of a template's triangles, [`crate::Triangle`] each.
+pub const TRIANGLES: [u8; 4] = *b"TRIS";
+/// Chunk of a template's tetrahedra, [`crate::Tet`] each.
+pub const TETS: [u8; 4] = *b"TETS";
 const AXIS: [u8; 4] = *b"AXIS";
 
 pub(super) fn read<R: Read>(
