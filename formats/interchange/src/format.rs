@@ -1,7 +1,5 @@
 //! The formats known, by name, extension and content.
 
-use crate::MeshStream;
-use std::io::{self, Write};
 use std::path::Path;
 
 /// A format the tools can read or write.
@@ -76,15 +74,4 @@ impl Format {
     pub fn is_binary(self) -> bool {
         matches!(self, Self::Tmesh | Self::Stl | Self::Vtk | Self::Vtu)
     }
-}
-
-/// Writes a mesh in a foreign format.
-///
-/// # Errors
-/// Fails when writing fails, or with `Unsupported` when the format is not for output.
-pub fn write(_mesh: &dyn MeshStream, format: Format, _out: &mut dyn Write) -> io::Result<()> {
-    Err(io::Error::new(
-        io::ErrorKind::Unsupported,
-        format!("{} is not an output format", format.name()),
-    ))
 }

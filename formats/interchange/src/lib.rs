@@ -9,8 +9,16 @@ mod stream;
 mod surface;
 mod tokens;
 mod weld;
+mod write;
 
 pub use error::ReadError;
-pub use format::{Format, write};
+pub use format::Format;
 pub use read::{Imported, read, sniff};
-pub use stream::{MeshStream, TetBlock, TriangleBlock};
+pub use stream::{
+    MeshStream, PointSink, TetBlock, TetRegionBlock, TetRegionSink, TetSink, TriangleBlock,
+    TriangleSink,
+};
+pub use write::{
+    Plain, Surface, WriteError, WriteOptions, parse_promise, promise_title, size_estimate, write,
+    write_document, write_text,
+};

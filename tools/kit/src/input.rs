@@ -89,7 +89,11 @@ impl Session {
             }
         };
         if format == Format::Tmesh {
-            return tmesh::read(head.as_slice().chain(input)).map_err(|e| e.to_string());
+            let (document, chunks) =
+                tmesh::read_with_chunks(head.as_slice().chain(input)).map_err(|e| e.to_string())?;
+            // A second read keeps the first one's list; no tool reads twice.
+            let _ = self.read.set(chunks);
+            return Ok(document);
         }
         input.read_to_end(&mut head).map_err(read)?;
         let Imported { document, notices } =

@@ -1,8 +1,9 @@
 //! Writing the one output: to standard output, or to a file that appears only when it is whole.
 
 use crate::{Failure, Session};
-use interchange::Format;
-use std::io::{self, BufWriter, IsTerminal, Stdout, Write};
+use interchange::{Format, WriteError, write_document, write_text};
+use std::fs::File;
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 use tmesh::Document;
@@ -17,13 +18,14 @@ pub struct Output {
 }
 
 enum Target {
-    Stdout(BufWriter<Stdout>),
+    /// Standard output, past the line buffer that the standard library puts before it.
+    Stdout(BufWriter<File>),
     File {
         file: BufWriter<NamedTempFile>,
         path: PathBuf,
     },
     /// A device or pipe that a path names: written in place.
-    Special(BufWriter<std::fs::File>),
+    Special(BufWriter<File>),
 }
 
 impl Output {
@@ -38,11 +40,10 @@ impl Output {
                         .to_owned(),
                 ));
             }
-            let target = Target::Stdout(BufWriter::with_capacity(BUFFER, stdout));
-            return Ok(Self {
-                target,
-                name: "standard output".to_owned(),
-            });
+            let name = "standard output".to_owned();
+            let file = unbuffered(&stdout).map_err(|e| Failure::writing(&name, &e))?;
+            let target = Target::Stdout(BufWriter::with_capacity(BUFFER, file));
+            return Ok(Self { target, name });
         };
         let name = path.display().to_string();
         let fail = |e: io::Error| Failure::writing(&name, &e);
@@ -100,6 +101,12 @@ impl Output {
 }
 
 #[cfg(unix)]
+fn unbuffered(stdout: &io::Stdout) -> io::Result<File> {
+    use std::os::fd::AsFd;
+    Ok(stdout.as_fd().try_clone_to_owned()?.into())
+}
+
+#[cfg(unix)]
 fn default_permissions() -> std::fs::Permissions {
     use std::os::unix::fs::PermissionsExt;
     // As any newly created file: the process's umask takes away from this.
@@ -154,18 +161,28 @@ impl Session {
         Output::create(self.common.output.as_deref(), format.is_binary())
     }
 
-    /// Writes a document as the command line asks, `tmesh` by default.
+    /// Writes a document as the command line asks, `tmesh` by default. Foreign formats get each
+    /// template once, with its walls: what is seen is what the next tool would read.
     pub fn write(&self, document: &Document) -> Result<(), Failure> {
         let format = self.output_format(Format::Tmesh)?;
+        self.write_as(format, |out| match format {
+            Format::Text => Ok(write_text(document, self.chunks(), out)?),
+            format => write_document(document, format, out),
+        })
+    }
+
+    /// Opens the output, has `fill` write to it, and makes it appear under its name.
+    pub fn write_as(
+        &self,
+        format: Format,
+        fill: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
+    ) -> Result<(), Failure> {
         let mut out = self.create_output(format)?;
-        let result = match format {
-            Format::Tmesh => tmesh::write(document, &mut out),
-            other => Err(io::Error::new(
-                io::ErrorKind::Unsupported,
-                format!("{} is not an output format", other.name()),
-            )),
-        };
-        result.map_err(|e| out.failure(&e))?;
+        fill(&mut out).map_err(|error| match error {
+            WriteError::Io(error) => out.failure(&error),
+            WriteError::NotAnOutput(_) => Failure::Usage(error.to_string()),
+            error => Failure::Impossible(error.to_string()),
+        })?;
         out.commit()?;
         self.info("written");
         Ok(())

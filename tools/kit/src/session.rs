@@ -2,10 +2,11 @@
 
 use crate::CommonArgs;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::cell::OnceCell;
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
-use tmesh::HistoryEntry;
+use tmesh::{ChunkInfo, HistoryEntry};
 
 /// One run of a tool.
 pub struct Session {
@@ -13,6 +14,8 @@ pub struct Session {
     arguments: Vec<String>,
     pub(crate) common: CommonArgs,
     begun: Instant,
+    /// Chunks of the input, when it was a document.
+    pub(crate) read: OnceCell<Vec<ChunkInfo>>,
 }
 
 impl Session {
@@ -27,7 +30,13 @@ impl Session {
             arguments,
             common,
             begun: Instant::now(),
+            read: OnceCell::new(),
         }
+    }
+
+    /// The chunks that the input was made of; none when it was in a foreign format.
+    pub fn chunks(&self) -> &[ChunkInfo] {
+        self.read.get().map_or(&[], Vec::as_slice)
     }
 
     /// The tool's name.

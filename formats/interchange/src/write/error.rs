@@ -1,0 +1,31 @@
+//! Why a mesh could not be written.
+
+use std::io;
+use thiserror::Error;
+
+/// Why a mesh could not be written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// Writing failed.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// The format is known, but not for output.
+    #[error("{0} is not an output format")]
+    NotAnOutput(&'static str),
+    /// The mesh has more of something than the format can count.
+    #[error("the mesh has {count} {what}, and {format} counts no further than {limit}")]
+    TooLarge {
+        /// Format name.
+        format: &'static str,
+        /// What there is too much of.
+        what: &'static str,
+        /// How many there are.
+        count: u64,
+        /// How many the format can count.
+        limit: u64,
+    },
+    /// A surface format, and no surface.
+    #[error("the mesh has no surface triangles, so there is nothing to write as {0}")]
+    NoSurface(&'static str),
+}

@@ -1,0 +1,172 @@
+//! The title line, which carries the promised symmetry through formats that have no place for it.
+
+use glam::DVec3;
+use tmesh::{Document, Promise};
+
+/// Longest title of a legacy VTK file, without the line end.
+pub const MAX_TITLE: usize = 255;
+
+/// The title of a mesh that promises a symmetry:
+///
+/// ```text
+/// symtet C16v order=16 mirror=1 axis=px,py,pz,dx,dy,dz,mx,my,mz
+/// ```
+///
+/// The Schoenflies symbol, then words `key=value` in this order: `order`, the order of the
+/// rotation; `mirror`, 1 when the plane through the axis and the mirror direction is a mirror;
+/// `horizontal=1` when the plane through the point across the axis is one (else left out); `axis`,
+/// nine numbers: a point of the axis, the axis's direction, the mirror direction, in world
+/// coordinates. Numbers are the shortest that read back the same. At most 255 characters: where
+/// that would be exceeded, directions are rounded to 17 decimals.
+pub fn promise_title(promise: &Promise) -> String {
+    let Promise {
+        order,
+        mirror,
+        horizontal_mirror,
+        rotation: r,
+        origin,
+    } = promise;
+    let symbol = match (mirror, horizontal_mirror) {
+        (false, false) => format!("C{order}"),
+        (true, false) => format!("C{order}v"),
+        (false, true) => format!("C{order}h"),
+        (true, true) => format!("D{order}h"),
+    };
+    let horizontal = if *horizontal_mirror {
+        " horizontal=1"
+    } else {
+        ""
+    };
+    let head = format!(
+        "symtet {symbol} order={order} mirror={}{horizontal} axis=",
+        u8::from(*mirror)
+    );
+    let directions = [r[0][2], r[1][2], r[2][2], r[0][0], r[1][0], r[2][0]];
+    let write = |direction: fn(f64) -> String| {
+        let point = origin.iter().map(|&x| shortest(x));
+        let all: Vec<_> = point.chain(directions.map(direction)).collect();
+        format!("{head}{}", all.join(","))
+    };
+    let title = write(shortest);
+    if title.len() <= MAX_TITLE {
+        return title;
+    }
+    write(rounded)
+}
+
+/// The promise in a title line that [`promise_title`] made.
+pub fn parse_promise(title: &str) -> Option<Promise> {
+    let mut words = title.split_ascii_whitespace();
+    if words.next() != Some("symtet") {
+        return None;
+    }
+    let (mut order, mut mirror, mut horizontal_mirror, mut numbers) = (None, false, false, None);
+    for word in words {
+        match word.split_once('=') {
+            Some(("order", v)) => order = v.parse().ok().filter(|&n: &u32| n > 0),
+            Some(("mirror", v)) => mirror = v == "1",
+            Some(("horizontal", v)) => horizontal_mirror = v == "1",
+            Some(("axis", v)) => {
+                let parsed: Result<Vec<f64>, _> = v.split(',').map(str::parse).collect();
+                numbers = parsed.ok().and_then(|n| <[f64; 9]>::try_from(n).ok());
+            }
+            _ => {}
+        }
+    }
+    let n = numbers.filter(|n| n.iter().all(|x| x.is_finite()))?;
+    let z = DVec3::new(n[3], n[4], n[5]);
+    let x = DVec3::new(n[6], n[7], n[8]);
+    let y = z.cross(x);
+    let orthonormal = (z.length() - 1.0).abs() < 1e-9 && (y.length() - 1.0).abs() < 1e-9;
+    orthonormal.then_some(Promise {
+        order: order?,
+        mirror,
+        horizontal_mirror,
+        rotation: [[x.x, y.x, z.x], [x.y, y.y, z.y], [x.z, y.z, z.z]],
+        origin: [n[0], n[1], n[2]],
+    })
+}
+
+/// The title of a document's own mesh, each template once.
+pub fn document_title(document: &Document) -> String {
+    let promise = document.symmetry.as_ref().and_then(|s| s.promise.as_ref());
+    match promise {
+        Some(promise) if document.is_plain() => promise_title(promise),
+        _ if document.instances.len() > 1 => format!(
+            "symtet sector: {} of {} instances",
+            document.templates.len(),
+            document.instances.len()
+        ),
+        _ => "symtet mesh".to_owned(),
+    }
+}
+
+fn shortest(x: f64) -> String {
+    let (plain, exponent) = (format!("{x}"), format!("{x:e}"));
+    if exponent.len() < plain.len() {
+        exponent
+    } else {
+        plain
+    }
+}
+
+fn rounded(x: f64) -> String {
+    let text = format!("{x:.17}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tmesh::Frame;
+
+    fn promise(frame: Frame) -> Promise {
+        let rows = frame.rotation.transpose();
+        Promise {
+            order: 16,
+            mirror: true,
+            horizontal_mirror: false,
+            rotation: rows.to_cols_array_2d(),
+            origin: frame.origin.to_array(),
+        }
+    }
+
+    #[test]
+    fn titles_read_back() {
+        let frame = Frame::from_axis(
+            DVec3::new(0.1, -2e-7, 3e9),
+            DVec3::new(1.0, 2.0, -0.3),
+            DVec3::Y,
+        )
+        .unwrap();
+        for promise in [promise(Frame::IDENTITY), promise(frame)] {
+            let title = promise_title(&promise);
+            let back = parse_promise(&title).unwrap();
+            assert_eq!(back.origin, promise.origin);
+            for i in 0..3 {
+                assert_eq!(back.rotation[i][0], promise.rotation[i][0]);
+                assert_eq!(back.rotation[i][2], promise.rotation[i][2]);
+                assert!((back.rotation[i][1] - promise.rotation[i][1]).abs() < 1e-15);
+            }
+        }
+        assert_eq!(
+            promise_title(&self::promise(Frame::IDENTITY)),
+            "symtet C16v order=16 mirror=1 axis=0,0,0,0,0,1,1,0,0"
+        );
+        assert_eq!(parse_promise("vtk output"), None);
+        assert_eq!(parse_promise("symtet order=4 axis=1,2"), None);
+    }
+
+    #[test]
+    fn titles_fit() {
+        let tiny = -1.234_567_890_123_456_7e-101;
+        let promise = Promise {
+            order: 65_536,
+            mirror: true,
+            horizontal_mirror: true,
+            rotation: [[tiny; 3], [-0.987_654_321_098_765_4; 3], [tiny; 3]],
+            origin: [tiny; 3],
+        };
+        assert!(promise_title(&promise).len() <= MAX_TITLE);
+    }
+}
