@@ -13,6 +13,7 @@ mod finish;
 mod opening;
 mod plan;
 mod planar;
+mod reconcile;
 mod seam;
 mod section;
 mod snap;
@@ -244,21 +245,22 @@ fn cut_wedge(
         }
         return finish::mirror_wedge(surface, caps, plan, &opening, frame);
     }
-    let low = Section::new(&surface, &opening, Extent::HalfPlane(Side::A));
-    let high = Section::new(&surface, &opening, far);
+    let mut low = Section::new(&surface, &opening, Extent::HalfPlane(Side::A));
+    let mut high = Section::new(&surface, &opening, far);
     let matched = seam::match_sections(
         &mut surface,
         &opening,
         plan.opening,
-        &low,
-        &high,
+        &mut low,
+        &mut high,
         tolerances.partner,
         frame,
     )?;
     notes.push(format!(
-        "{} point pairs on the seam, moved by {:.1e} at most",
+        "{} point pairs on the seam, moved by {:.1e} at most; {} points that only one side had",
         matched.pairs.len(),
-        matched.moved
+        matched.moved,
+        matched.inserted,
     ));
     let cap = low.cap(&surface, &opening, frame)?;
     finish::rotation_wedge(surface, cap, matched, plan, frame)

@@ -157,19 +157,25 @@ impl Opening {
         (DVec3::new(0.0, 0.0, p.z + (q.z - p.z) * t), Class::AXIS)
     }
 
+    /// The point at a distance from the axis (along the side) and a height.
+    pub fn point_on(&self, side: Side, r: f64, z: f64) -> DVec3 {
+        match side {
+            Side::A => DVec3::new(r, 0.0, z),
+            Side::B => DVec3::new(r * self.cos, r * self.sin, z),
+        }
+    }
+
     fn put(&self, side: Side, p: DVec3) -> (DVec3, Class) {
         let r = self.radius_on(side, p);
         if r.abs() <= self.tolerance {
             return (DVec3::new(0.0, 0.0, p.z), Class::AXIS);
         }
-        match side {
-            Side::A if self.is_half() => (DVec3::new(r, 0.0, p.z), Class { a: 0, b: 1 }),
-            Side::A => (DVec3::new(r, 0.0, p.z), Class { a: 0, b: sign(r) }),
-            Side::B => (
-                DVec3::new(r * self.cos, r * self.sin, p.z),
-                Class { a: sign(r), b: 0 },
-            ),
-        }
+        let class = match side {
+            Side::A if self.is_half() => Class { a: 0, b: 1 },
+            Side::A => Class { a: 0, b: sign(r) },
+            Side::B => Class { a: sign(r), b: 0 },
+        };
+        (self.point_on(side, r, p.z), class)
     }
 }
 

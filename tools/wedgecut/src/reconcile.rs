@@ -1,0 +1,188 @@
+//! Giving two sections of a rotation wedge the same points.
+//!
+//! Where the tessellation does not share the body's symmetry, the two sections are the same curves
+//! with different points on them. Each point without a partner is then inserted into the other
+//! section's nearest edge, and the faces at that edge are divided.
+
+use crate::opening::{Class, Opening, Side};
+use crate::section::{Extent, Section};
+use crate::surface::Surface;
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
+use tmesh::Triangle;
+
+/// Smallest distance of an inserted point from the ends of its edge, relative to the edge.
+const END_MARGIN: f64 = 0.1;
+
+/// A point of one section that the other one gets as well.
+#[derive(Clone, Copy, Debug)]
+pub struct Insertion {
+    /// The point without partner.
+    pub of: u32,
+    /// Index of the edge of the other section that gets it.
+    pub edge: usize,
+    /// Where along that edge, from its first end (0) to its second (1).
+    pub at: f64,
+    /// Distance of the point from there, model units.
+    pub distance: f64,
+}
+
+/// For each lone point the nearest edge of the other section between the same two regions; `None`
+/// where there is no such edge.
+///
+/// `lone`: points of `own` without a partner. Distances in the plane (radius, height).
+pub fn insertions(
+    surface: &Surface,
+    opening: &Opening,
+    own: &Section,
+    other: &Section,
+    lone: &[u32],
+    reach: f64,
+) -> Vec<Result<Insertion, u32>> {
+    let plane = |section: &Section, v: u32| {
+        let p = surface.points[v as usize];
+        DVec2::new(section.extent.radius(opening, p), p.z)
+    };
+    let mut kinds: FxHashMap<u32, Vec<[u32; 2]>> = FxHashMap::default();
+    for e in &own.edges {
+        for v in e.ends {
+            kinds.entry(v).or_default().push(kind(e.left, e.right));
+        }
+    }
+    let spans: Vec<(DVec2, DVec2, [u32; 2])> = other
+        .edges
+        .iter()
+        .map(|e| {
+            let [a, b] = e.ends.map(|v| plane(other, v));
+            (a, b, kind(e.left, e.right))
+        })
+        .collect();
+    lone.iter()
+        .map(|&v| {
+            let p = plane(own, v);
+            let mine = kinds.get(&v).map_or(&[][..], |k| k.as_slice());
+            let mut best: Option<Insertion> = None;
+            for (edge, &(a, b, k)) in spans.iter().enumerate() {
+                if !mine.contains(&k) {
+                    continue;
+                }
+                let along = b - a;
+                let length = along.length();
+                let margin = END_MARGIN.min(reach / length.max(f64::MIN_POSITIVE));
+                let at = ((p - a).dot(along) / along.length_squared()).clamp(margin, 1.0 - margin);
+                let distance = (a + along * at).distance(p);
+                if best.is_none_or(|b| distance < b.distance) {
+                    best = Some(Insertion {
+                        of: v,
+                        edge,
+                        at,
+                        distance,
+                    });
+                }
+            }
+            best.ok_or(v)
+        })
+        .collect()
+}
+
+fn kind(left: u32, right: u32) -> [u32; 2] {
+    [left.min(right), left.max(right)]
+}
+
+/// Inserts points into the edges of a section and divides the faces there. Returns the new point
+/// for each insertion.
+pub fn insert(
+    surface: &mut Surface,
+    opening: &Opening,
+    section: &mut Section,
+    insertions: &[Insertion],
+) -> Vec<u32> {
+    let mut order: Vec<usize> = (0..insertions.len()).collect();
+    order.sort_by(|&i, &j| {
+        let (a, b) = (&insertions[i], &insertions[j]);
+        a.edge
+            .cmp(&b.edge)
+            .then(a.at.total_cmp(&b.at))
+            .then(a.of.cmp(&b.of))
+    });
+    let mut new = vec![0; insertions.len()];
+    let mut chains: FxHashMap<[u32; 2], Vec<u32>> = FxHashMap::default();
+    for i in order {
+        let insertion = &insertions[i];
+        let ends = section.edges[insertion.edge].ends;
+        let [a, b] = ends.map(|v| surface.points[v as usize]);
+        let (p, class) = on_wall(opening, section.extent, a + (b - a) * insertion.at);
+        new[i] = surface.add(p, class);
+        section.points.push(new[i]);
+        chains.entry(ends).or_default().push(new[i]);
+    }
+    section.points.sort_unstable();
+    let edges = std::mem::take(&mut section.edges);
+    for e in edges {
+        let Some(chain) = chains.get(&e.ends) else {
+            section.edges.push(e);
+            continue;
+        };
+        let stops: Vec<u32> = [e.ends[0]]
+            .into_iter()
+            .chain(chain.iter().copied())
+            .chain([e.ends[1]])
+            .collect();
+        for pair in stops.windows(2) {
+            let mut piece = e;
+            piece.ends = [pair[0], pair[1]];
+            if pair[0] > pair[1] {
+                piece.ends.reverse();
+                std::mem::swap(&mut piece.left, &mut piece.right);
+            }
+            section.edges.push(piece);
+        }
+    }
+    section.edges.sort_unstable_by_key(|e| e.ends);
+    divide_faces(surface, &chains);
+    new
+}
+
+fn on_wall(opening: &Opening, extent: Extent, p: DVec3) -> (DVec3, Class) {
+    if extent.side() == Side::A {
+        return (DVec3::new(p.x, 0.0, p.z), Class { a: 0, b: 1 });
+    }
+    let r = opening.radius_on(Side::B, p);
+    (opening.point_on(Side::B, r, p.z), Class { a: 1, b: 0 })
+}
+
+fn divide_faces(surface: &mut Surface, chains: &FxHashMap<[u32; 2], Vec<u32>>) {
+    let faces = std::mem::take(&mut surface.faces);
+    let patches = std::mem::take(&mut surface.patches);
+    for (face, patch) in faces.into_iter().zip(patches) {
+        let divided = (0..3).find_map(|k| {
+            let (v, w) = (face.vertices[k], face.vertices[(k + 1) % 3]);
+            let key = if v < w { [v, w] } else { [w, v] };
+            chains.get(&key).map(|chain| (k, chain, v > w))
+        });
+        let Some((k, chain, backwards)) = divided else {
+            surface.faces.push(face);
+            surface.patches.push(patch);
+            continue;
+        };
+        let (v, w, apex) = (
+            face.vertices[k],
+            face.vertices[(k + 1) % 3],
+            face.vertices[(k + 2) % 3],
+        );
+        let mut stops = vec![v];
+        if backwards {
+            stops.extend(chain.iter().rev());
+        } else {
+            stops.extend(chain);
+        }
+        stops.push(w);
+        for pair in stops.windows(2) {
+            surface.faces.push(Triangle {
+                vertices: [pair[0], pair[1], apex],
+                ..face
+            });
+            surface.patches.push(patch);
+        }
+    }
+}
