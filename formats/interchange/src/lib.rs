@@ -1,8 +1,14 @@
 //! Readers and writers of foreign mesh formats, one module per format, and content sniffing.
 
+mod closure;
+mod coincident;
+mod document;
 mod error;
 mod format;
+mod near;
+mod place;
 mod read;
+mod solids;
 mod soup;
 mod stl;
 mod stream;

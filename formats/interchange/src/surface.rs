@@ -1,104 +1,285 @@
 //! From triangles in groups to a document.
 
+use crate::closure::{groups_are_closed, odd_edges, open_surface};
+use crate::coincident::merge;
+use crate::document::{Labelled, document, dropped, largest_coordinate, unique_names};
+use crate::near::near_points;
+use crate::place::{counted, short};
+use crate::solids::{Labels, label};
 use crate::soup::Soup;
 use crate::{Imported, ReadError};
 use geom::edges::Edges;
-use geom::measure::{boundary_area, region_volume, triangle_area};
 use glam::DVec3;
-use tmesh::{Document, Marker, OUTSIDE, Region, Source, Template, Triangle};
+use tmesh::{OUTSIDE, Region, Template, Triangle};
 
-/// Builds the document of a surface: welded, closed, with a region on the inside.
+/// No solid.
+pub const NONE: u32 = u32::MAX;
+
+/// Points that differ by this many roundings of the largest coordinate are joined where the surface
+/// would stay open otherwise.
+const ROUNDINGS: f64 = 4.0;
+
+/// A welded surface whose triangles belong to solids.
+pub struct Surface {
+    /// Distinct points.
+    pub points: Vec<DVec3>,
+    /// Three different point ids each.
+    pub triangles: Vec<[u32; 3]>,
+    /// Group of each triangle, as in the file.
+    pub group: Vec<u32>,
+    /// Solid of each triangle: its group, or 0 when the groups are pieces of one boundary.
+    pub solid: Vec<u32>,
+    /// The solid on the other side of an interface, or [`NONE`].
+    pub partner: Vec<u32>,
+    /// Names of the groups, unique.
+    pub groups: Vec<String>,
+    /// What a group is called in the file format.
+    pub group_word: &'static str,
+}
+
+impl Surface {
+    /// Positions of a triangle's corners.
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.triangles[triangle as usize].map(|v| self.points[v as usize])
+    }
+
+    /// A group's name for a message.
+    pub fn group_name(&self, group: u32) -> String {
+        format!("{} '{}'", self.group_word, self.groups[group as usize])
+    }
+
+    /// Keeps the triangles that `keep` accepts.
+    pub fn retain(&mut self, keep: impl Fn(usize) -> bool) {
+        fn filter<T>(list: &mut Vec<T>, keep: impl Fn(usize) -> bool) {
+            let mut i = 0;
+            list.retain(|_| {
+                i += 1;
+                keep(i - 1)
+            });
+        }
+        filter(&mut self.triangles, &keep);
+        filter(&mut self.group, &keep);
+        filter(&mut self.solid, &keep);
+        filter(&mut self.partner, &keep);
+    }
+
+    /// Drops triangles that name a point twice; returns how many.
+    fn drop_degenerate(&mut self) -> usize {
+        let before = self.triangles.len();
+        let good = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[0] != t[2];
+        if !self.triangles.iter().all(good) {
+            let keep: Vec<bool> = self.triangles.iter().map(good).collect();
+            self.retain(|t| keep[t]);
+        }
+        before - self.triangles.len()
+    }
+}
+
+/// Builds the document of a surface: welded, closed, with regions on the inside.
+///
+/// Where every group is closed by itself, groups are solids, and each is a region. Otherwise all
+/// groups together must be closed: one region, and the groups are pieces of its boundary. Regions
+/// and markers are numbered from 1. Linear but for nested or several pieces, which take
+/// O(n log n).
 ///
 /// # Errors
-/// Surfaces that do not bound a body.
-pub fn build(mut soup: Soup, format: &'static str) -> Result<Imported, ReadError> {
-    soup.triangles
-        .retain(|t| t[0] != t[1] && t[1] != t[2] && t[0] != t[2]);
-    if soup.triangles.is_empty() {
+/// Open surfaces; solids that overlap, cross, or touch with different triangles.
+pub fn build(soup: Soup, format: &'static str) -> Result<Imported, ReadError> {
+    let Soup {
+        points,
+        triangles,
+        group_of,
+        groups,
+        group_word,
+        relative_precision,
+        mut notices,
+    } = soup;
+    if triangles.is_empty() {
         return Err(ReadError::BadSurface("it has no triangles".to_owned()));
     }
-    check_closed(&soup.points, &soup.triangles)?;
-    let mut template = Template {
-        triangles: soup
-            .triangles
-            .iter()
-            .map(|&vertices| Triangle {
-                vertices,
-                marker: 1,
-                front: OUTSIDE,
-                back: 1,
-            })
-            .collect(),
-        vertices: soup.points,
-        ..Template::default()
+    let (group, groups) = used_groups(group_of, groups.into_iter().map(|g| g.name).collect());
+    let mut surface = Surface {
+        solid: group.clone(),
+        partner: vec![NONE; triangles.len()],
+        points,
+        triangles,
+        group,
+        groups: unique_names(groups.iter().map(String::as_str), "region"),
+        group_word,
     };
-    let mut notices = soup.notices;
-    if region_volume(&template, 1) < 0.0 {
-        for t in &mut template.triangles {
-            t.vertices.swap(1, 2);
+    let degenerate = surface.drop_degenerate();
+    if surface.triangles.is_empty() {
+        return Err(ReadError::BadSurface(
+            "all its triangles have two equal corners".to_owned(),
+        ));
+    }
+    let mut edges = Edges::new(&surface.triangles);
+    let mut repeated = 0;
+    let merged = merge(&mut surface, &edges, false)?.dropped;
+    if merged > 0 {
+        repeated += merged;
+        edges = Edges::new(&surface.triangles);
+    }
+    let mut odd = odd_edges(&edges);
+    if !odd.is_empty()
+        && let Some(joined) = weld_near(&mut surface, &edges, &odd, relative_precision)
+    {
+        notices.push(joined);
+        edges = Edges::new(&surface.triangles);
+        odd = odd_edges(&edges);
+    }
+    let several = surface.groups.len() > 1;
+    let solids = if odd.is_empty() && several && groups_are_closed(&surface, &edges) {
+        surface.groups.len()
+    } else {
+        surface.solid.fill(0);
+        1
+    };
+    if several {
+        let merged = merge(&mut surface, &edges, true)?;
+        repeated += merged.dropped;
+        if merged.dropped + merged.interfaces > 0 {
+            edges = Edges::new(&surface.triangles);
+            odd = odd_edges(&edges);
         }
-        notices.push("the surface is oriented inwards: turned over".to_owned());
     }
-    let name = match soup.groups.first() {
-        Some(g) if !g.name.is_empty() => g.name.clone(),
-        _ => "region1".to_owned(),
-    };
-    let volume = region_volume(&template, 1);
-    let area: f64 = template
-        .triangles
-        .iter()
+    if surface.triangles.is_empty() {
+        return Err(ReadError::BadSurface(
+            "all its triangles cancel each other in pairs".to_owned(),
+        ));
+    }
+    if solids == 1
+        && let Some(error) = open_surface(&surface, &edges, &odd)
+    {
+        return Err(error);
+    }
+    if degenerate > 0 {
+        let (one, many) = ("triangle", "triangles");
+        notices.push(dropped(degenerate, one, many, "with two equal corners"));
+    }
+    if repeated > 0 {
+        let (one, many) = ("triangle", "triangles");
+        notices.push(dropped(repeated, one, many, "that the surface has twice"));
+    }
+    let labels = label(&surface, &edges, solids)?;
+    document(
+        tables(surface, labels, solids, relative_precision, notices),
+        format,
+    )
+}
+
+/// Drops groups without triangles.
+fn used_groups(group_of: Vec<u32>, groups: Vec<String>) -> (Vec<u32>, Vec<String>) {
+    let mut new_id = vec![NONE; groups.len()];
+    for &g in &group_of {
+        new_id[g as usize] = 0;
+    }
+    let mut kept = Vec::new();
+    for (id, name) in new_id.iter_mut().zip(groups) {
+        if *id != NONE {
+            *id = kept.len() as u32;
+            kept.push(name);
+        }
+    }
+    let group = group_of.into_iter().map(|g| new_id[g as usize]).collect();
+    (group, kept)
+}
+
+/// Joins ends of odd edges that differ by rounding; says so if that did anything.
+fn weld_near(
+    surface: &mut Surface,
+    edges: &Edges,
+    odd: &[usize],
+    relative_precision: f64,
+) -> Option<String> {
+    let tolerance = ROUNDINGS * relative_precision * largest_coordinate(&surface.points);
+    let mut ends: Vec<u32> = odd.iter().flat_map(|&e| edges.ends[e]).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    let joined = near_points(&surface.points, &ends, tolerance);
+    if joined.is_empty() {
+        return None;
+    }
+    let mut new_id: Vec<u32> = (0..surface.points.len() as u32).collect();
+    for &(from, to) in &joined {
+        new_id[from as usize] = to;
+    }
+    for t in &mut surface.triangles {
+        *t = t.map(|v| new_id[v as usize]);
+    }
+    surface.drop_degenerate();
+    Some(format!(
+        "{} to within {} of each other, the rounding of the file: joined",
+        counted(joined.len(), "point agrees", "points agree"),
+        short(tolerance)
+    ))
+}
+
+/// Regions and markers from labels.
+fn tables(
+    surface: Surface,
+    labels: Labels,
+    solids: usize,
+    relative_precision: f64,
+    mut notices: Vec<String>,
+) -> Labelled {
+    notices.extend(labels.notices);
+    let region = |solid: u32| if solid == NONE { OUTSIDE } else { solid + 1 };
+    // Interfaces are markers of their own, after those of the groups.
+    let mut pairs: Vec<[u32; 2]> = (0..surface.triangles.len())
+        .filter(|&t| surface.partner[t] != NONE)
+        .map(|t| sorted(surface.solid[t], surface.partner[t]))
+        .collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    let groups = surface.groups.len();
+    let triangles = (0..surface.triangles.len())
         .map(|t| {
-            let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
-            triangle_area(a, b, c)
+            let [a, b, c] = surface.triangles[t];
+            let marker = match surface.partner[t] {
+                NONE => surface.group[t] as usize,
+                partner => {
+                    let pair = sorted(surface.solid[t], partner);
+                    groups + pairs.partition_point(|p| *p < pair)
+                }
+            };
+            let turned = labels.turned[t];
+            Triangle {
+                vertices: if turned { [a, c, b] } else { [a, b, c] },
+                marker: marker as u32 + 1,
+                front: region(labels.front[t]),
+                back: region(labels.back[t]),
+            }
         })
-        .sum();
-    let extent = largest_coordinate(&template.vertices);
-    let source = Source {
-        format: format.to_owned(),
-        triangles: template.triangles.len() as u64,
-        volume,
-        boundary_area: boundary_area(&template),
-        precision: soup.relative_precision * extent,
-    };
-    let mut document = Document::single(template);
-    document.regions = vec![Region {
-        id: 1,
-        name: name.clone(),
-        max_volume: None,
-        volume: Some(volume),
-    }];
-    document.markers = vec![Marker {
-        id: 1,
-        name,
-        area: Some(area),
-    }];
-    document.source = Some(source);
-    Ok(Imported { document, notices })
-}
-
-fn largest_coordinate(points: &[DVec3]) -> f64 {
-    points
+        .collect();
+    let name = |solid: u32| surface.groups[solid as usize].as_str();
+    let interfaces = pairs
         .iter()
-        .fold(0.0_f64, |m, p| m.max(p.abs().max_element()))
+        .map(|&[a, b]| format!("{}/{}", name(a), name(b)));
+    let markers = (1..).zip(surface.groups.iter().cloned().chain(interfaces));
+    let regions = (1..=solids as u32).map(|id| Region {
+        id,
+        name: if solids == groups {
+            surface.groups[id as usize - 1].clone()
+        } else {
+            "region1".to_owned()
+        },
+        max_volume: None,
+        volume: None,
+    });
+    Labelled {
+        regions: regions.collect(),
+        markers: markers.collect(),
+        template: Template {
+            triangles,
+            vertices: surface.points,
+            ..Template::default()
+        },
+        relative_precision,
+        notices,
+    }
 }
 
-fn check_closed(points: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), ReadError> {
-    let edges = Edges::new(triangles);
-    let mut open = (0..edges.len()).filter(|&e| edges.around(e).len() % 2 == 1);
-    if let Some(first) = open.next() {
-        let count = 1 + open.count();
-        let [a, b] = edges.ends[first].map(|v| points[v as usize]);
-        return Err(ReadError::BadSurface(format!(
-            "the surface is not closed: {count} open edge{}, the first from ({}, {}, {}) to ({}, \
-             {}, {})",
-            if count == 1 { "" } else { "s" },
-            a.x,
-            a.y,
-            a.z,
-            b.x,
-            b.y,
-            b.z
-        )));
-    }
-    Ok(())
+fn sorted(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
 }

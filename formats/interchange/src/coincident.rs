@@ -1,0 +1,106 @@
+//! Triangles with the same three vertices.
+
+use crate::ReadError;
+use crate::place::place;
+use crate::surface::Surface;
+use geom::edges::{Edges, apex_of};
+
+/// What [`merge`] did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Merged {
+    /// Triangles dropped because the same solid has them more than once.
+    pub dropped: usize,
+    /// Triangles that now lie between two solids.
+    pub interfaces: usize,
+}
+
+/// Merges triangles with the same three vertices. Those of one solid cancel in pairs of opposite
+/// orientation, and one of what remains is kept. With `across`, of those of two solids one is kept,
+/// with the other solid as its partner.
+///
+/// # Errors
+/// More than two solids at one triangle.
+pub fn merge(surface: &mut Surface, edges: &Edges, across: bool) -> Result<Merged, ReadError> {
+    let mut candidates = candidates(surface, edges);
+    let mut merged = Merged::default();
+    if candidates.is_empty() {
+        return Ok(merged);
+    }
+    let key = |&t: &u32| {
+        let mut key = surface.triangles[t as usize];
+        key.sort_unstable();
+        key
+    };
+    candidates.sort_unstable_by_key(|t| (key(t), surface.solid[*t as usize], *t));
+    let mut drop = vec![false; surface.triangles.len()];
+    let mut partners = Vec::new();
+    for run in candidates.chunk_by(|s, t| key(s) == key(t)) {
+        if run.len() == 1 {
+            continue;
+        }
+        let mut kept = Vec::new();
+        for same in run.chunk_by(|&s, &t| surface.solid[s as usize] == surface.solid[t as usize]) {
+            let turn = |t: u32| is_even(surface.triangles[t as usize]);
+            let balance: i64 = same.iter().map(|&t| if turn(t) { 1 } else { -1 }).sum();
+            same.iter().for_each(|&t| drop[t as usize] = true);
+            if let Some(&keep) = same
+                .iter()
+                .find(|&&t| balance != 0 && turn(t) == (balance > 0))
+            {
+                drop[keep as usize] = false;
+                kept.push(keep);
+            }
+            merged.dropped += same.len() - usize::from(balance != 0);
+        }
+        match kept.as_slice() {
+            _ if !across => {}
+            [] | [_] => {}
+            &[s, t] => {
+                let (first, second) = (s.min(t), s.max(t));
+                drop[second as usize] = true;
+                partners.push((first, surface.solid[second as usize]));
+                merged.interfaces += 1;
+            }
+            [first, .., last] => {
+                let [a, b, c] = surface.corners(*first);
+                return Err(ReadError::BadSurface(format!(
+                    "solids overlap: {} of them, among them {} and {}, have the triangle at {}",
+                    kept.len(),
+                    surface.group_name(surface.solid[*first as usize]),
+                    surface.group_name(surface.solid[*last as usize]),
+                    place((a + b + c) / 3.0)
+                )));
+            }
+        }
+    }
+    for (t, partner) in partners {
+        surface.partner[t as usize] = partner;
+    }
+    if merged != Merged::default() {
+        surface.retain(|t| !drop[t]);
+    }
+    Ok(merged)
+}
+
+/// Triangles with an edge that has another triangle with the same apex. Coincident triangles have
+/// three of those.
+fn candidates(surface: &Surface, edges: &Edges) -> Vec<u32> {
+    let mut list = Vec::new();
+    for edge in 0..edges.len() {
+        let fan = edges.around(edge);
+        let apex = |i: usize| apex_of(&surface.triangles[fan[i].triangle as usize], fan[i].corner);
+        match fan.len() {
+            0 | 1 => {}
+            2 if apex(0) != apex(1) => {}
+            _ => list.extend(fan.iter().map(|u| u.triangle)),
+        }
+    }
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+/// Whether the vertex ids are an even permutation of their increasing order.
+fn is_even([a, b, c]: [u32; 3]) -> bool {
+    (a < b) as u8 + (b < c) as u8 + (c < a) as u8 == 2
+}
