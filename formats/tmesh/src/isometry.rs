@@ -3,8 +3,7 @@
 use glam::{DMat3, DVec3};
 use std::fmt;
 
-/// Largest denominator of a turn. Keeps every product of two denominators inside `u64`, and every
-/// least common multiple of two of them inside `u32`.
+/// Largest denominator of a turn, and largest common denominator of all turns of a document.
 pub const MAX_TURN_DENOMINATOR: u32 = 65_536;
 
 /// An element of an axial point group in the canonical frame (axis = z, mirror reference = x):
@@ -88,6 +87,12 @@ impl Isometry {
     }
 
     /// The product `self * other`: first `other`, then `self`.
+    ///
+    /// Isometries of one valid document have a common denominator in range, so their products stay
+    /// within it however many factors they have.
+    ///
+    /// # Panics
+    /// If the product's denominator exceeds [`MAX_TURN_DENOMINATOR`].
     pub fn compose(self, other: Self) -> Self {
         // M R(a) = R(-a) M, and H commutes with everything.
         let n = lcm(u64::from(self.n), u64::from(other.n));
@@ -95,10 +100,14 @@ impl Isometry {
         let b = u64::from(other.k) * (n / u64::from(other.n));
         let k = if self.mirrored { a + n - b % n } else { a + b } % n;
         let g = gcd(k, n);
-        let reduced = u32::try_from(n / g).expect("denominators are bounded");
+        let (k, n) = (k / g, n / g);
+        assert!(
+            n <= u64::from(MAX_TURN_DENOMINATOR),
+            "turn denominator {n} exceeds {MAX_TURN_DENOMINATOR}"
+        );
         Self {
-            n: reduced,
-            k: (k / g) as u32,
+            n: n as u32,
+            k: k as u32,
             mirrored: self.mirrored != other.mirrored,
             flipped: self.flipped != other.flipped,
         }
@@ -229,7 +238,7 @@ fn gcd(mut a: u64, mut b: u64) -> u64 {
     a.max(1)
 }
 
-fn lcm(a: u64, b: u64) -> u64 {
+pub(crate) fn lcm(a: u64, b: u64) -> u64 {
     a / gcd(a, b) * b
 }
 

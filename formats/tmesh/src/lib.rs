@@ -12,6 +12,7 @@ mod frame;
 mod isometry;
 mod symmetry;
 mod validate;
+mod violation;
 mod wall;
 
 pub use codec::{
@@ -26,5 +27,6 @@ pub use error::DecodeError;
 pub use frame::Frame;
 pub use isometry::{Isometry, MAX_TURN_DENOMINATOR};
 pub use symmetry::{Axis, OtherAxis, Promise, RejectedOrder, Symmetry};
-pub use validate::{Violation, validate};
+pub use validate::validate;
+pub use violation::Violation;
 pub use wall::{HubWall, MirrorWall, Plane, Seam, Wall};

@@ -1,209 +1,12 @@
 //! Invariants of a document, in one place for decoder, tests and `meshqual --check`.
 
-use crate::{Document, Instance, Isometry, OUTSIDE, Template, Wall};
+use crate::isometry::lcm;
+use crate::{
+    Document, Instance, Isometry, MAX_TURN_DENOMINATOR, OUTSIDE, Symmetry, Template, Violation,
+    Wall,
+};
 use glam::DVec3;
 use std::collections::{BTreeSet, HashSet};
-use thiserror::Error;
-
-/// One broken invariant.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum Violation {
-    /// No template.
-    #[error("it has no template")]
-    NoTemplate,
-    /// A coordinate is NaN or infinite.
-    #[error("vertex {vertex} of template {template} has the coordinates ({}, {}, {})", .position.x, .position.y, .position.z)]
-    NotFinite {
-        /// Template index.
-        template: usize,
-        /// Vertex index.
-        vertex: usize,
-        /// Its position.
-        position: DVec3,
-    },
-    /// An element names a vertex that is not there.
-    #[error(
-        "{element} {index} of template {template} names vertex {vertex}, and there are {count}"
-    )]
-    VertexOutOfRange {
-        /// `triangle`, `tetrahedron`, `axis entry`, or a wall's name.
-        element: String,
-        /// Which one.
-        index: usize,
-        /// Template index.
-        template: usize,
-        /// The vertex it names.
-        vertex: u32,
-        /// Vertices there are.
-        count: usize,
-    },
-    /// A wall names a triangle that is not there.
-    #[error(
-        "wall '{wall}' of template {template} names triangle {triangle}, and there are {count}"
-    )]
-    TriangleOutOfRange {
-        /// The wall's name.
-        wall: String,
-        /// Template index.
-        template: usize,
-        /// The triangle it names.
-        triangle: u32,
-        /// Triangles there are.
-        count: usize,
-    },
-    /// An element names a vertex twice.
-    #[error("{element} {index} of template {template} names vertex {vertex} twice")]
-    RepeatedVertex {
-        /// `triangle` or `tetrahedron`.
-        element: &'static str,
-        /// Which one.
-        index: usize,
-        /// Template index.
-        template: usize,
-        /// The vertex.
-        vertex: u32,
-    },
-    /// A region id is used that the region table does not list.
-    #[error(
-        "{element} {index} of template {template} has region {region}, which the region table does not list"
-    )]
-    UnknownRegion {
-        /// `triangle` or `tetrahedron`.
-        element: &'static str,
-        /// Which one.
-        index: usize,
-        /// Template index.
-        template: usize,
-        /// The region id.
-        region: u32,
-    },
-    /// The region or marker table has an id twice, out of order, or the reserved one.
-    #[error("the {table} table lists id {id} twice, out of order, or where it must not be")]
-    BadTable {
-        /// `region` or `marker`.
-        table: &'static str,
-        /// The id.
-        id: u32,
-    },
-    /// A wall's list is not increasing.
-    #[error(
-        "wall '{wall}' of template {template}: its list of {what} is not increasing at entry {index}"
-    )]
-    Unordered {
-        /// The wall's name.
-        wall: String,
-        /// Template index.
-        template: usize,
-        /// `vertices`, `triangles` or `pairs`.
-        what: &'static str,
-        /// First entry that is not larger than the one before.
-        index: usize,
-    },
-    /// A mirror wall's plane is not that of its reflection.
-    #[error(
-        "wall '{wall}' of template {template}: the plane is not the mirror plane of its reflection"
-    )]
-    BadPlane {
-        /// The wall's name.
-        wall: String,
-        /// Template index.
-        template: usize,
-    },
-    /// A vertex listed on a mirror wall is away from its plane.
-    #[error(
-        "wall '{wall}' of template {template}: vertex {vertex} is {distance:e} away from the plane"
-    )]
-    OffPlane {
-        /// The wall's name.
-        wall: String,
-        /// Template index.
-        template: usize,
-        /// The vertex.
-        vertex: u32,
-        /// Its distance, model units.
-        distance: f64,
-    },
-    /// A pair of a seam or hub wall whose members are not images of each other.
-    #[error(
-        "wall '{wall}' of template {template}: vertex {second} is not the image of vertex {first} (distance {distance:e})"
-    )]
-    NotAnImage {
-        /// The wall's name.
-        wall: String,
-        /// Template index.
-        template: usize,
-        /// First vertex of the pair.
-        first: u32,
-        /// Second vertex of the pair.
-        second: u32,
-        /// Distance between the image of one and the other, model units.
-        distance: f64,
-    },
-    /// A pair of triangles whose vertices are not paired.
-    #[error(
-        "wall '{wall}' of template {template}: triangles {first} and {second} are paired, but their vertices are not"
-    )]
-    TrianglesDiffer {
-        /// The wall's name.
-        wall: String,
-        /// Template index.
-        template: usize,
-        /// First triangle of the pair.
-        first: u32,
-        /// Second triangle of the pair.
-        second: u32,
-    },
-    /// An axis vertex is away from the axis.
-    #[error(
-        "vertex {vertex} of template {template} is listed on the axis, but lies {distance:e} away from it"
-    )]
-    OffAxis {
-        /// Template index.
-        template: usize,
-        /// The vertex.
-        vertex: u32,
-        /// Its distance, model units.
-        distance: f64,
-    },
-    /// An instance or a hub wall names something that is not there.
-    #[error("{what} names {target} {index}, and there are {count}")]
-    IndexOutOfRange {
-        /// Who names it.
-        what: String,
-        /// `template` or `region map`.
-        target: &'static str,
-        /// The index it names.
-        index: usize,
-        /// How many there are.
-        count: usize,
-    },
-    /// Two instances place the same template in the same way.
-    #[error("template {template} is placed twice by {isometry}")]
-    RepeatedInstance {
-        /// Template index.
-        template: usize,
-        /// The placement.
-        isometry: Isometry,
-    },
-    /// The instance beyond a wall is missing.
-    #[error(
-        "instance {isometry} of template {template} has no neighbour {neighbour} across wall '{wall}'"
-    )]
-    MissingNeighbour {
-        /// Template index.
-        template: usize,
-        /// The instance's placement.
-        isometry: Isometry,
-        /// The placement that is missing.
-        neighbour: Isometry,
-        /// The wall's name.
-        wall: String,
-    },
-    /// The frame is not a rotation and a finite shift.
-    #[error("the frame is not a rotation and a finite shift")]
-    BadFrame,
-}
 
 /// Distance from a mirror plane, relative to the template's extent, up to which a vertex counts as
 /// on the plane: a few units in the last place of the coordinates.
@@ -211,6 +14,10 @@ const PLANE_ROUNDING: f64 = 1e-14;
 
 /// Deviation from orthonormality up to which a frame counts as a rotation.
 const FRAME_ROUNDING: f64 = 1e-12;
+
+/// Deviation from unit length and from a right angle that directions of a symmetry may have: they
+/// are reported values, and whoever computes with them makes them orthonormal first.
+const DIRECTION_ROUNDING: f64 = 1e-6;
 
 /// All broken invariants of a document; empty when it is valid.
 ///
@@ -222,8 +29,12 @@ pub fn validate(document: &Document) -> Vec<Violation> {
         found.add(Violation::NoTemplate);
     }
     check_frame(document, &mut found);
-    check_tables(document, &mut found);
     let regions: HashSet<u32> = document.regions.iter().map(|r| r.id).collect();
+    check_tables(document, &regions, &mut found);
+    check_turns(document, &mut found);
+    if let Some(symmetry) = &document.symmetry {
+        check_symmetry(symmetry, &mut found);
+    }
     for (index, template) in document.templates.iter().enumerate() {
         check_template(index, template, &regions, &mut found);
     }
@@ -262,7 +73,7 @@ fn check_frame(document: &Document, found: &mut Collector) {
     }
 }
 
-fn check_tables(document: &Document, found: &mut Collector) {
+fn check_tables(document: &Document, regions: &HashSet<u32>, found: &mut Collector) {
     let mut check = |table: &'static str, ids: &mut dyn Iterator<Item = u32>| {
         let mut last = None;
         for id in ids {
@@ -276,6 +87,67 @@ fn check_tables(document: &Document, found: &mut Collector) {
     check("marker", &mut document.markers.iter().map(|m| m.id));
     for map in &document.region_maps {
         check("region map", &mut map.pairs.iter().map(|p| p[0]));
+    }
+    for [_, to] in document.region_maps.iter().flat_map(|m| &m.pairs) {
+        if !regions.contains(to) {
+            found.add(Violation::BadTable {
+                table: "region map",
+                id: *to,
+            });
+        }
+    }
+}
+
+/// Checks that all isometries belong to one group of bounded order, so that no product of them can
+/// leave the range of [`Isometry`].
+fn check_turns(document: &Document, found: &mut Collector) {
+    let steps = document.templates.iter().flat_map(|t| &t.walls);
+    let steps = steps.map(|wall| match wall {
+        Wall::Mirror(w) => w.reflection,
+        Wall::Seam(w) => w.rotation,
+        Wall::Hub(w) => w.placement,
+    });
+    let placements = document.instances.iter().map(|i| i.isometry);
+    let mut common = 1;
+    for isometry in placements.chain(steps) {
+        common = lcm(common, u64::from(isometry.n()));
+        if common > u64::from(MAX_TURN_DENOMINATOR) {
+            found.add(Violation::TurnsTooFine {
+                denominator: common,
+            });
+            return;
+        }
+    }
+}
+
+fn check_symmetry(symmetry: &Symmetry, found: &mut Collector) {
+    let mut bad = |reason: String| found.add(Violation::BadSymmetry { reason });
+    // Half steps of the order have to be turns too.
+    let most = MAX_TURN_DENOMINATOR / 2;
+    let promised = symmetry.promise.as_ref().map(|p| p.order);
+    for order in [Some(symmetry.order), promised].into_iter().flatten() {
+        if !(1..=most).contains(&order) {
+            bad(format!("has the order {order}, which is not in 1..={most}"));
+        }
+    }
+    let axis = DVec3::from_array(symmetry.axis.direction);
+    let mirror = DVec3::from_array(symmetry.mirror_direction);
+    for (what, direction) in [("axis", axis), ("mirror direction", mirror)] {
+        let length = direction.length();
+        // A NaN is not near to anything.
+        let is_unit = (length - 1.0).abs() <= DIRECTION_ROUNDING;
+        if !is_unit {
+            bad(format!("has the {what} {direction}, of length {length}"));
+        }
+    }
+    let is_orthogonal = axis.dot(mirror).abs() <= DIRECTION_ROUNDING;
+    if !is_orthogonal {
+        bad(format!(
+            "has the mirror direction {mirror}, which is not orthogonal to the axis {axis}"
+        ));
+    }
+    if !DVec3::from_array(symmetry.axis.point).is_finite() {
+        bad("has an axis through a point that is not finite".to_owned());
     }
 }
 
@@ -320,10 +192,11 @@ fn check_template(
         out_of_range("axis entry", i, v);
     }
     for wall in &template.walls {
-        wall.vertices().enumerate().for_each(|(i, v)| {
-            // Hub pairs name vertices of two templates; Wall::vertices yields only ours.
-            out_of_range(&format!("wall '{}'", wall.name()), i, v);
-        });
+        let element = format!("wall '{}'", wall.name());
+        // Hub pairs name vertices of two templates; Wall::vertices yields only ours.
+        wall.vertices()
+            .enumerate()
+            .for_each(|(i, v)| out_of_range(&element, i, v));
     }
     let triangles = template.triangles.len();
     for wall in &template.walls {
@@ -445,6 +318,20 @@ fn check_walls(index: usize, template: &Template, document: &Document, found: &m
                             template: index,
                             vertex,
                             distance,
+                        });
+                    }
+                }
+                for &triangle in &w.triangles {
+                    let corners = template.triangles[triangle as usize].vertices;
+                    let off = corners
+                        .iter()
+                        .find(|v| w.vertices.binary_search(v).is_err());
+                    if let Some(&vertex) = off {
+                        found.add(Violation::OpenWall {
+                            wall: w.name.clone(),
+                            template: index,
+                            triangle,
+                            vertex,
                         });
                     }
                 }

@@ -40,6 +40,14 @@ impl ChunkInfo {
         self.id.escape_ascii().to_string()
     }
 
+    /// Checks that the chunk belongs to the document, not to a template.
+    pub(super) fn of_document(&self) -> Result<(), DecodeError> {
+        match self.scope {
+            0 => Ok(()),
+            scope => Err(self.bad(format!("its scope is {scope}, and must be 0"))),
+        }
+    }
+
     pub(super) fn bad(&self, reason: impl Into<String>) -> DecodeError {
         DecodeError::BadChunk {
             id: self.name(),

@@ -56,6 +56,7 @@ pub(super) fn read<R: Read>(
     if info.id != INSTANCES {
         return Ok(false);
     }
+    info.of_document()?;
     let stored: Vec<StoredInstance> = reader.array(info)?;
     document.instances = stored
         .into_iter()

@@ -20,6 +20,19 @@ pub(super) fn read<R: Read>(
     info: &ChunkInfo,
     document: &mut Document,
 ) -> Result<bool, DecodeError> {
+    const KNOWN: [[u8; 4]; 7] = [
+        FRAME,
+        SYMMETRY,
+        REGIONS,
+        MARKERS,
+        REGION_MAPS,
+        SOURCE,
+        HISTORY,
+    ];
+    if !KNOWN.contains(&info.id) {
+        return Ok(false);
+    }
+    info.of_document()?;
     match info.id {
         FRAME => {
             let v: Vec<f64> = reader.array(info)?;
@@ -36,8 +49,7 @@ pub(super) fn read<R: Read>(
         MARKERS => document.markers = json(reader, info)?,
         REGION_MAPS => document.region_maps = json(reader, info)?,
         SOURCE => document.source = Some(json(reader, info)?),
-        HISTORY => document.history = json(reader, info)?,
-        _ => return Ok(false),
+        _ => document.history = json(reader, info)?,
     }
     Ok(true)
 }

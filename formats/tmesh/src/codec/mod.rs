@@ -14,6 +14,7 @@ pub use template::{TETS, TRIANGLES, VERTICES};
 
 use crate::{DecodeError, Document, Frame, validate};
 use chunk::ChunkReader;
+use std::collections::BTreeSet;
 use std::io::{self, Read, Write};
 
 /// Reads a whole document and checks every invariant of [`crate::validate`].
@@ -37,6 +38,7 @@ pub fn read_with_chunks<R: Read>(reader: R) -> Result<(Document, Vec<ChunkInfo>)
         source: None,
         history: Vec::new(),
     };
+    let mut met = BTreeSet::new();
     while let Some(header) = reader.next_chunk()? {
         let known = metadata::read(&mut reader, &header, &mut document)?
             || instances::read(&mut reader, &header, &mut document)?
@@ -44,6 +46,8 @@ pub fn read_with_chunks<R: Read>(reader: R) -> Result<(Document, Vec<ChunkInfo>)
             || wall::read(&mut reader, &header, &mut document)?;
         if !known {
             reader.skip(&header)?;
+        } else if !wall::repeats(&header) && !met.insert((header.id, header.scope)) {
+            return Err(header.bad("it is there twice"));
         }
     }
     let chunks = reader.finish()?;

@@ -27,6 +27,11 @@ struct Header {
     plane: [[u32; 2]; 4],
 }
 
+/// Whether a template may have several chunks of this kind.
+pub(super) fn repeats(info: &ChunkInfo) -> bool {
+    info.id == WALL
+}
+
 const HEADER_WORDS: usize = size_of::<Header>() / 4;
 
 fn words(x: f64) -> [u32; 2] {
@@ -75,13 +80,19 @@ pub(super) fn write<W: Write>(
             ),
         };
     let name = wall.name().as_bytes();
+    let count = |length: usize| {
+        u32::try_from(length).map_err(|_| {
+            let text = format!("wall '{}' has {length} ids, too many to write", wall.name());
+            io::Error::new(io::ErrorKind::InvalidData, text)
+        })
+    };
     let header = Header {
         kind,
         other,
         isometry: StoredIsometry::new(isometry),
-        name_bytes: name.len() as u32,
-        vertices: vertices.len() as u32,
-        triangles: triangles.len() as u32,
+        name_bytes: count(name.len())?,
+        vertices: count(vertices.len())?,
+        triangles: count(triangles.len())?,
         plane: plane.map(words),
     };
     let name_words = name.len().div_ceil(4);

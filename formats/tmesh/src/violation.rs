@@ -1,0 +1,234 @@
+//! What can be wrong with a document.
+
+use crate::Isometry;
+use glam::DVec3;
+use thiserror::Error;
+
+/// One broken invariant.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Violation {
+    /// No template.
+    #[error("it has no template")]
+    NoTemplate,
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {vertex} of template {template} has the coordinates ({}, {}, {})", .position.x, .position.y, .position.z)]
+    NotFinite {
+        /// Template index.
+        template: usize,
+        /// Vertex index.
+        vertex: usize,
+        /// Its position.
+        position: DVec3,
+    },
+    /// An element names a vertex that is not there.
+    #[error(
+        "{element} {index} of template {template} names vertex {vertex}, and there are {count}"
+    )]
+    VertexOutOfRange {
+        /// `triangle`, `tetrahedron`, `axis entry`, or a wall's name.
+        element: String,
+        /// Which one.
+        index: usize,
+        /// Template index.
+        template: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// Vertices there are.
+        count: usize,
+    },
+    /// A wall names a triangle that is not there.
+    #[error(
+        "wall '{wall}' of template {template} names triangle {triangle}, and there are {count}"
+    )]
+    TriangleOutOfRange {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// The triangle it names.
+        triangle: u32,
+        /// Triangles there are.
+        count: usize,
+    },
+    /// An element names a vertex twice.
+    #[error("{element} {index} of template {template} names vertex {vertex} twice")]
+    RepeatedVertex {
+        /// `triangle` or `tetrahedron`.
+        element: &'static str,
+        /// Which one.
+        index: usize,
+        /// Template index.
+        template: usize,
+        /// The vertex.
+        vertex: u32,
+    },
+    /// A region id is used that the region table does not list.
+    #[error(
+        "{element} {index} of template {template} has region {region}, which the region table does not list"
+    )]
+    UnknownRegion {
+        /// `triangle` or `tetrahedron`.
+        element: &'static str,
+        /// Which one.
+        index: usize,
+        /// Template index.
+        template: usize,
+        /// The region id.
+        region: u32,
+    },
+    /// The region or marker table has an id twice, out of order, or the reserved one.
+    #[error("the {table} table lists id {id} twice, out of order, or where it must not be")]
+    BadTable {
+        /// `region`, `marker` or `region map`.
+        table: &'static str,
+        /// The id.
+        id: u32,
+    },
+    /// A wall's list is not increasing.
+    #[error(
+        "wall '{wall}' of template {template}: its list of {what} is not increasing at entry {index}"
+    )]
+    Unordered {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// `vertices`, `triangles` or `pairs`.
+        what: &'static str,
+        /// First entry that is not larger than the one before.
+        index: usize,
+    },
+    /// A mirror wall's plane is not that of its reflection.
+    #[error(
+        "wall '{wall}' of template {template}: the plane is not the mirror plane of its reflection"
+    )]
+    BadPlane {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+    },
+    /// A vertex listed on a mirror wall is away from its plane.
+    #[error(
+        "wall '{wall}' of template {template}: vertex {vertex} is {distance:e} away from the plane"
+    )]
+    OffPlane {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// The vertex.
+        vertex: u32,
+        /// Its distance, model units.
+        distance: f64,
+    },
+    /// A pair of a seam or hub wall whose members are not images of each other.
+    #[error(
+        "wall '{wall}' of template {template}: vertex {second} is not the image of vertex {first} (distance {distance:e})"
+    )]
+    NotAnImage {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// First vertex of the pair.
+        first: u32,
+        /// Second vertex of the pair.
+        second: u32,
+        /// Distance between the image of one and the other, model units.
+        distance: f64,
+    },
+    /// A pair of triangles whose vertices are not paired.
+    #[error(
+        "wall '{wall}' of template {template}: triangles {first} and {second} are paired, but their vertices are not"
+    )]
+    TrianglesDiffer {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// First triangle of the pair.
+        first: u32,
+        /// Second triangle of the pair.
+        second: u32,
+    },
+    /// An axis vertex is away from the axis.
+    #[error(
+        "vertex {vertex} of template {template} is listed on the axis, but lies {distance:e} away from it"
+    )]
+    OffAxis {
+        /// Template index.
+        template: usize,
+        /// The vertex.
+        vertex: u32,
+        /// Its distance, model units.
+        distance: f64,
+    },
+    /// An instance or a hub wall names something that is not there.
+    #[error("{what} names {target} {index}, and there are {count}")]
+    IndexOutOfRange {
+        /// Who names it.
+        what: String,
+        /// `template` or `region map`.
+        target: &'static str,
+        /// The index it names.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// Two instances place the same template in the same way.
+    #[error("template {template} is placed twice by {isometry}")]
+    RepeatedInstance {
+        /// Template index.
+        template: usize,
+        /// The placement.
+        isometry: Isometry,
+    },
+    /// The instance beyond a wall is missing.
+    #[error(
+        "instance {isometry} of template {template} has no neighbour {neighbour} across wall '{wall}'"
+    )]
+    MissingNeighbour {
+        /// Template index.
+        template: usize,
+        /// The instance's placement.
+        isometry: Isometry,
+        /// The placement that is missing.
+        neighbour: Isometry,
+        /// The wall's name.
+        wall: String,
+    },
+    /// A triangle listed on a mirror wall has a vertex that is not.
+    #[error(
+        "wall '{wall}' of template {template} lists triangle {triangle}, but not its vertex {vertex}"
+    )]
+    OpenWall {
+        /// The wall's name.
+        wall: String,
+        /// Template index.
+        template: usize,
+        /// The triangle.
+        triangle: u32,
+        /// Its vertex.
+        vertex: u32,
+    },
+    /// The turns of the document's isometries have no common denominator in the allowed range.
+    #[error(
+        "the turns of its instances and walls have {denominator} for common denominator, and {} is the largest allowed",
+        crate::MAX_TURN_DENOMINATOR
+    )]
+    TurnsTooFine {
+        /// Least common multiple of the denominators up to the first that leaves the range.
+        denominator: u64,
+    },
+    /// The symmetry makes no sense.
+    #[error("the symmetry {reason}")]
+    BadSymmetry {
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The frame is not a rotation and a finite shift.
+    #[error("the frame is not a rotation and a finite shift")]
+    BadFrame,
+}
