@@ -1,0 +1,6 @@
+//! The bytes of a document: what is written, what is read back, what is refused.
+
+mod golden;
+mod isometries;
+mod refused;
+mod samples;

@@ -1,0 +1,631 @@
+//! Damaged and hostile documents: each is an error, none a panic or an allocation beyond its size.
+
+use crate::samples::{bytes, column, pyramid};
+use glam::DVec3;
+use std::io::{self, Read};
+use tmesh::{ChunkWriter, DecodeError, Document, Isometry, Violation, Wall, read};
+
+fn error(bytes: &[u8]) -> DecodeError {
+    match read(bytes) {
+        Err(error) => error,
+        Ok(_) => panic!("it was accepted"),
+    }
+}
+
+/// The first violation of a document that is written as it is, and how many there are.
+fn violation(document: &Document) -> Violation {
+    match error(&bytes(document)) {
+        DecodeError::Invalid { first, .. } => first,
+        other => panic!("{other}"),
+    }
+}
+
+/// A document of hand-made chunks.
+fn chunks(fill: impl FnOnce(&mut ChunkWriter<&mut Vec<u8>>) -> io::Result<()>) -> Vec<u8> {
+    let mut raw = Vec::new();
+    let mut writer = ChunkWriter::begin(&mut raw).expect("memory");
+    fill(&mut writer).expect("memory");
+    writer.finish().expect("memory");
+    raw
+}
+
+#[test]
+fn nothing() {
+    let text = error(b"").to_string();
+    assert_eq!(text, "the input is empty; did the previous stage fail?");
+}
+
+#[test]
+fn every_truncation() {
+    for document in [pyramid(), column()] {
+        let whole = bytes(&document);
+        for length in 1..whole.len() {
+            match error(&whole[..length]) {
+                DecodeError::Truncated { offset, .. } => assert_eq!(offset, length as u64),
+                other => panic!("cut at {length}: {other}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn every_byte_altered() {
+    for document in [pyramid(), column()] {
+        let whole = bytes(&document);
+        for place in 0..whole.len() {
+            for change in [0x01, 0x80, 0xff] {
+                let mut damaged = whole.clone();
+                damaged[place] ^= change;
+                match error(&damaged) {
+                    DecodeError::BadMagic { .. } => assert!(place < 8),
+                    DecodeError::Checksum { .. } => assert!(place >= 8),
+                    other => panic!("byte {place} xor {change:#x}: {other}"),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn bytes_after_the_end() {
+    let mut more = bytes(&pyramid());
+    let end = more.len() as u64;
+    more.push(0);
+    assert!(matches!(error(&more), DecodeError::TrailingBytes { offset } if offset == end));
+    // Two documents in one stream are not one document.
+    let two = [bytes(&pyramid()), bytes(&pyramid())].concat();
+    assert!(matches!(error(&two), DecodeError::TrailingBytes { offset } if offset == end));
+}
+
+#[test]
+fn another_format() {
+    let text = error(b"solid cube\nfacet normal 0 0 1\n").to_string();
+    assert!(text.starts_with("not a tmesh document"), "{text}");
+    // What a transfer in text mode makes of the line end.
+    let mut unixed = bytes(&pyramid());
+    unixed.remove(6);
+    assert!(matches!(error(&unixed), DecodeError::BadMagic { .. }));
+}
+
+#[test]
+fn another_version() {
+    let mut newer = bytes(&pyramid());
+    newer[8] = 2;
+    let crc = crc32fast::hash(&newer[..12]);
+    newer[12..16].copy_from_slice(&crc.to_le_bytes());
+    let text = error(&newer).to_string();
+    assert!(
+        text.contains("format version 2") && text.contains("reads version 1"),
+        "{text}"
+    );
+    // A newer minor version only adds chunks that may be skipped.
+    let mut newer = bytes(&pyramid());
+    newer[10] = 200;
+    let crc = crc32fast::hash(&newer[..12]);
+    newer[12..16].copy_from_slice(&crc.to_le_bytes());
+    assert_eq!(read(newer.as_slice()).expect("readable"), pyramid());
+}
+
+/// The chunks of a written document, with one more before the end marker.
+fn with_chunk(document: &Document, id: [u8; 4], payload: &[u8]) -> Vec<u8> {
+    let whole = bytes(document);
+    let (_, list) = tmesh::read_with_chunks(whole.as_slice()).expect("valid");
+    chunks(|writer| {
+        for chunk in &list {
+            let start = chunk.offset as usize + 24;
+            let data = &whole[start..start + chunk.length as usize];
+            writer.array(chunk.id, chunk.scope, data)?;
+        }
+        writer.array(id, 0, payload)
+    })
+}
+
+#[test]
+fn unknown_chunks() {
+    let optional = with_chunk(&column(), *b"note", b"anything, 17 bytes");
+    let (document, list) = tmesh::read_with_chunks(optional.as_slice()).expect("skipped");
+    assert_eq!(document, column());
+    let last = list.last().expect("chunks");
+    assert_eq!(
+        (last.name().as_str(), last.known, last.length),
+        ("note", false, 18)
+    );
+    assert!(list.iter().rev().skip(1).all(|c| c.known));
+
+    match error(&with_chunk(&column(), *b"CURV", &[0; 40])) {
+        DecodeError::UnknownCritical { id, .. } => assert_eq!(id, "CURV"),
+        other => panic!("{other}"),
+    }
+    // Damage in a chunk that is skipped is damage all the same.
+    let mut damaged = optional;
+    let place = damaged.len() - 24 - 16 - 8 - 10;
+    damaged[place] ^= 1;
+    assert!(matches!(error(&damaged), DecodeError::Checksum { .. }));
+}
+
+#[test]
+fn chunks_twice_or_out_of_place() {
+    let text = error(&with_chunk(&pyramid(), *b"REGN", b"[]")).to_string();
+    assert!(text.ends_with("it is there twice"), "{text}");
+    let text = error(&with_chunk(&pyramid(), *b"TRIS", &[])).to_string();
+    assert!(text.ends_with("it is there twice"), "{text}");
+    let scoped = chunks(|w| w.array(*b"REGN", 3, b"[]"));
+    let text = error(&scoped).to_string();
+    assert!(text.ends_with("its scope is 3, and must be 0"), "{text}");
+    let early = chunks(|w| w.array::<u32>(*b"TRIS", 0, &[]));
+    let text = error(&early).to_string();
+    assert!(
+        text.ends_with("it belongs to template 0, and 0 have begun"),
+        "{text}"
+    );
+    let gap = chunks(|w| w.array::<f64>(*b"VERT", 1, &[]));
+    let text = error(&gap).to_string();
+    assert!(
+        text.ends_with("template 1 where template 0 should begin"),
+        "{text}"
+    );
+    let nothing = chunks(|_| Ok(()));
+    assert!(matches!(
+        error(&nothing),
+        DecodeError::Invalid {
+            first: Violation::NoTemplate,
+            ..
+        }
+    ));
+}
+
+#[test]
+fn an_end_marker_that_counts_otherwise() {
+    let mut raw = bytes(&pyramid());
+    let payload = raw.len() - 24;
+    raw[payload] += 1;
+    let crc = crc32fast::hash(&raw[payload..payload + 16]);
+    let trailer = raw.len() - 8;
+    raw[trailer..trailer + 4].copy_from_slice(&crc.to_le_bytes());
+    let text = error(&raw).to_string();
+    assert!(
+        text.contains("chunk 'END '") && text.contains("were read"),
+        "{text}"
+    );
+}
+
+/// Notes the largest buffer it was asked to fill.
+struct Watched<'a> {
+    bytes: &'a [u8],
+    largest: usize,
+}
+
+impl Read for Watched<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        self.largest = self.largest.max(buffer.len());
+        self.bytes.read(buffer)
+    }
+}
+
+#[test]
+fn hostile_lengths_allocate_little() {
+    for length in [1 << 20, 1 << 31, 1 << 40, 1 << 62, u64::MAX - 7] {
+        for id in [
+            *b"VERT", *b"TRIS", *b"TETS", *b"AXIS", *b"INST", *b"REGN", *b"FRAM", *b"note",
+        ] {
+            // The header of a chunk after an empty template, and not a byte of what it promises.
+            let mut raw = chunks(|w| {
+                if id != *b"VERT" {
+                    w.array::<f64>(*b"VERT", 0, &[])?;
+                }
+                Ok(())
+            });
+            raw.truncate(raw.len() - 48);
+            let mut header = Vec::new();
+            header.extend(id);
+            header.extend(0_u32.to_le_bytes());
+            header.extend((length / 120 * 120).to_le_bytes());
+            header.extend(crc32fast::hash(&header).to_le_bytes());
+            header.extend([0; 4]);
+            raw.extend(header);
+            let mut input = Watched {
+                bytes: &raw,
+                largest: 0,
+            };
+            match read(&mut input) {
+                Err(DecodeError::Truncated { offset, .. }) => assert_eq!(offset, raw.len() as u64),
+                other => panic!("{:?} of {length}: {other:?}", id.escape_ascii().to_string()),
+            }
+            assert!(
+                input.largest <= 1 << 20,
+                "a buffer of {} bytes",
+                input.largest
+            );
+        }
+    }
+}
+
+#[test]
+fn hostile_counts_inside_a_wall() {
+    for (name, vertices, triangles) in [
+        (u32::MAX, 0, 0),
+        (0, u32::MAX, u32::MAX),
+        (0, 1, 0),
+        (5, 0, 0),
+    ] {
+        let raw = chunks(|w| {
+            w.array::<f64>(*b"VERT", 0, &[])?;
+            let mut words = [0_u32; 16];
+            words[..8].copy_from_slice(&[2, 0, 0, 1, 0, name, vertices, triangles]);
+            w.array(*b"WALL", 0, &words)
+        });
+        let text = error(&raw).to_string();
+        assert!(text.contains("which is not its size"), "{text}");
+    }
+}
+
+#[test]
+fn walls_that_make_no_sense() {
+    let wall = |words: &[u32]| {
+        let raw = chunks(|w| {
+            w.array::<f64>(*b"VERT", 0, &[])?;
+            w.array(*b"WALL", 0, words)
+        });
+        error(&raw).to_string()
+    };
+    let fixed = |kind, name, vertices| {
+        let mut words = vec![0_u32; 16];
+        words[..8].copy_from_slice(&[kind, 0, 0, 1, 0, name, vertices, 0]);
+        words
+    };
+    assert!(wall(&[2, 0, 0, 1]).ends_with("shorter than its fixed part"));
+    assert!(wall(&fixed(9, 0, 0)).ends_with("9 is no kind of wall"));
+    for kind in [2, 3] {
+        let odd = [fixed(kind, 0, 3), vec![0; 3]].concat();
+        assert!(wall(&odd).ends_with("an odd number of ids in pairs"));
+    }
+    let latin = [fixed(1, 2, 0), vec![0x0000_fcfc]].concat();
+    assert!(wall(&latin).ends_with("its name is not UTF-8"));
+    let ragged = chunks(|w| {
+        w.array::<f64>(*b"VERT", 0, &[])?;
+        w.array(*b"WALL", 0, &[0_u8; 66])
+    });
+    let text = error(&ragged).to_string();
+    assert!(
+        text.ends_with("66 bytes are not a whole number of 4"),
+        "{text}"
+    );
+}
+
+#[test]
+fn json_that_is_not_as_expected() {
+    let deep = [vec![b'['; 100_000], vec![b']'; 100_000]].concat();
+    let cases: [(&[u8; 4], &[u8]); 8] = [
+        (b"REGN", &deep),
+        (b"SYMM", &deep),
+        (b"hist", b"{}"),
+        (b"REGN", b"[{\"id\": -1, \"name\": \"x\"}]"),
+        (b"REGN", b"[{\"id\": 4294967296, \"name\": \"x\"}]"),
+        (
+            b"srce",
+            b"{\"format\": \"stl\", \"triangles\": 1, \"volume\": 1e999}",
+        ),
+        (b"MARK", b"[\xff]"),
+        (b"RMAP", b"[{\"pairs\": [[1]]}]"),
+    ];
+    for (id, json) in cases {
+        let text = error(&chunks(|w| w.array(*id, 0, json))).to_string();
+        assert!(text.contains("its JSON is not as expected"), "{text}");
+    }
+    let short = chunks(|w| w.array(*b"FRAM", 0, &[0.0_f64; 11]));
+    assert!(error(&short).to_string().ends_with("11 numbers, not 12"));
+}
+
+#[test]
+fn numbers_that_are_none() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut document = pyramid();
+        document.templates[0].vertices[2].y = bad;
+        let text = violation(&document).to_string();
+        assert!(
+            text.starts_with("vertex 2 of template 0 has the coordinates (0, "),
+            "{text}"
+        );
+        let mut document = pyramid();
+        document.frame.origin.z = bad;
+        assert_eq!(violation(&document), Violation::BadFrame);
+        let mut document = pyramid();
+        document.frame.rotation.x_axis.x = bad;
+        assert_eq!(violation(&document), Violation::BadFrame);
+        let mut document = pyramid();
+        mirror(&mut document).plane.normal.x = bad;
+        assert!(matches!(violation(&document), Violation::BadPlane { .. }));
+    }
+    let mut document = pyramid();
+    document.frame.rotation = -document.frame.rotation;
+    assert_eq!(violation(&document), Violation::BadFrame);
+}
+
+fn mirror(document: &mut Document) -> &mut tmesh::MirrorWall {
+    match &mut document.templates[0].walls[0] {
+        Wall::Mirror(wall) => wall,
+        _ => panic!("the pyramid has mirror walls"),
+    }
+}
+
+fn seam(document: &mut Document, template: usize) -> &mut tmesh::Seam {
+    match &mut document.templates[template].walls[0] {
+        Wall::Seam(wall) => wall,
+        _ => panic!("the column has seams"),
+    }
+}
+
+fn hub(document: &mut Document) -> &mut tmesh::HubWall {
+    match &mut document.templates[0].walls[1] {
+        Wall::Hub(wall) => wall,
+        _ => panic!("the column has a hub"),
+    }
+}
+
+#[test]
+fn indices_out_of_range() {
+    let mut document = pyramid();
+    document.templates[0].triangles[3].vertices[1] = 4;
+    let text = violation(&document).to_string();
+    assert_eq!(
+        text,
+        "triangle 3 of template 0 names vertex 4, and there are 4"
+    );
+    let mut document = pyramid();
+    document.templates[0].tets[0].vertices[3] = u32::MAX;
+    assert!(matches!(
+        violation(&document),
+        Violation::VertexOutOfRange {
+            vertex: u32::MAX,
+            ..
+        }
+    ));
+    let mut document = pyramid();
+    document.templates[0].axis[1] = 9;
+    assert!(matches!(
+        violation(&document),
+        Violation::VertexOutOfRange { vertex: 9, .. }
+    ));
+    let mut document = pyramid();
+    mirror(&mut document).vertices[2] = 4;
+    assert!(matches!(
+        violation(&document),
+        Violation::VertexOutOfRange { vertex: 4, .. }
+    ));
+    let mut document = pyramid();
+    mirror(&mut document).triangles[0] = 4;
+    assert!(matches!(
+        violation(&document),
+        Violation::TriangleOutOfRange { triangle: 4, .. }
+    ));
+    let mut document = column();
+    seam(&mut document, 1).vertex_pairs[3][1] = 6;
+    assert!(matches!(
+        violation(&document),
+        Violation::VertexOutOfRange { vertex: 6, .. }
+    ));
+    let mut document = column();
+    hub(&mut document).vertex_pairs[3][1] = 6;
+    assert!(matches!(
+        violation(&document),
+        Violation::VertexOutOfRange { template: 1, .. }
+    ));
+    let mut document = column();
+    hub(&mut document).triangle_pairs[1][1] = 8;
+    assert!(matches!(
+        violation(&document),
+        Violation::TriangleOutOfRange { template: 1, .. }
+    ));
+    let mut document = column();
+    hub(&mut document).other = 2;
+    assert!(matches!(
+        violation(&document),
+        Violation::IndexOutOfRange { index: 2, .. }
+    ));
+    let mut document = column();
+    document.instances[2].template = 5;
+    let text = violation(&document).to_string();
+    assert_eq!(text, "instance 2 names template 5, and there are 2");
+    let mut document = column();
+    document.instances[2].region_map = 2;
+    let text = violation(&document).to_string();
+    assert_eq!(text, "instance 2 names region map 2, and there are 1");
+}
+
+#[test]
+fn elements_and_tables_that_contradict_each_other() {
+    let mut document = pyramid();
+    document.templates[0].triangles[0].vertices = [0, 2, 2];
+    assert!(matches!(
+        violation(&document),
+        Violation::RepeatedVertex { vertex: 2, .. }
+    ));
+    let mut document = pyramid();
+    document.templates[0].tets[0].region = 7;
+    assert!(matches!(
+        violation(&document),
+        Violation::UnknownRegion { region: 7, .. }
+    ));
+    let mut document = pyramid();
+    document.templates[0].triangles[0].front = 7;
+    assert!(matches!(
+        violation(&document),
+        Violation::UnknownRegion { region: 7, .. }
+    ));
+    let mut document = column();
+    document.regions.swap(0, 1);
+    assert!(matches!(
+        violation(&document),
+        Violation::BadTable {
+            table: "region",
+            ..
+        }
+    ));
+    let mut document = column();
+    document.markers[1].id = 7;
+    assert!(matches!(
+        violation(&document),
+        Violation::BadTable {
+            table: "marker",
+            id: 7
+        }
+    ));
+    let mut document = column();
+    document.region_maps[0].pairs[0][1] = 3;
+    assert!(matches!(
+        violation(&document),
+        Violation::BadTable {
+            table: "region map",
+            id: 3
+        }
+    ));
+    let mut document = column();
+    document.symmetry.as_mut().expect("there").order = 0;
+    let text = violation(&document).to_string();
+    assert_eq!(
+        text,
+        "the symmetry has the order 0, which is not in 1..=32768"
+    );
+    let mut document = column();
+    document.symmetry.as_mut().expect("there").mirror_direction = [0.8, 0.6, 0.0];
+    assert!(
+        violation(&document)
+            .to_string()
+            .contains("not orthogonal to the axis")
+    );
+    let mut document = column();
+    document.symmetry.as_mut().expect("there").axis.direction = [0.0; 3];
+    assert!(violation(&document).to_string().contains("of length 0"));
+}
+
+#[test]
+fn walls_that_do_not_match() {
+    let mut document = pyramid();
+    document.templates[0].vertices[1].y = 1e-9;
+    assert!(matches!(
+        violation(&document),
+        Violation::OffPlane { vertex: 1, .. }
+    ));
+    let mut document = pyramid();
+    mirror(&mut document).plane.normal = DVec3::X;
+    assert!(matches!(violation(&document), Violation::BadPlane { .. }));
+    let mut document = pyramid();
+    mirror(&mut document).plane.offset = 0.5;
+    assert!(matches!(violation(&document), Violation::BadPlane { .. }));
+    let mut document = pyramid();
+    mirror(&mut document).triangles[0] = 0;
+    assert!(matches!(
+        violation(&document),
+        Violation::OpenWall {
+            triangle: 0,
+            vertex: 2,
+            ..
+        }
+    ));
+    let mut document = pyramid();
+    mirror(&mut document).vertices.swap(0, 1);
+    assert!(matches!(
+        violation(&document),
+        Violation::Unordered {
+            what: "vertices",
+            ..
+        }
+    ));
+    let mut document = pyramid();
+    document.templates[0].axis[1] = 1;
+    assert!(matches!(
+        violation(&document),
+        Violation::OffAxis { vertex: 1, .. }
+    ));
+
+    let mut document = column();
+    document.templates[0].vertices[6].y += f64::EPSILON;
+    assert!(matches!(
+        violation(&document),
+        Violation::NotAnImage {
+            first: 0,
+            second: 6,
+            ..
+        }
+    ));
+    let mut document = column();
+    seam(&mut document, 0).triangle_pairs[0][1] = 5;
+    assert!(matches!(
+        violation(&document),
+        Violation::TrianglesDiffer {
+            first: 0,
+            second: 5,
+            ..
+        }
+    ));
+    let mut document = column();
+    seam(&mut document, 0).vertex_pairs.swap(0, 1);
+    assert!(matches!(
+        violation(&document),
+        Violation::Unordered { what: "pairs", .. }
+    ));
+    let mut document = column();
+    hub(&mut document).vertex_pairs[0][1] = 3;
+    assert!(matches!(violation(&document), Violation::NotAnImage { .. }));
+    let mut document = column();
+    hub(&mut document).placement = Isometry::rotation(1, 4);
+    assert!(matches!(violation(&document), Violation::NotAnImage { .. }));
+}
+
+#[test]
+fn instances_that_do_not_fit_together() {
+    let mut document = pyramid();
+    document.instances[3] = document.instances[0];
+    assert!(matches!(
+        violation(&document),
+        Violation::RepeatedInstance { .. }
+    ));
+    let mut document = pyramid();
+    document.instances.pop();
+    let text = violation(&document).to_string();
+    assert!(
+        text.contains("has no neighbour 1/2 mirrored across wall"),
+        "{text}"
+    );
+    // A hub that is missing somewhere.
+    let mut document = column();
+    document.instances.remove(1);
+    assert!(matches!(
+        violation(&document),
+        Violation::MissingNeighbour { .. }
+    ));
+    // A wedge alone is a sector, and valid.
+    let mut document = pyramid();
+    document.instances.truncate(1);
+    assert_eq!(read(bytes(&document).as_slice()).expect("valid"), document);
+}
+
+#[test]
+fn a_reader_that_fails() {
+    struct Broken;
+    impl Read for Broken {
+        fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+            Err(io::Error::other("the disk is on fire"))
+        }
+    }
+    let whole = bytes(&pyramid());
+    for length in [0, 5, 16, 30, 200, whole.len()] {
+        match read((&whole[..length]).chain(Broken)) {
+            Err(DecodeError::Io(e)) => assert_eq!(e.to_string(), "the disk is on fire"),
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+#[test]
+fn one_byte_at_a_time() {
+    struct Trickle<'a>(&'a [u8]);
+    impl Read for Trickle<'_> {
+        fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+            let length = buffer.len().min(1);
+            self.0.read(&mut buffer[..length])
+        }
+    }
+    let whole = bytes(&column());
+    assert_eq!(read(Trickle(&whole)).expect("valid"), column());
+}
