@@ -33,10 +33,22 @@ pub struct Cli {
     #[arg(allow_hyphen_values = true)]
     start_angle: Angle,
 
+    /// Column around the axis that is meshed apart from the wedge: `none`, or `auto` to have one
+    /// where it pays; this version never makes one
+    #[arg(long, value_enum, default_value_t)]
+    hub: Hub,
+
     /// Move points within this distance of a cut face onto it, relative to the radius about the
     /// axis [default: from the input's precision and the symmetry's residual]
     #[arg(long, value_name = "REL", value_parser = relative)]
     snap: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+enum Hub {
+    #[default]
+    Auto,
+    None,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +96,7 @@ impl Command for Cli {
             start_angle: self.start_angle.0.map(f64::to_radians),
             snap: self.snap,
         };
+        let (Hub::Auto | Hub::None) = self.hub;
         let document = session.read()?;
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));

@@ -20,6 +20,8 @@ struct Body {
     bore: bool,
     heights: Vec<f64>,
     twist: f64,
+    /// Divide the sides' quadrilaterals differently from sector to sector.
+    mixed_diagonals: bool,
 }
 
 impl Body {
@@ -37,6 +39,7 @@ impl Body {
             bore: false,
             heights: vec![0.0, 1.0],
             twist: 0.0,
+            mixed_diagonals: false,
         }
     }
 
@@ -98,8 +101,13 @@ impl Body {
                 for k in 0..n {
                     let [a, b] = [id(level, ring, k), id(level, ring, k + 1)];
                     let [c, d] = [id(level + 1, ring, k), id(level + 1, ring, k + 1)];
-                    put(a, b, d, outer, region(ring));
-                    put(a, d, c, outer, region(ring));
+                    if self.mixed_diagonals && (k * 5 + level) % 3 == 0 {
+                        put(a, b, c, outer, region(ring));
+                        put(b, d, c, outer, region(ring));
+                    } else {
+                        put(a, b, d, outer, region(ring));
+                        put(a, d, c, outer, region(ring));
+                    }
                 }
             }
             if region(ring) == OUTSIDE {
@@ -377,4 +385,35 @@ fn distinct(values: impl Iterator<Item = f64>) -> usize {
     bits.sort_unstable();
     bits.dedup();
     bits.len()
+}
+
+#[test]
+fn sections_with_different_points_are_reconciled() {
+    for n in [5_usize, 7, 12] {
+        for bore in [false, true] {
+            let mut body = Body::ratchet(n, bore);
+            body.heights = (0..=60).map(|k| f64::from(k) / 60.0).collect();
+            body.twist = 0.3;
+            body.mixed_diagonals = true;
+            let mut body = body.document((n as u32, false), Some(4), 1.0);
+            body.symmetry.as_mut().unwrap().residual = 8e-4;
+            let (wedge, report) = cut(body.clone(), &DEFAULT).unwrap();
+            assert_eq!(validate(&wedge), []);
+            assert!(
+                report
+                    .notes
+                    .iter()
+                    .any(|n| n.contains("that only one side had"))
+            );
+            let whole = volume(&body.templates[0], 1);
+            let part = volume(&wedge.templates[0], 1) * n as f64;
+            assert!((part / whole - 1.0).abs() < 2e-3, "{part} of {whole}");
+            // Within a tolerance that the sections exceed, they are refused.
+            body.symmetry.as_mut().unwrap().residual = 1e-9;
+            assert!(matches!(
+                cut(body, &DEFAULT),
+                Err(CutError::SectionsDiffer { .. })
+            ));
+        }
+    }
 }
