@@ -502,8 +502,8 @@ fn check_instances(document: &Document, found: &mut Collector) {
             });
         }
     }
-    // One instance alone is a wedge taken out of its context: a sector.
-    if document.instances.len() <= 1 {
+    // Templates placed once each are a wedge taken out of its context: a sector.
+    if placed.iter().all(|places| places.len() <= 1) {
         return;
     }
     for (index, template) in document.templates.iter().enumerate() {
