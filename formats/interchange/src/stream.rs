@@ -4,10 +4,12 @@ use glam::DVec3;
 use std::io;
 use tmesh::{Marker, Region};
 
-/// Connectivity of some tetrahedra of one instance.
+/// Some tetrahedra of one instance. Both slices have the same length.
 pub struct TetBlock<'a> {
     /// Four point ids each, positively oriented.
     pub vertices: &'a [[u32; 4]],
+    /// Region id of each.
+    pub regions: &'a [u32],
     /// Index of the instance they belong to.
     pub instance: u32,
 }
@@ -40,7 +42,7 @@ pub struct TriangleBlock<'a> {
 
 /// Takes blocks of points.
 pub type PointSink<'a> = dyn FnMut(&[DVec3]) -> io::Result<()> + 'a;
-/// Takes blocks of connectivity.
+/// Takes blocks of tetrahedra.
 pub type TetSink<'a> = dyn FnMut(&TetBlock<'_>) -> io::Result<()> + 'a;
 /// Takes blocks of regions.
 pub type TetRegionSink<'a> = dyn FnMut(&TetRegionBlock<'_>) -> io::Result<()> + 'a;
@@ -67,9 +69,10 @@ pub trait MeshStream {
     fn wall_names(&self) -> &[String];
     /// Gives all points, world coordinates, in the order of their ids.
     fn points(&self, sink: &mut PointSink<'_>) -> io::Result<()>;
-    /// Gives the connectivity of all tetrahedra.
+    /// Gives all tetrahedra.
     fn tets(&self, sink: &mut TetSink<'_>) -> io::Result<()>;
-    /// Gives the regions of all tetrahedra, in the same order.
+    /// Gives the regions of all tetrahedra, in the same order as [`MeshStream::tets`]; faster when
+    /// only they are wanted.
     fn tet_regions(&self, sink: &mut TetRegionSink<'_>) -> io::Result<()>;
     /// Gives all surface triangles.
     fn triangles(&self, sink: &mut TriangleSink<'_>) -> io::Result<()>;

@@ -164,7 +164,11 @@ impl Session {
     /// Writes a document as the command line asks, `tmesh` by default. Foreign formats get each
     /// template once, with its walls: what is seen is what the next tool would read.
     pub fn write(&self, document: &Document) -> Result<(), Failure> {
-        let format = self.output_format(Format::Tmesh)?;
+        self.write_in(document, self.output_format(Format::Tmesh)?)
+    }
+
+    /// As [`Session::write`], in the given format.
+    pub fn write_in(&self, document: &Document, format: Format) -> Result<(), Failure> {
         self.write_as(format, |out| match format {
             Format::Text => Ok(write_text(document, self.chunks(), out)?),
             format => write_document(document, format, out),

@@ -1,5 +1,18 @@
-//! Passes a document on.
+//! Assembles the whole mesh from instances of a wedge.
+//!
+//! Global vertex ids are index arithmetic on the stored walls ([`Numbering`]); the mesh is a stream
+//! ([`Assembled`]) that the writers of `interchange` and [`write_expanded`] take block by block.
 
+mod assembled;
 mod cli;
+mod expand;
+mod numbering;
+mod orbit;
+mod promise;
+mod sector;
 
+pub use assembled::Assembled;
 pub use cli::Cli;
+pub use expand::write_expanded;
+pub use numbering::{Numbering, NumberingError};
+pub use sector::sector;

@@ -163,7 +163,7 @@ impl MeshStream for Plain<'_> {
     }
 
     fn tets(&self, sink: &mut TetSink<'_>) -> io::Result<()> {
-        let mut vertices = Vec::new();
+        let (mut vertices, mut regions) = (Vec::new(), Vec::new());
         for (t, template) in self.document.templates.iter().enumerate() {
             let (instance, index) = self.shown[t];
             let reversed = instance.isometry.reverses_orientation();
@@ -174,8 +174,12 @@ impl MeshStream for Plain<'_> {
                     let [a, b, c, d] = tet.vertices.map(|v| first + v);
                     if reversed { [a, b, d, c] } else { [a, b, c, d] }
                 }));
+                regions.clear();
+                let placed = |region| self.document.placed_region(&instance, region);
+                regions.extend(part.iter().map(|tet| placed(tet.region)));
                 sink(&TetBlock {
                     vertices: &vertices,
+                    regions: &regions,
                     instance: index,
                 })?;
             }
