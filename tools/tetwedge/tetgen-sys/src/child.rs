@@ -1,0 +1,266 @@
+//! Starting, watching and stopping the process that meshes.
+
+use crate::ffi::{self, tetgen_shim_start};
+use crate::{Complex, Error, Failure, Limits, Mesh};
+use std::ffi::CString;
+use std::fs::File;
+use std::io::{ErrorKind, PipeReader, Read};
+use std::os::fd::{AsRawFd, FromRawFd};
+use std::time::{Duration, Instant};
+
+/// How long the end of a child that has closed its output is waited for between two looks.
+const REAP_PAUSE: Duration = Duration::from_micros(200);
+
+/// A running mesher process. It is stopped when this value is dropped, and by the kernel when our
+/// process ends.
+#[derive(Debug)]
+pub struct Child {
+    pid: libc::pid_t,
+    reaped: bool,
+    started: Instant,
+    result: File,
+    chatter: PipeReader,
+    switches: String,
+}
+
+impl Child {
+    /// Starts TetGen on a complex. The thread that calls this must outlive the child: the kernel
+    /// ties the child to it.
+    ///
+    /// # Errors
+    /// [`Error::Unfit`], [`Error::BadSwitches`] (a NUL in the switches) and [`Error::System`].
+    pub fn start(complex: &Complex<'_>, switches: &str) -> Result<Self, Error> {
+        let text = CString::new(switches).map_err(|_| Error::BadSwitches(switches.to_owned()))?;
+        check(complex)?;
+        let count = |n: usize, what: &str| {
+            i32::try_from(n).map_err(|_| Error::Unfit(format!("{n} {what} are too many")))
+        };
+        let input = ffi::Input {
+            switches: text.as_ptr(),
+            points: complex.points.as_ptr().cast(),
+            triangles: complex.triangles.as_ptr().cast(),
+            markers: complex.markers.as_ptr(),
+            holes: complex.holes.as_ptr().cast(),
+            regions: complex.regions.as_ptr().cast(),
+            point_count: count(complex.points.len(), "points")?,
+            triangle_count: count(complex.triangles.len(), "triangles")?,
+            hole_count: count(complex.holes.len(), "holes")?,
+            region_count: count(complex.regions.len(), "regions")?,
+        };
+        let result = memory_file()?;
+        let (chatter, printing) = std::io::pipe().map_err(|error| Error::System {
+            what: "opening a pipe",
+            error,
+        })?;
+        let started = Instant::now();
+        // SAFETY: all pointers are valid for the counts given, for the whole call; the child works
+        // on its own copy of this memory. It runs no Rust code, and glibc makes its allocator and
+        // its streams usable after a fork of a process with several threads.
+        let pid = unsafe {
+            tetgen_shim_start(&raw const input, result.as_raw_fd(), printing.as_raw_fd())
+        };
+        if pid < 0 {
+            return Err(Error::system("starting a process"));
+        }
+        Ok(Self {
+            pid,
+            reaped: false,
+            started,
+            result,
+            chatter,
+            switches: switches.to_owned(),
+        })
+    }
+
+    /// Process id.
+    pub fn id(&self) -> u32 {
+        self.pid as u32
+    }
+
+    /// Waits for the end, and passes on what TetGen prints meanwhile.
+    ///
+    /// # Errors
+    /// Everything that can happen to TetGen; see [`Error`].
+    pub fn finish(mut self, limits: Limits, chatter: &mut dyn FnMut(&[u8])) -> Result<Mesh, Error> {
+        let timed_out = || Error::TimedOut(limits.timeout.unwrap_or_default());
+        let deadline = limits
+            .timeout
+            .and_then(|limit| self.started.checked_add(limit));
+        let mut buffer = [0; 4096];
+        // The pipe ends when the child does: nobody else holds its other end for long.
+        loop {
+            if !self.readable(deadline)? {
+                return Err(timed_out());
+            }
+            match self.chatter.read(&mut buffer) {
+                Ok(0) => break,
+                Ok(n) => chatter(&buffer[..n]),
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => {
+                    return Err(Error::System {
+                        what: "reading from the mesher",
+                        error,
+                    });
+                }
+            }
+        }
+        let status = loop {
+            if let Some(status) = self.try_wait()? {
+                break status;
+            }
+            if deadline.is_some_and(|d| Instant::now() >= d) {
+                return Err(timed_out());
+            }
+            std::thread::sleep(REAP_PAUSE);
+        };
+        self.outcome(status)
+    }
+
+    fn outcome(&self, status: i32) -> Result<Mesh, Error> {
+        if libc::WIFSIGNALED(status) {
+            return Err(match libc::WTERMSIG(status) {
+                libc::SIGKILL => Error::Killed,
+                signal => Error::Crashed { signal },
+            });
+        }
+        let exit = libc::WEXITSTATUS(status);
+        if exit == ffi::CANNOT_BEGIN {
+            return Err(Error::System {
+                what: "preparing the mesher's process",
+                error: ErrorKind::Other.into(),
+            });
+        }
+        match Mesh::new(&self.result)? {
+            Some((mesh, 0)) if exit == 0 => Ok(mesh),
+            Some((_, code)) if exit == 0 => Err(match code {
+                ffi::BAD_SWITCHES => Error::BadSwitches(self.switches.clone()),
+                ffi::NOT_LINEAR => Error::NotLinear(self.switches.clone()),
+                ffi::ENDED => Error::Exited { status: exit },
+                ffi::NO_SPACE => Error::Failed(Failure::OutOfMemory),
+                ffi::UNKNOWN_EXCEPTION => Error::Failed(Failure::Internal),
+                thrown => Error::Failed(Failure::from_code(thrown)),
+            }),
+            _ => Err(Error::Exited { status: exit }),
+        }
+    }
+
+    /// Waits until there is something to read or the pipe has ended; false when the deadline came
+    /// first.
+    fn readable(&self, deadline: Option<Instant>) -> Result<bool, Error> {
+        loop {
+            let wait = match deadline {
+                None => -1,
+                Some(deadline) => {
+                    let left = deadline.saturating_duration_since(Instant::now());
+                    if left.is_zero() {
+                        return Ok(false);
+                    }
+                    // Rounded up, so that the loop does not spin through the last millisecond.
+                    i32::try_from(left.as_millis().saturating_add(1)).unwrap_or(i32::MAX)
+                }
+            };
+            let mut poll = libc::pollfd {
+                fd: self.chatter.as_raw_fd(),
+                events: libc::POLLIN,
+                revents: 0,
+            };
+            // SAFETY: one valid pollfd.
+            match unsafe { libc::poll(&raw mut poll, 1, wait) } {
+                0 => {}
+                n if n > 0 => return Ok(true),
+                _ => {
+                    let error = std::io::Error::last_os_error();
+                    if error.kind() != ErrorKind::Interrupted {
+                        return Err(Error::System {
+                            what: "waiting for the mesher",
+                            error,
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    /// The wait status, once the child has ended.
+    fn try_wait(&mut self) -> Result<Option<i32>, Error> {
+        let mut status = 0;
+        // SAFETY: waits for our own child only, into a valid integer.
+        let found = unsafe { libc::waitpid(self.pid, &raw mut status, libc::WNOHANG) };
+        if found == self.pid {
+            self.reaped = true;
+            return Ok(Some(status));
+        }
+        if found < 0 {
+            let error = std::io::Error::last_os_error();
+            if error.kind() != ErrorKind::Interrupted {
+                // Somebody else has collected it.
+                self.reaped = true;
+                return Err(Error::System {
+                    what: "waiting for the mesher",
+                    error,
+                });
+            }
+        }
+        Ok(None)
+    }
+}
+
+impl Drop for Child {
+    fn drop(&mut self) {
+        if self.reaped {
+            return;
+        }
+        let mut status = 0;
+        // SAFETY: the process is our child and not yet collected, so the id is still its own.
+        unsafe {
+            libc::kill(self.pid, libc::SIGKILL);
+            while libc::waitpid(self.pid, &raw mut status, 0) < 0
+                && std::io::Error::last_os_error().kind() == ErrorKind::Interrupted
+            {}
+        }
+    }
+}
+
+/// Checks what TetGen itself would not: it reads out of bounds instead.
+fn check(complex: &Complex<'_>) -> Result<(), Error> {
+    let points = complex.points.len();
+    if points < 4 || complex.triangles.len() < 4 {
+        return Err(Error::Unfit(format!(
+            "{points} points and {} triangles enclose nothing",
+            complex.triangles.len()
+        )));
+    }
+    if complex.markers.len() != complex.triangles.len() {
+        return Err(Error::Unfit(format!(
+            "{} triangles have {} markers",
+            complex.triangles.len(),
+            complex.markers.len()
+        )));
+    }
+    let seeds = complex.regions.iter().map(|r| &r.point);
+    let positions = complex.points.iter().chain(complex.holes).chain(seeds);
+    if let Some(p) = positions.flatten().find(|x| !x.is_finite()) {
+        return Err(Error::Unfit(format!("a coordinate is {p}")));
+    }
+    for (i, t) in complex.triangles.iter().enumerate() {
+        let inside = |v: i32| v >= 0 && (v as usize) < points;
+        if !t.iter().all(|&v| inside(v)) || t[0] == t[1] || t[1] == t[2] || t[0] == t[2] {
+            return Err(Error::Unfit(format!(
+                "triangle {i} has the points {t:?}, of {points}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// An unnamed file in memory.
+fn memory_file() -> Result<File, Error> {
+    // SAFETY: a valid name; the descriptor is checked and then owned by the file alone.
+    unsafe {
+        let fd = libc::memfd_create(c"tetgen-result".as_ptr(), libc::MFD_CLOEXEC);
+        if fd < 0 {
+            return Err(Error::system("reserving shared memory"));
+        }
+        Ok(File::from_raw_fd(fd))
+    }
+}

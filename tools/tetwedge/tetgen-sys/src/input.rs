@@ -1,0 +1,37 @@
+//! What TetGen is given.
+
+use std::time::Duration;
+
+/// A point inside a cell of the complex, with the size wanted in that cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct RegionSeed {
+    /// A point strictly inside the cell.
+    pub point: [f64; 3],
+    /// Attribute that the cell's tetrahedra get under switch `A`; TetGen reads it as an integer.
+    pub attribute: f64,
+    /// Largest tetrahedron volume under switch `a`; not positive for none.
+    pub max_volume: f64,
+}
+
+/// A piecewise linear complex whose facets are triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Complex<'a> {
+    /// Point coordinates, all finite.
+    pub points: &'a [[f64; 3]],
+    /// Three point numbers each, counted from 0.
+    pub triangles: &'a [[i32; 3]],
+    /// One marker per triangle, not 0. Coplanar neighbours with the same marker become one facet.
+    pub markers: &'a [i32],
+    /// One point strictly inside each cell that is to stay empty.
+    pub holes: &'a [[f64; 3]],
+    /// Seeds of cells; only used under the switches `A` and `a`.
+    pub regions: &'a [RegionSeed],
+}
+
+/// Bounds on a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Limits {
+    /// Wall-clock time after which the mesher is stopped; `None` for no limit.
+    pub timeout: Option<Duration>,
+}
