@@ -1,13 +1,88 @@
 //! The command line of `meshqual`.
 
-use kit::{Command, CommonArgs, Failure, Session};
+use crate::{Error, Limit, Params, Report, analyse, svg, text};
+use interchange::Format;
+use kit::{Command, CommonArgs, Failure, Output, Session};
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
-/// Passes a document on
+/// Measures tetrahedral meshes and checks what an assembled mesh promises
+///
+/// Reads a mesh and writes a report: sizes, regions, statistics and histograms of the quality
+/// metrics, and the state of the checks. Documents of instances are measured and checked as the mesh
+/// they stand for, without being expanded. The mesh itself is not passed on.
 #[derive(clap::Parser, Debug)]
-#[command(name = "meshqual", version)]
+#[command(name = "meshqual", version, after_long_help = AFTER)]
 pub struct Cli {
     #[command(flatten)]
     common: CommonArgs,
+
+    /// Write the report as JSON; `-` writes it in place of the text
+    #[arg(long, value_name = "PATH")]
+    json: Option<PathBuf>,
+
+    /// Write the histograms as an SVG image; `-` writes it in place of the text
+    #[arg(long, value_name = "PATH")]
+    svg: Option<PathBuf>,
+
+    /// Bins per histogram
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    bins: u32,
+
+    /// A second mesh, measured beside the first
+    #[arg(long, value_name = "OTHER")]
+    compare: Option<PathBuf>,
+
+    /// Exit with 1 if a promise of assembled meshes is broken
+    #[arg(long)]
+    check: bool,
+
+    /// Exit with 1 if a statistic is below a value: METRIC=VALUE tests the minimum,
+    /// METRIC.STATISTIC=VALUE another one (min, max, mean, p01, p50, p99); may be repeated
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = below)]
+    fail_below: Vec<Limit>,
+
+    /// The same for values above; METRIC=VALUE tests the maximum
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = above)]
+    fail_above: Vec<Limit>,
+}
+
+const AFTER: &str = "\
+Metrics:
+  radius_edge_ratio  radius of the circumscribed sphere over the shortest edge (regular: 0.612)
+  min_dihedral_deg   smallest dihedral angle, degrees (regular: 70.53)
+  max_dihedral_deg   largest dihedral angle, degrees (regular: 70.53)
+  aspect_ratio       longest edge over 2 sqrt(6) times the inscribed radius (regular: 1)
+  edge_length        each tetrahedron counts its six edges
+  volume             signed volume
+
+Percentiles are exact: values that occur (nearest rank).
+
+Examples:
+  meshqual mesh.vtk
+  symdetect part.stl | wedgecut | tetwedge | meshqual --check
+  meshqual --check --json report.json --svg report.svg part.tmesh
+  meshqual --fail-below min_dihedral_deg.p01=13 --fail-above radius_edge_ratio.p99=1.4 part.tmesh
+  meshqual --compare direct.vtk part.vtk
+
+Exit status: 0 done, 1 a promise or a limit is broken (the report is written all the same), 2 wrong
+usage, 3 malformed input, 4 output not writable.";
+
+fn below(text: &str) -> Result<Limit, String> {
+    Limit::parse(text, false)
+}
+
+fn above(text: &str) -> Result<Limit, String> {
+    Limit::parse(text, true)
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::TooLarge { .. } => Self::Impossible(error.to_string()),
+            Error::Invalid(_) | Error::Empty => Self::Input(error.to_string()),
+        }
+    }
 }
 
 impl Command for Cli {
@@ -16,8 +91,88 @@ impl Command for Cli {
     }
 
     fn run(self, session: &Session) -> Result<(), Failure> {
-        let mut document = session.read()?;
-        document.history.push(session.history_entry(Vec::new()));
-        session.write(&document)
+        self.check_outputs()?;
+        let params = Params {
+            bins: self.bins as usize,
+            limits: [self.fail_below.clone(), self.fail_above.clone()].concat(),
+        };
+        let document = session.read()?;
+        let other = match &self.compare {
+            Some(path) => Some((path.display().to_string(), session.read_other(path)?)),
+            None => None,
+        };
+        let other = other
+            .as_ref()
+            .map(|(name, document)| (name.as_str(), document));
+        let report = analyse(&document, other, &params)?;
+        session.info("measured and checked");
+        drop(document);
+        self.write(&report)?;
+        let failures = report.failures(self.check);
+        match failures.as_slice() {
+            [] => Ok(()),
+            [one] => Err(Failure::Impossible(one.clone())),
+            [first, rest @ ..] => Err(Failure::Impossible(format!(
+                "{first} (and {} more, see the report)",
+                rest.len()
+            ))),
+        }
     }
+}
+
+fn is_dash(path: Option<&Path>) -> bool {
+    path == Some(Path::new("-"))
+}
+
+impl Cli {
+    fn check_outputs(&self) -> Result<(), Failure> {
+        if self.common.to.is_some_and(|f| f != Format::Text) {
+            return Err(Failure::Usage(
+                "the output is a report, not a mesh; use --json PATH or --svg PATH for other forms"
+                    .to_owned(),
+            ));
+        }
+        if is_dash(self.json.as_deref()) && is_dash(self.svg.as_deref()) {
+            return Err(Failure::Usage(
+                "only one of --json and --svg can go to standard output".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Writes all parts, then makes the files appear.
+    fn write(&self, report: &Report) -> Result<(), Failure> {
+        let mut done = Vec::new();
+        let main = self.common.output.as_deref();
+        let (json, svg_path) = (self.json.as_deref(), self.svg.as_deref());
+        if let Some(path) = json {
+            let path = if is_dash(json) { main } else { Some(path) };
+            done.push(put(path, &to_json(report)?)?);
+        }
+        if let Some(path) = svg_path {
+            let path = if is_dash(svg_path) { main } else { Some(path) };
+            let title = match &self.common.input {
+                Some(path) => path.display().to_string(),
+                None => "standard input".to_owned(),
+            };
+            done.push(put(path, &svg(report, &title))?);
+        }
+        if !is_dash(json) && !is_dash(svg_path) {
+            done.push(put(main, &text(report, self.check))?);
+        }
+        done.into_iter().try_for_each(Output::commit)
+    }
+}
+
+fn put(path: Option<&Path>, text: &str) -> Result<Output, Failure> {
+    let mut out = Output::create(path, false)?;
+    out.write_all(text.as_bytes())
+        .map_err(|e| out.failure(&e))?;
+    Ok(out)
+}
+
+fn to_json(report: &Report) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(report)
+        .map_err(|e| Failure::Output(format!("cannot form the JSON report: {e}")))?;
+    Ok(text + "\n")
 }

@@ -1,0 +1,345 @@
+//! Exact symmetry of a plain mesh: the generators of its group map it onto itself.
+
+use super::findings::{Findings, Kind, at};
+use crate::faces::sorted;
+use crate::nearby::Nearby;
+use glam::{DMat3, DVec3};
+use rustc_hash::FxHashMap;
+use tmesh::{Document, Frame, Isometry, MAX_TURN_DENOMINATOR, Promise, Tet};
+
+/// How well a vertex has to fall on its image, relative to the size.
+const RESIDUAL: f64 = 1e-12;
+/// World coordinates far from the origin hold less: so many roundings of the largest one are allowed
+/// on top.
+const ROUNDINGS: f64 = 8.0;
+/// How far from an image its vertex is looked for, relative to the size.
+const REACH: f64 = 1e-6;
+
+const NONE: u32 = u32::MAX;
+
+/// What the check found out.
+pub struct Symmetry {
+    /// Largest distance between an image and the vertex nearest to it, relative to the size; at least
+    /// [`REACH`] if a vertex has no image.
+    pub residual: f64,
+    /// Whether vertices, tetrahedra, regions and triangles are mapped onto such.
+    pub connectivity: bool,
+}
+
+/// Checks a plain mesh against the symmetry it promises.
+///
+/// Per generator: each vertex's image is matched with the vertex nearest to it, then tetrahedra and
+/// triangles are mapped by vertex ids alone. A map of a finite set into itself that maps no two
+/// elements onto one is onto, so all images are covered too. Linear.
+pub fn check(
+    document: &Document,
+    promise: &Promise,
+    size: f64,
+    findings: &mut Findings,
+) -> Symmetry {
+    let mut found = Symmetry {
+        residual: 0.0,
+        connectivity: true,
+    };
+    let Some(frame) = frame(promise) else {
+        findings.add(Kind::BadPromise, || {
+            format!(
+                "order {}, or a frame that is not a rotation and a finite shift",
+                promise.order
+            )
+        });
+        found.connectivity = false;
+        return found;
+    };
+    let template = &document.templates[0];
+    let same = document.frame == frame;
+    let points: Vec<DVec3> = template
+        .vertices
+        .iter()
+        .map(|&p| match same {
+            true => p,
+            false => frame.to_canonical(document.frame.to_world(p)),
+        })
+        .collect();
+    let largest = template
+        .vertices
+        .iter()
+        .fold(frame.origin.abs().max_element(), |m, p| {
+            m.max(document.frame.to_world(*p).abs().max_element())
+        });
+    let mut matcher = Matcher {
+        points: &points,
+        size,
+        limit: RESIDUAL * size + ROUNDINGS * f64::EPSILON * largest,
+        near: None,
+        far: None,
+    };
+    let tets = TetIndex::new(&template.tets, points.len());
+    let triangles: FxHashMap<[u32; 3], u32> = template
+        .triangles
+        .iter()
+        .enumerate()
+        .map(|(i, t)| (sorted(t.vertices).0, i as u32))
+        .collect();
+    for (name, generator) in generators(promise) {
+        let name = &name;
+        let (residual, images) = matcher.images(document, name, generator, findings);
+        found.residual = found.residual.max(residual);
+        check_permutation(document, name, &images, findings);
+        let regions = map_tets(document, name, &images, &tets, findings);
+        map_triangles(
+            document, name, generator, &images, &regions, &triangles, findings,
+        );
+    }
+    found.connectivity = !findings.has(&CONNECTIVITY);
+    found
+}
+
+const CONNECTIVITY: [Kind; 5] = [
+    Kind::NoImage,
+    Kind::NoPermutation,
+    Kind::TetImage,
+    Kind::RegionImage,
+    Kind::TriangleImage,
+];
+
+fn frame(promise: &Promise) -> Option<Frame> {
+    let [a, b, c] = promise.rotation.map(DVec3::from_array);
+    let rotation = DMat3::from_cols(a, b, c).transpose();
+    let origin = DVec3::from_array(promise.origin);
+    let off = rotation.transpose() * rotation - DMat3::IDENTITY;
+    let off = off
+        .to_cols_array()
+        .iter()
+        .fold(0.0_f64, |m, x| m.max(x.abs()));
+    let proper = off <= 1e-12 && rotation.determinant() > 0.0 && origin.is_finite();
+    let turns = (1..=MAX_TURN_DENOMINATOR).contains(&promise.order);
+    (proper && turns).then_some(Frame { rotation, origin })
+}
+
+fn generators(promise: &Promise) -> Vec<(String, Isometry)> {
+    let mut generators = Vec::new();
+    if promise.order > 1 {
+        let name = format!("the rotation of order {}", promise.order);
+        generators.push((name, Isometry::rotation(1, promise.order)));
+    }
+    if promise.mirror {
+        generators.push(("the mirror".to_owned(), Isometry::reflection(0, 1)));
+    }
+    if promise.horizontal_mirror {
+        let flip = Isometry::new(0, 1, false, true);
+        generators.push(("the horizontal mirror".to_owned(), flip));
+    }
+    generators
+}
+
+/// Finds the vertices that images fall on.
+struct Matcher<'a> {
+    points: &'a [DVec3],
+    size: f64,
+    /// Largest distance allowed, model units.
+    limit: f64,
+    near: Option<Nearby<'a>>,
+    far: Option<Nearby<'a>>,
+}
+
+impl Matcher<'_> {
+    /// The largest distance relative to the size, and the image of each vertex, [`NONE`] where there
+    /// is none within reach.
+    fn images(
+        &mut self,
+        document: &Document,
+        name: &str,
+        generator: Isometry,
+        findings: &mut Findings,
+    ) -> (f64, Vec<u32>) {
+        let placed = generator.placed();
+        let near = self
+            .near
+            .get_or_insert_with(|| Nearby::all(self.points, self.limit));
+        // A cell of the fine grid holds few vertices; of the coarse one possibly many, where a mesh is
+        // extremely graded, so that searching it is limited.
+        let mut budget = 1000 * self.points.len() as u64;
+        let mut unlimited = u64::MAX;
+        let mut residual = 0.0_f64;
+        let mut images = Vec::with_capacity(self.points.len());
+        for (v, &p) in self.points.iter().enumerate() {
+            let image = placed.apply(p);
+            let mut found = near.nearest(image, &mut unlimited);
+            if found.is_none() {
+                let reach = REACH * self.size;
+                let far = self
+                    .far
+                    .get_or_insert_with(|| Nearby::all(self.points, reach));
+                found = far.nearest(image, &mut budget);
+                let kind = if found.is_some() {
+                    Kind::Deviation
+                } else {
+                    Kind::NoImage
+                };
+                findings.add(kind, || {
+                    let place = at(document, 0, &[v as u32]);
+                    match found {
+                        Some((w, d)) => format!(
+                            "the image of vertex {v} under {name} misses vertex {w} by {d:.3e} ({:.3e} of the size, where {:.1e} is allowed) {place}",
+                            d / self.size,
+                            self.limit / self.size
+                        ),
+                        None => format!(
+                            "the image of vertex {v} under {name} has no vertex within {reach:.3e} {place}"
+                        ),
+                    }
+                });
+            }
+            let (image, distance) = found.unwrap_or((NONE, REACH * self.size));
+            residual = residual.max(distance);
+            images.push(image);
+        }
+        (
+            if self.size > 0.0 {
+                residual / self.size
+            } else {
+                0.0
+            },
+            images,
+        )
+    }
+}
+
+fn check_permutation(document: &Document, name: &str, images: &[u32], findings: &mut Findings) {
+    let mut taken = vec![false; images.len()];
+    for (v, &image) in images.iter().enumerate().filter(|i| *i.1 != NONE) {
+        if std::mem::replace(&mut taken[image as usize], true) {
+            findings.add(Kind::NoPermutation, || {
+                let place = at(document, 0, &[image]);
+                format!("{name} maps vertex {v} and an earlier one to vertex {image} {place}")
+            });
+        }
+    }
+}
+
+/// Tetrahedra by their vertices.
+struct TetIndex {
+    start: Vec<u32>,
+    /// The three higher vertices, and the tetrahedron; grouped by the lowest vertex.
+    entries: Vec<([u32; 3], u32)>,
+}
+
+impl TetIndex {
+    fn new(tets: &[Tet], vertices: usize) -> Self {
+        let mut start = vec![0_u32; vertices + 1];
+        for t in tets {
+            start[increasing(t.vertices)[0] as usize + 1] += 1;
+        }
+        for i in 1..start.len() {
+            start[i] += start[i - 1];
+        }
+        let mut next = start.clone();
+        let mut entries = vec![([0; 3], 0); tets.len()];
+        for (i, t) in tets.iter().enumerate() {
+            let [a, b, c, d] = increasing(t.vertices);
+            entries[next[a as usize] as usize] = ([b, c, d], i as u32);
+            next[a as usize] += 1;
+        }
+        for v in 0..vertices {
+            entries[start[v] as usize..start[v + 1] as usize].sort_unstable();
+        }
+        Self { start, entries }
+    }
+
+    fn find(&self, vertices: [u32; 4]) -> Option<u32> {
+        let [a, b, c, d] = increasing(vertices);
+        let bucket =
+            &self.entries[self.start[a as usize] as usize..self.start[a as usize + 1] as usize];
+        let found = bucket.binary_search_by_key(&[b, c, d], |e| e.0);
+        found.ok().map(|i| bucket[i].1)
+    }
+}
+
+fn increasing(mut v: [u32; 4]) -> [u32; 4] {
+    v.sort_unstable();
+    v
+}
+
+/// Checks that tetrahedra are mapped onto tetrahedra and returns the permutation of regions seen.
+fn map_tets(
+    document: &Document,
+    name: &str,
+    images: &[u32],
+    index: &TetIndex,
+    findings: &mut Findings,
+) -> FxHashMap<u32, u32> {
+    let template = &document.templates[0];
+    let mut forward: FxHashMap<u32, u32> = FxHashMap::default();
+    let mut backward: FxHashMap<u32, u32> = FxHashMap::default();
+    // Regions run in blocks: most lookups repeat the last one.
+    let mut last = None;
+    for (i, tet) in template.tets.iter().enumerate() {
+        let image = tet.vertices.map(|v| images[v as usize]);
+        // A vertex without image is reported already.
+        if image.contains(&NONE) {
+            continue;
+        }
+        let Some(other) = index.find(image) else {
+            findings.add(Kind::TetImage, || {
+                let place = at(document, 0, &tet.vertices);
+                format!("that of tetrahedron {i} under {name} {place}")
+            });
+            continue;
+        };
+        let (from, to) = (tet.region, template.tets[other as usize].region);
+        if last == Some((from, to)) {
+            continue;
+        }
+        let consistent =
+            *forward.entry(from).or_insert(to) == to && *backward.entry(to).or_insert(from) == from;
+        if consistent {
+            last = Some((from, to));
+        } else {
+            findings.add(Kind::RegionImage, || {
+                let place = at(document, 0, &tet.vertices);
+                format!(
+                    "{name} maps tetrahedron {i} of region {from} onto tetrahedron {other} of region {to} {place}"
+                )
+            });
+        }
+    }
+    forward
+}
+
+fn map_triangles(
+    document: &Document,
+    name: &str,
+    generator: Isometry,
+    images: &[u32],
+    regions: &FxHashMap<u32, u32>,
+    index: &FxHashMap<[u32; 3], u32>,
+    findings: &mut Findings,
+) {
+    let triangles = &document.templates[0].triangles;
+    // OUTSIDE is in no region map and stays itself.
+    let mapped = |region: u32| regions.get(&region).copied().unwrap_or(region);
+    for (i, t) in triangles.iter().enumerate() {
+        let image = t.vertices.map(|v| images[v as usize]);
+        if image.contains(&NONE) {
+            continue;
+        }
+        let (key, odd) = sorted(image);
+        let found = index.get(&key).map(|&j| &triangles[j as usize]);
+        let same = found.is_some_and(|other| {
+            let reversed = (sorted(other.vertices).1 != odd) != generator.reverses_orientation();
+            let sides = if reversed {
+                [other.back, other.front]
+            } else {
+                [other.front, other.back]
+            };
+            sides == [mapped(t.front), mapped(t.back)]
+        });
+        if !same {
+            findings.add(Kind::TriangleImage, || {
+                let place = at(document, 0, &t.vertices);
+                format!("that of triangle {i} under {name} {place}")
+            });
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! What the instances make of the templates, without placing a single copy.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
+use tmesh::{Document, Isometry, OUTSIDE, Template, Wall};
+
+/// Counts over the instances of a document.
+pub struct Copies {
+    /// Number of instances of each template.
+    pub of_template: Vec<u64>,
+    /// Number of instances of each (template, region map).
+    pub of_map: BTreeMap<(u32, u32), u64>,
+}
+
+impl Copies {
+    /// Counts the instances.
+    pub fn of(document: &Document) -> Self {
+        let mut of_template = vec![0; document.templates.len()];
+        let mut of_map = BTreeMap::new();
+        for instance in &document.instances {
+            of_template[instance.template as usize] += 1;
+            *of_map
+                .entry((instance.template, instance.region_map))
+                .or_insert(0) += 1;
+        }
+        Self {
+            of_template,
+            of_map,
+        }
+    }
+}
+
+/// Whether the document is one wedge taken out of its context: its walls are open faces.
+pub fn is_sector(document: &Document) -> bool {
+    document.instances.len() == 1 && document.templates.iter().any(|t| !t.walls.is_empty())
+}
+
+/// For each triangle of a template, whether it is on a wall, be it the template's own or another
+/// template's hub wall.
+pub fn wall_triangles(document: &Document) -> Vec<Vec<bool>> {
+    let mut on: Vec<Vec<bool>> = document
+        .templates
+        .iter()
+        .map(|t| vec![false; t.triangles.len()])
+        .collect();
+    for (index, template) in document.templates.iter().enumerate() {
+        for wall in &template.walls {
+            wall.triangles().for_each(|t| on[index][t as usize] = true);
+            if let Wall::Hub(hub) = wall {
+                for pair in &hub.triangle_pairs {
+                    on[hub.other as usize][pair[1] as usize] = true;
+                }
+            }
+        }
+    }
+    on
+}
+
+/// From a vertex of instance `g`: the same point as `vertex` of instance `g * step` of `template`.
+#[derive(Clone, Copy)]
+struct Link {
+    step: Isometry,
+    template: u32,
+    vertex: u32,
+}
+
+type Place = (u32, Isometry, u32);
+
+/// Number of vertices of the assembled mesh.
+///
+/// Each (instance, vertex) is one of `k` names of an assembled vertex, linked by the walls; it counts
+/// 1/k. Links act on the right of an instance's isometry, so `k` is the same for all instances of a
+/// template, unless a hub wall is involved, whose two templates may have different numbers of
+/// instances: those vertices are followed from every instance.
+pub fn assembled_vertices(document: &Document) -> u64 {
+    let copies = Copies::of(document);
+    let links = links(document);
+    let placed: FxHashSet<(u32, Isometry)> = document
+        .instances
+        .iter()
+        .map(|i| (i.template, i.isometry))
+        .collect();
+    // Places by number of names; each sum is a multiple of its key.
+    let mut places: BTreeMap<u64, u64> = BTreeMap::new();
+    let mut known: FxHashMap<Vec<Isometry>, u64> = FxHashMap::default();
+    for (index, template) in document.templates.iter().enumerate() {
+        let t = index as u32;
+        let copies = copies.of_template[index];
+        let linked = &links[index];
+        *places.entry(1).or_insert(0) += (template.vertices.len() - linked.len()) as u64 * copies;
+        let mut vertices: Vec<u32> = linked.keys().copied().collect();
+        vertices.sort_unstable();
+        let instances: Vec<Isometry> = document
+            .instances
+            .iter()
+            .filter(|i| i.template == t)
+            .map(|i| i.isometry)
+            .collect();
+        let Some(&first) = instances.first() else {
+            continue;
+        };
+        for v in vertices {
+            let own = &linked[&v];
+            if own.iter().all(|l| (l.template, l.vertex) == (t, v)) {
+                let steps: Vec<Isometry> = own.iter().map(|l| l.step).collect();
+                let names = *known
+                    .entry(steps)
+                    .or_insert_with(|| names((t, first, v), &links, &placed).0);
+                *places.entry(names).or_insert(0) += copies;
+                continue;
+            }
+            let (count, one_template) = names((t, first, v), &links, &placed);
+            if one_template && !touches_other(t, v, &links) {
+                *places.entry(count).or_insert(0) += copies;
+                continue;
+            }
+            for &isometry in &instances {
+                let (count, _) = names((t, isometry, v), &links, &placed);
+                *places.entry(count).or_insert(0) += 1;
+            }
+        }
+    }
+    places.iter().map(|(names, places)| places / names).sum()
+}
+
+fn links(document: &Document) -> Vec<FxHashMap<u32, Vec<Link>>> {
+    let mut links: Vec<FxHashMap<u32, Vec<Link>>> =
+        vec![FxHashMap::default(); document.templates.len()];
+    let mut add = |from: (u32, u32), step: Isometry, to: (u32, u32)| {
+        links[from.0 as usize]
+            .entry(from.1)
+            .or_default()
+            .push(Link {
+                step,
+                template: to.0,
+                vertex: to.1,
+            });
+    };
+    for (index, template) in document.templates.iter().enumerate() {
+        let t = index as u32;
+        for wall in &template.walls {
+            match wall {
+                Wall::Mirror(w) => {
+                    for &v in &w.vertices {
+                        add((t, v), w.reflection, (t, v));
+                    }
+                }
+                Wall::Seam(w) => {
+                    for &[low, high] in &w.vertex_pairs {
+                        add((t, high), w.rotation, (t, low));
+                        add((t, low), w.rotation.inverse(), (t, high));
+                    }
+                }
+                Wall::Hub(w) => {
+                    for &[here, there] in &w.vertex_pairs {
+                        add((t, here), w.placement, (w.other, there));
+                        add((w.other, there), w.placement.inverse(), (t, here));
+                    }
+                }
+            }
+        }
+    }
+    links
+}
+
+/// Whether a vertex, or one it is linked to, is linked to another template.
+fn touches_other(t: u32, v: u32, links: &[FxHashMap<u32, Vec<Link>>]) -> bool {
+    let mut seen = FxHashSet::from_iter([v]);
+    let mut stack = vec![v];
+    while let Some(v) = stack.pop() {
+        for link in links[t as usize].get(&v).into_iter().flatten() {
+            if link.template != t {
+                return true;
+            }
+            if seen.insert(link.vertex) {
+                stack.push(link.vertex);
+            }
+        }
+    }
+    false
+}
+
+/// Number of names of the assembled vertex that `start` names, and whether they are all of one
+/// template.
+fn names(
+    start: Place,
+    links: &[FxHashMap<u32, Vec<Link>>],
+    placed: &FxHashSet<(u32, Isometry)>,
+) -> (u64, bool) {
+    let mut seen = FxHashSet::from_iter([start]);
+    let mut stack = vec![start];
+    let mut one_template = true;
+    while let Some((t, isometry, v)) = stack.pop() {
+        for link in links[t as usize].get(&v).into_iter().flatten() {
+            let next = (link.template, isometry.compose(link.step), link.vertex);
+            if placed.contains(&(next.0, next.1)) && seen.insert(next) {
+                one_template &= next.0 == start.0;
+                stack.push(next);
+            }
+        }
+    }
+    (seen.len() as u64, one_template)
+}
+
+/// The symmetry that the instances give the whole: largest order of a rotation that maps them onto
+/// themselves, and whether mirrors do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Realized {
+    /// Order of the rotation about the axis.
+    pub order: u32,
+    /// Whether a mirror plane contains the axis.
+    pub mirror: bool,
+    /// Whether the plane through the origin across the axis is a mirror.
+    pub horizontal_mirror: bool,
+}
+
+/// The symmetry of the instances, with their region maps: each operation has to permute the regions.
+pub fn realized(document: &Document) -> Realized {
+    let by_place: FxHashMap<(u32, Isometry), u32> = document
+        .instances
+        .iter()
+        .map(|i| ((i.template, i.isometry), i.region_map))
+        .collect();
+    let used: Vec<Vec<u32>> = document.templates.iter().map(used_regions).collect();
+    let holds = |operation: Isometry| permutes(document, operation, &by_place, &used);
+    let copies = Copies::of(document).of_template;
+    let shared = copies
+        .iter()
+        .fold(0, |g, &n| gcd(g, n))
+        .min(u64::from(tmesh::MAX_TURN_DENOMINATOR));
+    let order = (1..=shared as u32)
+        .rev()
+        .find(|&n| shared % u64::from(n) == 0 && holds(Isometry::rotation(1, n)))
+        .unwrap_or(1);
+    // All mirrors that contain the axis differ by rotations: those with the smallest turns will do.
+    let first = document.instances.first().map(|i| (i.template, i.isometry));
+    let mirror = first.is_some_and(|(template, isometry)| {
+        document
+            .instances
+            .iter()
+            .filter(|i| i.template == template)
+            .map(|i| i.isometry.compose(isometry.inverse()))
+            .filter(|m| m.mirrored() && !m.flipped())
+            .filter(|m| u64::from(m.k()) * u64::from(order) < u64::from(m.n()))
+            .any(&holds)
+    });
+    Realized {
+        order,
+        mirror,
+        horizontal_mirror: holds(Isometry::new(0, 1, false, true)),
+    }
+}
+
+/// Regions of a template's tetrahedra, or of its triangles when it has none, increasing.
+fn used_regions(template: &Template) -> Vec<u32> {
+    let mut used: Vec<u32> = if template.tets.is_empty() {
+        let sides = template.triangles.iter().flat_map(|t| [t.front, t.back]);
+        sides.filter(|&r| r != OUTSIDE).collect()
+    } else {
+        template.tets.iter().map(|t| t.region).collect()
+    };
+    used.sort_unstable();
+    used.dedup();
+    used
+}
+
+fn permutes(
+    document: &Document,
+    operation: Isometry,
+    by_place: &FxHashMap<(u32, Isometry), u32>,
+    used: &[Vec<u32>],
+) -> bool {
+    let mut forward: FxHashMap<u32, u32> = FxHashMap::default();
+    let mut backward: FxHashMap<u32, u32> = FxHashMap::default();
+    // Every pair of region maps is compared once.
+    let mut compared = FxHashSet::default();
+    for instance in &document.instances {
+        let image = (instance.template, operation.compose(instance.isometry));
+        let Some(&map) = by_place.get(&image) else {
+            return false;
+        };
+        if !compared.insert((instance.template, instance.region_map, map)) {
+            continue;
+        }
+        let mapped = tmesh::Instance {
+            region_map: map,
+            ..*instance
+        };
+        for &region in &used[instance.template as usize] {
+            let from = document.placed_region(instance, region);
+            let to = document.placed_region(&mapped, region);
+            if *forward.entry(from).or_insert(to) != to
+                || *backward.entry(to).or_insert(from) != from
+            {
+                return false;
+            }
+        }
+    }
+    true
+}
+
+fn gcd(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}

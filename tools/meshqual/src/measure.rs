@@ -1,0 +1,169 @@
+//! Measures the tetrahedra of the templates and adds them up over the instances.
+
+use crate::instances::{Copies, is_sector, wall_triangles};
+use crate::statistics::{Sample, sum};
+use crate::{Error, Metric, Surface};
+use geom::measure::{corners, tet_volume, triangle_area};
+use geom::tet::TetMeasures;
+use std::collections::BTreeMap;
+use tmesh::{Document, OUTSIDE, Template};
+
+/// Amounts of one region, or of all.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Amount {
+    /// Number of tetrahedra.
+    pub tetrahedra: u64,
+    /// Volume, model units cubed; enclosed by the triangles where there are no tetrahedra.
+    pub volume: f64,
+}
+
+impl Amount {
+    fn add(&mut self, other: Self, times: u64) {
+        self.tetrahedra += other.tetrahedra * times;
+        self.volume += other.volume * times as f64;
+    }
+}
+
+/// Measures of a document.
+pub struct Measured {
+    /// Amounts per region of the assembled mesh.
+    pub regions: BTreeMap<u32, Amount>,
+    /// Amounts of everything.
+    pub total: Amount,
+    /// Values of each metric, in the order of [`Metric::ALL`].
+    pub samples: Vec<Sample>,
+}
+
+/// Measures a document as it would be assembled. Linear in the templates.
+pub fn measure(document: &Document) -> Result<Measured, Error> {
+    let copies = Copies::of(document);
+    let mut samples = vec![Sample::default(); Metric::ALL.len()];
+    let mut regions: BTreeMap<u32, Amount> = BTreeMap::new();
+    for (index, template) in document.templates.iter().enumerate() {
+        let own = if template.tets.is_empty() {
+            enclosed(template)
+        } else {
+            let values = values(template);
+            let volumes = &values[Metric::ALL.len() - 1];
+            let own = amounts(template, volumes);
+            for (sample, values) in samples.iter_mut().zip(values) {
+                sample.add(values, copies.of_template[index]);
+            }
+            own
+        };
+        for instance in first_of_each_map(document, index as u32) {
+            let count = copies.of_map[&(index as u32, instance.region_map)];
+            for (&region, &amount) in &own {
+                let region = document.placed_region(instance, region);
+                regions.entry(region).or_default().add(amount, count);
+            }
+        }
+    }
+    let mut total = Amount::default();
+    regions.values().for_each(|r| total.add(*r, 1));
+    Ok(Measured {
+        regions,
+        total,
+        samples,
+    })
+}
+
+fn first_of_each_map(document: &Document, template: u32) -> impl Iterator<Item = &tmesh::Instance> {
+    let firsts: BTreeMap<u32, &tmesh::Instance> = document
+        .instances
+        .iter()
+        .rev()
+        .filter(|i| i.template == template)
+        .map(|i| (i.region_map, i))
+        .collect();
+    firsts.into_values()
+}
+
+/// Values of each metric over the tetrahedra of a template, in the order of [`Metric::ALL`].
+fn values(template: &Template) -> [Vec<f64>; 6] {
+    let count = template.tets.len();
+    let mut radius_edge = Vec::with_capacity(count);
+    let mut min_dihedral = Vec::with_capacity(count);
+    let mut max_dihedral = Vec::with_capacity(count);
+    let mut aspect = Vec::with_capacity(count);
+    let mut edges = Vec::with_capacity(6 * count);
+    let mut volumes = Vec::with_capacity(count);
+    for tet in &template.tets {
+        let m = TetMeasures::of(tet.vertices.map(|v| template.vertices[v as usize]));
+        radius_edge.push(m.radius_edge_ratio);
+        min_dihedral.push(m.min_dihedral.to_degrees());
+        max_dihedral.push(m.max_dihedral.to_degrees());
+        aspect.push(m.aspect_ratio);
+        edges.extend_from_slice(&m.edges);
+        volumes.push(m.volume);
+    }
+    [
+        radius_edge,
+        min_dihedral,
+        max_dihedral,
+        aspect,
+        edges,
+        volumes,
+    ]
+}
+
+/// Amounts per region of a template, from the volumes of its tetrahedra.
+fn amounts(template: &Template, volumes: &[f64]) -> BTreeMap<u32, Amount> {
+    // Runs of equal region are summed as blocks.
+    let mut amounts: BTreeMap<u32, Amount> = BTreeMap::new();
+    let mut begin = 0;
+    for run in template.tets.chunk_by(|a, b| a.region == b.region) {
+        let end = begin + run.len();
+        let amount = amounts.entry(run[0].region).or_default();
+        amount.tetrahedra += run.len() as u64;
+        amount.volume += sum(&volumes[begin..end]);
+        begin = end;
+    }
+    amounts
+}
+
+/// Volumes enclosed by the triangles of a template, per region, by the divergence theorem.
+fn enclosed(template: &Template) -> BTreeMap<u32, Amount> {
+    let origin = template.vertices.first().copied().unwrap_or_default();
+    let mut amounts: BTreeMap<u32, Amount> = BTreeMap::new();
+    for t in &template.triangles {
+        let [a, b, c] = corners(&template.vertices, t);
+        let volume = tet_volume(origin, a, b, c);
+        for (region, volume) in [(t.back, volume), (t.front, -volume)] {
+            if region != OUTSIDE {
+                amounts.entry(region).or_default().volume += volume;
+            }
+        }
+    }
+    amounts
+}
+
+/// Counts and measures the surface triangles that are on no wall, over all instances.
+pub fn surface(document: &Document) -> Surface {
+    let copies = Copies::of(document).of_template;
+    let walls = wall_triangles(document);
+    let sector = is_sector(document);
+    let mut surface = Surface {
+        triangles: 0,
+        boundary_area: 0.0,
+    };
+    for ((template, on_wall), &copies) in document.templates.iter().zip(&walls).zip(&copies) {
+        let mut count = 0;
+        let mut area = 0.0;
+        for (t, _) in template
+            .triangles
+            .iter()
+            .zip(on_wall)
+            .filter(|(_, wall)| sector || !**wall)
+        {
+            count += 1;
+            if (t.front == OUTSIDE) != (t.back == OUTSIDE) {
+                let [a, b, c] = corners(&template.vertices, t);
+                area += triangle_area(a, b, c);
+            }
+        }
+        surface.triangles += count * copies;
+        surface.boundary_area += area * copies as f64;
+    }
+    surface
+}

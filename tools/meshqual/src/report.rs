@@ -1,0 +1,281 @@
+//! What there is to say about a mesh.
+
+use crate::check::{Checks, check};
+use crate::instances::{Realized, assembled_vertices, is_sector, realized};
+use crate::measure::{Measured, measure};
+use crate::statistics::{Statistics, common_bins};
+use crate::{Error, Limit, Metric};
+use serde::Serialize;
+use serde::ser::SerializeMap;
+use tmesh::{Document, Region, Violation};
+
+/// What to find out.
+#[derive(Clone, Debug)]
+pub struct Params {
+    /// Bins per histogram, at least 1.
+    pub bins: usize,
+    /// Limits the mesh has to meet.
+    pub limits: Vec<Limit>,
+}
+
+/// All about a mesh.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Sizes and metrics.
+    #[serde(flatten)]
+    pub summary: Summary,
+    /// Which promises hold.
+    pub checks: Checks,
+    /// Limits that are not met, a sentence each.
+    pub limits_broken: Vec<String>,
+    /// What a reader should know to understand the figures.
+    pub notes: Vec<String>,
+    /// The mesh it is compared with.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compare: Option<Compared>,
+}
+
+/// The other mesh of a comparison.
+#[derive(Clone, Debug, Serialize)]
+pub struct Compared {
+    /// Where it was read from.
+    pub name: String,
+    /// Sizes and metrics.
+    #[serde(flatten)]
+    pub summary: Summary,
+}
+
+/// Sizes and metrics of a mesh as it is when assembled.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// Vertices.
+    pub vertices: u64,
+    /// Tetrahedra.
+    pub tetrahedra: u64,
+    /// Volume, model units cubed.
+    pub volume: f64,
+    /// Parts by region id.
+    pub regions: Vec<RegionReport>,
+    /// Surface triangles, stored ones.
+    pub surface: Surface,
+    /// Templates the mesh is stored as.
+    pub templates: u64,
+    /// Placed copies of templates.
+    pub instances: u64,
+    /// Symmetry of the instances; `null` for a plain mesh.
+    pub symmetry: Option<Realized>,
+    /// Statistics of the metrics; each `null` without tetrahedra.
+    pub metrics: Metrics,
+}
+
+/// The surface triangles of a mesh.
+#[derive(Clone, Debug, Serialize)]
+pub struct Surface {
+    /// Triangles, walls left out.
+    pub triangles: u64,
+    /// Area of those with material on exactly one side, model units squared.
+    pub boundary_area: f64,
+}
+
+/// One region of a mesh.
+#[derive(Clone, Debug, Serialize)]
+pub struct RegionReport {
+    /// Region id.
+    pub id: u32,
+    /// Name, empty if it has none.
+    pub name: String,
+    /// Tetrahedra.
+    pub tetrahedra: u64,
+    /// Volume, model units cubed.
+    pub volume: f64,
+}
+
+/// Statistics of all metrics, in the order of [`Metric::ALL`].
+#[derive(Clone, Debug)]
+pub struct Metrics(Vec<Option<Statistics>>);
+
+impl Metrics {
+    /// Statistics of a metric; `None` without tetrahedra.
+    pub fn get(&self, metric: Metric) -> Option<&Statistics> {
+        self.0[metric as usize].as_ref()
+    }
+}
+
+impl Serialize for Metrics {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for metric in Metric::ALL {
+            map.serialize_entry(metric.name(), &self.get(metric))?;
+        }
+        map.end()
+    }
+}
+
+impl Report {
+    /// Everything that is wrong, a sentence each: broken promises if asked for, and limits.
+    pub fn failures(&self, promises: bool) -> Vec<String> {
+        let broken = self.checks.violations.iter().filter(|_| promises);
+        broken
+            .map(|b| format!("{}: {}", b.promise, b.text))
+            .chain(self.limits_broken.iter().cloned())
+            .collect()
+    }
+}
+
+/// Measures and checks a mesh; `other` is a further mesh and its name, measured for comparison with
+/// the same histogram bins.
+///
+/// # Errors
+/// Documents that name what is not there, and empty ones.
+pub fn analyse(
+    document: &Document,
+    other: Option<(&str, &Document)>,
+    params: &Params,
+) -> Result<Report, Error> {
+    let violations = usable(document)?;
+    if let Some((_, other)) = other {
+        usable(other)?;
+    }
+    let measured = measure(document)?;
+    let compared = match other {
+        Some((name, other)) => Some((name, other, measure(other)?)),
+        None => None,
+    };
+    let bins: Vec<Vec<f64>> = Metric::ALL
+        .iter()
+        .enumerate()
+        .map(|(i, &metric)| {
+            let mut samples = vec![&measured.samples[i]];
+            samples.extend(compared.as_ref().map(|c| &c.2.samples[i]));
+            common_bins(metric, &samples, params.bins)
+        })
+        .collect();
+    let checks = check(document, &measured, &violations)?;
+    let summary = summary(document, measured, &bins);
+    let compare = compared.map(|(name, other, measured)| Compared {
+        name: name.to_owned(),
+        summary: crate::report::summary(other, measured, &bins),
+    });
+    Ok(Report {
+        limits_broken: params
+            .limits
+            .iter()
+            .filter_map(|l| l.broken(&summary))
+            .collect(),
+        notes: notes(document),
+        summary,
+        checks,
+        compare,
+    })
+}
+
+/// Refuses documents whose indices lead nowhere; returns what else is wrong with one.
+fn usable(document: &Document) -> Result<Vec<Violation>, Error> {
+    let empty = |t: &tmesh::Template| t.tets.is_empty() && t.triangles.is_empty();
+    if document.templates.iter().all(empty) {
+        return Err(Error::Empty);
+    }
+    let violations = tmesh::validate(document);
+    let usable = |v: &Violation| {
+        matches!(
+            v,
+            Violation::BadPlane { .. }
+                | Violation::OffPlane { .. }
+                | Violation::OffAxis { .. }
+                | Violation::NotAnImage { .. }
+                | Violation::TrianglesDiffer { .. }
+                | Violation::MissingNeighbour { .. }
+                | Violation::RepeatedInstance { .. }
+        )
+    };
+    match violations.iter().find(|v| !usable(v)) {
+        Some(violation) => Err(Error::Invalid(violation.clone())),
+        None => Ok(violations),
+    }
+}
+
+fn summary(document: &Document, measured: Measured, bins: &[Vec<f64>]) -> Summary {
+    let plain = document.is_plain();
+    let mut regions: Vec<RegionReport> = measured
+        .regions
+        .iter()
+        .map(|(&id, amount)| RegionReport {
+            id,
+            name: region(document, id).map_or_else(String::new, |r| r.name.clone()),
+            tetrahedra: amount.tetrahedra,
+            volume: amount.volume,
+        })
+        .collect();
+    // A listed region of which nothing is left must show.
+    for r in &document.regions {
+        if !measured.regions.contains_key(&r.id) {
+            regions.push(RegionReport {
+                id: r.id,
+                name: r.name.clone(),
+                tetrahedra: 0,
+                volume: 0.0,
+            });
+        }
+    }
+    regions.sort_by_key(|r| r.id);
+    let metrics = measured
+        .samples
+        .into_iter()
+        .zip(bins)
+        .map(|(sample, bins)| sample.statistics(bins.clone()))
+        .collect();
+    Summary {
+        vertices: assembled_vertices(document),
+        tetrahedra: measured.total.tetrahedra,
+        volume: measured.total.volume,
+        regions,
+        surface: crate::measure::surface(document),
+        templates: document.templates.len() as u64,
+        instances: document.instances.len() as u64,
+        symmetry: (!plain).then(|| realized(document)),
+        metrics: Metrics(metrics),
+    }
+}
+
+/// The region table's entry of a region id.
+pub fn region(document: &Document, id: u32) -> Option<&Region> {
+    let found = document.regions.binary_search_by_key(&id, |r| r.id);
+    found.ok().map(|i| &document.regions[i])
+}
+
+fn notes(document: &Document) -> Vec<String> {
+    let mut notes = Vec::new();
+    let tets: usize = document.templates.iter().map(|t| t.tets.len()).sum();
+    if tets == 0 {
+        notes.push(
+            "there are no tetrahedra: volumes are those enclosed by the triangles, and the checks \
+             are those of a surface"
+                .to_owned(),
+        );
+    }
+    if document.instances.is_empty() {
+        notes.push("no template is placed: all amounts are zero".to_owned());
+    }
+    if is_sector(document) {
+        notes.push(
+            "this is one sector on its own: its walls count as open faces, and amounts are those \
+             of the sector"
+                .to_owned(),
+        );
+    }
+    for (index, template) in document.templates.iter().enumerate() {
+        if template.tets.is_empty() {
+            continue;
+        }
+        let mut used = vec![false; template.vertices.len()];
+        let corners = template.tets.iter().flat_map(|t| t.vertices);
+        corners.for_each(|v| used[v as usize] = true);
+        let unused = used.iter().filter(|u| !**u).count();
+        if unused > 0 {
+            notes.push(format!(
+                "{unused} vertices of template {index} belong to no tetrahedron"
+            ));
+        }
+    }
+    notes
+}

@@ -1,0 +1,229 @@
+//! Exact statistics of a metric over weighted parts.
+
+use crate::{Metric, Statistic};
+use serde::Serialize;
+
+/// Values of one metric: parts of equal weight, one per template, weighted by its instances.
+#[derive(Clone, Debug, Default)]
+pub struct Sample {
+    parts: Vec<(Vec<f64>, u64)>,
+}
+
+/// Statistics of one metric. Infinite values (flat elements) appear as `null` in JSON.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Smallest value.
+    pub min: f64,
+    /// Largest value.
+    pub max: f64,
+    /// Arithmetic mean.
+    pub mean: f64,
+    /// First percentile. Percentiles are values that occur: the smallest one with at least that
+    /// share of all values at or below it.
+    pub p01: f64,
+    /// Median.
+    pub p50: f64,
+    /// 99th percentile.
+    pub p99: f64,
+    /// Distribution.
+    pub histogram: Histogram,
+}
+
+/// Counts of values between boundaries.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Histogram {
+    /// Boundaries, one more than counts; a bin includes its lower one, the last bin both.
+    pub edges: Vec<f64>,
+    /// Values in each bin. Values beyond the ends (infinite ones) count in the outermost bins.
+    pub counts: Vec<u64>,
+}
+
+impl Statistics {
+    /// One of the statistics.
+    pub fn get(&self, statistic: Statistic) -> f64 {
+        match statistic {
+            Statistic::Min => self.min,
+            Statistic::Max => self.max,
+            Statistic::Mean => self.mean,
+            Statistic::P01 => self.p01,
+            Statistic::P50 => self.p50,
+            Statistic::P99 => self.p99,
+        }
+    }
+}
+
+impl Sample {
+    /// Adds the values of a part that occurs `weight` times. Values may be infinite, not NaN.
+    pub fn add(&mut self, values: Vec<f64>, weight: u64) {
+        if weight > 0 && !values.is_empty() {
+            self.parts.push((values, weight));
+        }
+    }
+
+    /// Smallest and largest finite value.
+    pub fn finite_range(&self) -> Option<(f64, f64)> {
+        let mut range: Option<(f64, f64)> = None;
+        for &x in self.parts.iter().flat_map(|(values, _)| values) {
+            if x.is_finite() {
+                range = Some(range.map_or((x, x), |(a, b)| (a.min(x), b.max(x))));
+            }
+        }
+        range
+    }
+
+    /// The statistics, with the histogram over `edges`; `None` without values. Linear in the number
+    /// of values when all weights are equal, else one sort.
+    pub fn statistics(self, edges: Vec<f64>) -> Option<Statistics> {
+        let total: u64 = self
+            .parts
+            .iter()
+            .map(|(values, weight)| values.len() as u64 * weight)
+            .sum();
+        if total == 0 {
+            return None;
+        }
+        let mean = self
+            .parts
+            .iter()
+            .map(|(values, weight)| sum(values) * *weight as f64)
+            .sum::<f64>()
+            / total as f64;
+        let counts = self.counts(&edges);
+        let ranks = [0.01, 0.5, 0.99].map(|share: f64| {
+            // One-based rank of the percentile.
+            ((share * total as f64).ceil() as u64).clamp(1, total)
+        });
+        let (min, max, [p01, p50, p99]) = self.ranked(ranks);
+        Some(Statistics {
+            min,
+            max,
+            mean,
+            p01,
+            p50,
+            p99,
+            histogram: Histogram { edges, counts },
+        })
+    }
+
+    fn counts(&self, edges: &[f64]) -> Vec<u64> {
+        let inner = &edges[1..edges.len() - 1];
+        let mut counts = vec![0; edges.len() - 1];
+        for (values, weight) in &self.parts {
+            for x in values {
+                counts[inner.partition_point(|e| e <= x)] += weight;
+            }
+        }
+        counts
+    }
+
+    /// Minimum, maximum, and the values at three increasing one-based ranks.
+    fn ranked(mut self, ranks: [u64; 3]) -> (f64, f64, [f64; 3]) {
+        let first_weight = self.parts[0].1;
+        if self.parts.iter().all(|(_, weight)| *weight == first_weight) {
+            let mut values = self.parts.swap_remove(0).0;
+            for (more, _) in &self.parts {
+                values.extend_from_slice(more);
+            }
+            let min = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let mut begin = 0;
+            let found = ranks.map(|rank| {
+                let index = ((rank - 1) / first_weight) as usize;
+                let tail = &mut values[begin..];
+                let (_, value, _) = tail.select_nth_unstable_by(index - begin, f64::total_cmp);
+                begin = index;
+                *value
+            });
+            return (min, max, found);
+        }
+        let mut values: Vec<(f64, u64)> = self
+            .parts
+            .into_iter()
+            .flat_map(|(values, weight)| values.into_iter().map(move |x| (x, weight)))
+            .collect();
+        values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let last = values[values.len() - 1].0;
+        let mut found = [last; 3];
+        let mut below = 0;
+        let mut next = 0;
+        for (x, weight) in &values {
+            below += weight;
+            while next < 3 && ranks[next] <= below {
+                found[next] = *x;
+                next += 1;
+            }
+        }
+        (values[0].0, last, found)
+    }
+}
+
+/// Sum in blocks, so that the rounding error does not grow with the number of values.
+pub fn sum(values: &[f64]) -> f64 {
+    match values.len() {
+        0..=256 => values.iter().sum(),
+        n => {
+            let (a, b) = values.split_at(n / 2);
+            sum(a) + sum(b)
+        }
+    }
+}
+
+/// The boundaries of a metric's histogram over several samples.
+pub fn common_bins(metric: Metric, samples: &[&Sample], bins: usize) -> Vec<f64> {
+    let (low, high) = samples
+        .iter()
+        .filter_map(|s| s.finite_range())
+        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        .unwrap_or((0.0, 1.0));
+    metric.bins(low, high, bins)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(parts: &[(&[f64], u64)]) -> Sample {
+        let mut sample = Sample::default();
+        for (values, weight) in parts {
+            sample.add(values.to_vec(), *weight);
+        }
+        sample
+    }
+
+    #[test]
+    fn percentiles_are_nearest_ranks() {
+        let values: Vec<f64> = (1..=200).rev().map(f64::from).collect();
+        let s = sample(&[(&values, 1)])
+            .statistics(vec![1.0, 101.0, 200.0])
+            .unwrap();
+        assert_eq!((s.min, s.max, s.mean), (1.0, 200.0, 100.5));
+        assert_eq!((s.p01, s.p50, s.p99), (2.0, 100.0, 198.0));
+        assert_eq!(s.histogram.counts, [100, 100]);
+    }
+
+    #[test]
+    fn weights_stand_for_copies() {
+        let a = [3.0, 1.0, 9.0, 4.0, f64::INFINITY];
+        let b = [2.0, 7.0, 7.0];
+        let edges = vec![0.0, 2.0, 5.0, 9.0];
+        for (wa, wb) in [(7, 7), (5, 32), (100, 1), (0, 3)] {
+            let mut copies = Vec::new();
+            (0..wa).for_each(|_| copies.extend(a));
+            (0..wb).for_each(|_| copies.extend(b));
+            let expanded = sample(&[(&copies, 1)]).statistics(edges.clone()).unwrap();
+            let weighted = sample(&[(&a, wa), (&b, wb)])
+                .statistics(edges.clone())
+                .unwrap();
+            assert_eq!(weighted, expanded);
+        }
+    }
+
+    #[test]
+    fn nothing_has_no_statistics() {
+        assert_eq!(sample(&[]).statistics(vec![0.0, 1.0]), None);
+        assert_eq!(
+            common_bins(Metric::Volume, &[&sample(&[])], 2),
+            [0.0, 0.5, 1.0]
+        );
+    }
+}
