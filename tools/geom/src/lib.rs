@@ -2,6 +2,7 @@
 //! triangles around an edge, the cells a triangle complex divides space into, and where triangles
 //! meet that should not.
 
+pub mod bvh;
 pub mod cells;
 pub mod contacts;
 pub mod edges;
