@@ -1,13 +1,109 @@
 //! The command line of `symdetect`.
 
-use kit::{Command, CommonArgs, Failure, Session};
+use crate::{Error, Params, Report, detect};
+use glam::DVec3;
+use kit::{Command, CommonArgs, Failure, Output, Session};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use tmesh::MAX_TURN_DENOMINATOR;
 
-/// Passes a document on
+const EXAMPLES: &str = "\
+Examples:
+  symdetect part.stl -o part.tmesh          find the symmetry
+  symdetect part.stl --report part.json     and write what was found as JSON
+  symdetect --order 12 part.stl | wedgecut  insist on order 12
+  symdetect --axis 0,0,1 --center 5,0,0 part.stl";
+
+/// Find the axis, order and mirror planes of a body
+///
+/// Reads a closed surface of one or several materials and adds its symmetry. The shape counts, not
+/// the triangles it is made of: every operation reported maps every sampled point of the surface
+/// to within the tolerance of the surface, interfaces between materials included.
 #[derive(clap::Parser, Debug)]
-#[command(name = "symdetect", version)]
+#[command(name = "symdetect", version, after_help = EXAMPLES)]
 pub struct Cli {
     #[command(flatten)]
     common: CommonArgs,
+
+    /// Largest deviation from symmetry, relative to the radius about the axis
+    #[arg(long, value_name = "REL", default_value_t = 1e-3, value_parser = tolerance)]
+    tolerance: f64,
+
+    /// Direction of the axis, to be verified
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
+    axis: Option<DVec3>,
+
+    /// A point on the axis, to be verified
+    #[arg(long, alias = "centre", value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    center: Option<DVec3>,
+
+    /// Verify just this order; fail if it does not hold
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_ORDER)))]
+    order: Option<u32>,
+
+    /// Highest order tried
+    #[arg(long, value_name = "N", default_value_t = 1024,
+          value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_ORDER)))]
+    max_order: u32,
+
+    /// Pass a body without symmetry on as C1
+    #[arg(long)]
+    allow_asymmetric: bool,
+
+    /// Write what was found as JSON
+    #[arg(long, value_name = "PATH")]
+    report: Option<PathBuf>,
+}
+
+/// Half a step must still be a turn that can be stored.
+const MAX_ORDER: u32 = MAX_TURN_DENOMINATOR / 4;
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 0.1 => Ok(x),
+        Ok(_) => Err("a tolerance is greater than 0 and at most 0.1".to_owned()),
+        Err(e) => Err(e.to_string()),
+    }
+}
+
+fn point(text: &str) -> Result<DVec3, String> {
+    let parts: Vec<f64> = text
+        .split(',')
+        .map(|p| p.trim().parse::<f64>().map_err(|e| format!("'{p}': {e}")))
+        .collect::<Result<_, _>>()?;
+    match parts[..] {
+        [x, y, z] if parts.iter().all(|p| p.is_finite()) => Ok(DVec3::new(x, y, z)),
+        [_, _, _] => Err("the numbers must be finite".to_owned()),
+        _ => Err(format!("three numbers are wanted, not {}", parts.len())),
+    }
+}
+
+fn direction(text: &str) -> Result<DVec3, String> {
+    point(text)?
+        .try_normalize()
+        .ok_or_else(|| "a direction must not be zero".to_owned())
+}
+
+impl Cli {
+    fn params(&self) -> Params {
+        Params {
+            tolerance: self.tolerance,
+            axis: self.axis,
+            center: self.center,
+            order: self.order,
+            max_order: self.max_order,
+            allow_asymmetric: self.allow_asymmetric,
+        }
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::NoSurface | Error::NoExtent { .. } => Self::Input(error.to_string()),
+            _ => Self::Impossible(error.to_string()),
+        }
+    }
 }
 
 impl Command for Cli {
@@ -16,8 +112,31 @@ impl Command for Cli {
     }
 
     fn run(self, session: &Session) -> Result<(), Failure> {
+        let params = self.params();
         let mut document = session.read()?;
-        document.history.push(session.history_entry(Vec::new()));
+        let found = detect(&document, &params, &mut |text| session.info(text))?;
+        if let Some(reason) = &found.asymmetric {
+            session.note(&format!("passed on as C1: {reason}"));
+        }
+        for note in &found.notes {
+            session.note(note);
+        }
+        for r in &found.symmetry.rejected {
+            session.detail(&format!("order {}: off by {:.2e}", r.order, r.residual));
+        }
+        if let Some(path) = &self.report {
+            write_report(path, &Report::new(&document, &found.symmetry, &found.notes))?;
+        }
+        document.symmetry = Some(found.symmetry);
+        document.history.push(session.history_entry(found.notes));
         session.write(&document)
     }
+}
+
+fn write_report(path: &Path, report: &Report) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(report)
+        .map_err(|e| Failure::Output(format!("cannot write the report: {e}")))?;
+    let mut out = Output::create(Some(path), false)?;
+    writeln!(out, "{text}").map_err(|e| out.failure(&e))?;
+    out.commit()
 }

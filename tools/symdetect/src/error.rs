@@ -1,0 +1,106 @@
+//! Why no symmetry could be reported.
+
+use glam::DVec3;
+use std::fmt;
+use thiserror::Error;
+
+/// A point, for messages.
+#[derive(Clone, Copy, Debug)]
+pub struct At(pub DVec3);
+
+impl fmt::Display for At {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0.to_array().map(short);
+        write!(f, "({x}, {y}, {z})")
+    }
+}
+
+/// A number with six significant digits.
+pub fn short(x: f64) -> String {
+    let text = format!("{x:.5e}");
+    match text.parse::<f64>() {
+        Ok(y) if y == 0.0 => "0".to_owned(),
+        Ok(y) if (1e-4..1e7).contains(&y.abs()) => format!("{y}"),
+        Ok(y) => format!("{y:e}"),
+        Err(_) => text,
+    }
+}
+
+/// Why detection failed.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// Nothing to look at.
+    #[error("the document has no surface triangles; did the previous stage fail?")]
+    NoSurface,
+    /// Extent zero.
+    #[error("the surface has no extent: all its {triangles} triangles lie in one point")]
+    NoExtent {
+        /// Number of triangles.
+        triangles: usize,
+    },
+    /// Cut already.
+    #[error(
+        "the document holds {templates} templates placed {instances} times: it was cut already, and symdetect wants the whole surface"
+    )]
+    NotPlain {
+        /// Templates.
+        templates: usize,
+        /// Instances.
+        instances: usize,
+    },
+    /// No rotation, no mirror.
+    #[error("{}", asymmetric(.closest, *.tolerance))]
+    Asymmetric {
+        /// The least bad operation.
+        closest: Option<Closest>,
+        /// Tolerance, relative to the radius.
+        tolerance: f64,
+    },
+    /// `--order` does not hold.
+    #[error(
+        "order {order} does not hold within {tolerance:e} of the radius: about the axis {axis} through {centre} the surface is off by {residual:.2e} of the radius at {place}; raise --tolerance, or leave --order away to have the order found"
+    )]
+    OrderFails {
+        /// The order asked for.
+        order: u32,
+        /// Tolerance, relative to the radius.
+        tolerance: f64,
+        /// Deviation, relative to the radius.
+        residual: f64,
+        /// Direction of the axis.
+        axis: At,
+        /// A point on it.
+        centre: At,
+        /// Where the deviation was found.
+        place: At,
+    },
+}
+
+/// The least bad operation of an asymmetric body.
+#[derive(Clone, Copy, Debug)]
+pub struct Closest {
+    /// Order of the rotation; 1 for a mirror.
+    pub order: u32,
+    /// Deviation, relative to the radius.
+    pub residual: f64,
+    /// Direction of the axis, or normal of the mirror plane.
+    pub direction: At,
+    /// Where the deviation was found.
+    pub place: At,
+}
+
+fn asymmetric(closest: &Option<Closest>, tolerance: f64) -> String {
+    let mut text = format!("no symmetry within {tolerance:e} of the radius");
+    if let Some(c) = closest {
+        let what = if c.order > 1 {
+            format!("order {} about the axis {}", c.order, c.direction)
+        } else {
+            format!("a mirror plane with normal {}", c.direction)
+        };
+        text += &format!(
+            ": closest is {what}, off by {:.2e} of the radius at {}",
+            c.residual, c.place
+        );
+    }
+    text + "; raise --tolerance, or pass the body on as it is with --allow-asymmetric"
+}

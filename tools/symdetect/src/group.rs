@@ -1,0 +1,140 @@
+//! The point group about the main axis, and its verification as a whole.
+
+use crate::mirror::{HALF_TURN, HORIZONTAL, VERTICAL};
+use crate::permutation::Permutation;
+use crate::shape::{Motion, Shape};
+use crate::verify::{Depth, Deviation, Operation};
+use glam::DMat3;
+use tmesh::{Frame, Isometry};
+
+/// Operations that turn the axis over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flip {
+    /// None.
+    None,
+    /// The mirror across the axis.
+    Horizontal,
+    /// The rotary reflection by half a step.
+    Rotary,
+    /// Half turns about axes across the main one; the frame's x direction is one of them.
+    HalfTurn,
+}
+
+/// A group of operations in a frame: rotations by steps of a turn over `order` about z, the mirror
+/// y -> -y, and a flip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Order of the rotation, at least 1.
+    pub order: u32,
+    /// Whether mirrors contain the axis.
+    pub mirror: bool,
+    /// What turns the axis over.
+    pub flip: Flip,
+}
+
+/// What verification found.
+#[derive(Clone, Debug)]
+pub struct Verified {
+    /// Largest deviation, in the units of the shape.
+    pub deviation: Deviation,
+    /// Regions under one step of the rotation.
+    pub rotation: Permutation,
+    /// Regions under the mirror y -> -y.
+    pub mirror: Permutation,
+    /// Regions under the flip.
+    pub flip: Permutation,
+}
+
+impl Group {
+    /// Schoenflies symbol with the order written out. A single mirror plane is `C1v`.
+    pub fn symbol(&self) -> String {
+        let n = self.order;
+        match (self.flip, self.mirror) {
+            (Flip::None, false) => format!("C{n}"),
+            (Flip::None, true) => format!("C{n}v"),
+            (Flip::Horizontal, false) => format!("C{n}h"),
+            (Flip::Horizontal, true) if n == 1 => "C2v".to_owned(),
+            (Flip::Horizontal, true) => format!("D{n}h"),
+            (Flip::Rotary, false) => format!("S{}", 2 * n),
+            (Flip::Rotary, true) => format!("D{n}d"),
+            (Flip::HalfTurn, _) => format!("D{n}"),
+        }
+    }
+
+    /// Matrix of the flip in the frame.
+    pub fn flip_matrix(&self) -> Option<DMat3> {
+        match self.flip {
+            Flip::None => None,
+            Flip::Horizontal => Some(HORIZONTAL),
+            Flip::Rotary => Some(Isometry::rotation(1, 2 * self.order).matrix() * HORIZONTAL),
+            Flip::HalfTurn => Some(HALF_TURN),
+        }
+    }
+
+    /// Verifies all operations in a frame, within `limit` (units of the shape).
+    pub fn verify(
+        &self,
+        shape: &Shape,
+        frame: &Frame,
+        limit: f64,
+        depth: Depth,
+    ) -> Result<Verified, Deviation> {
+        let identity = Permutation::identity(shape.regions.len());
+        let mut worst = Deviation::NONE;
+        let mut rotation = identity.clone();
+        if self.order > 1 {
+            let (deviation, permutation) =
+                shape.verify_rotation(frame, self.order, limit, depth)?;
+            worst = worst.max(deviation);
+            rotation = permutation;
+        }
+        let (mut mirror, mut flip) = (identity.clone(), identity);
+        if self.mirror {
+            let found = self.verify_coset(shape, frame, VERTICAL, &rotation, limit, depth)?;
+            worst = worst.max(found.0);
+            mirror = found.1;
+        }
+        if let Some(matrix) = self.flip_matrix() {
+            let found = self.verify_coset(shape, frame, matrix, &rotation, limit, depth)?;
+            worst = worst.max(found.0);
+            flip = found.1;
+        }
+        Ok(Verified {
+            deviation: worst,
+            rotation,
+            mirror,
+            flip,
+        })
+    }
+
+    /// Verifies an operation and its products with all rotations.
+    fn verify_coset(
+        &self,
+        shape: &Shape,
+        frame: &Frame,
+        matrix: DMat3,
+        rotation: &Permutation,
+        limit: f64,
+        depth: Depth,
+    ) -> Result<(Deviation, Permutation), Deviation> {
+        let (first, permutation) = shape.verify_one(Motion::new(frame, matrix), limit, depth)?;
+        if self.order == 1 {
+            return Ok((first, permutation));
+        }
+        let powers = rotation.powers(self.order);
+        let operations: Vec<Operation> = (1..self.order)
+            .map(|k| {
+                let turn = Isometry::rotation(i64::from(k), self.order).matrix();
+                Operation {
+                    motion: Motion::new(frame, turn * matrix),
+                    target: shape.target(&powers[k as usize].after(&permutation)),
+                }
+            })
+            .collect();
+        let others = shape.verify_family(&operations, limit, Depth::Quick);
+        if others.value > limit {
+            return Err(others);
+        }
+        Ok((first.max(others), permutation))
+    }
+}

@@ -1,0 +1,226 @@
+//! Operations beside the rotations: mirrors that contain the axis, half turns across it, the mirror
+//! across it, and rotary reflections.
+
+use crate::order::{Limits, Rotation, powers};
+use crate::permutation::Permutation;
+use crate::refine::{Canonical, refine};
+use crate::shape::{Motion, Shape, Target};
+use crate::verify::{Depth, Deviation, turn_matrix};
+use glam::{DMat3, DVec3};
+use std::f64::consts::PI;
+use tmesh::{Frame, Isometry};
+
+/// `y -> -y`: the mirror that contains the frame's axis and its x direction.
+pub const VERTICAL: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::Z);
+/// `z -> -z`: the mirror across the axis.
+pub const HORIZONTAL: DMat3 = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::NEG_Z);
+/// Half turn about the frame's x direction.
+pub const HALF_TURN: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z);
+
+/// Samples that score a candidate angle.
+const SCORED: usize = 64;
+/// Share of them that may be off.
+const OUTLIERS: f64 = 0.15;
+/// Candidate angles looked at closely.
+const CLOSE: usize = 6;
+
+/// An operation found beside the rotations.
+pub struct Found {
+    /// Frame in which the operation has its standard matrix.
+    pub frame: Frame,
+    /// Largest deviation, in the units of the shape.
+    pub deviation: Deviation,
+    /// What it does to regions.
+    pub permutation: Permutation,
+}
+
+/// Finds the operation `kind` (a reflection [`VERTICAL`] or a [`HALF_TURN`]) turned by some angle about
+/// the axis: in steps over one period, then adjusted. Returns the frame whose x direction lies in the
+/// mirror or on the axis of the half turn; that with the smallest deviation if there are several.
+pub fn find_turned(
+    shape: &Shape,
+    rotation: &Rotation,
+    kind: DMat3,
+    fixed: bool,
+    limits: Limits,
+    depth: Depth,
+) -> Option<Found> {
+    let Rotation {
+        frame,
+        radius,
+        order,
+        ..
+    } = rotation;
+    let loose = limits.loose * radius;
+    let period = PI / f64::from(*order);
+    // An angle off by half a step moves an image by one step times the radius.
+    let steps = ((2.0 * period / limits.loose).ceil() as usize).max(32);
+    let samples = &shape.samples.mixed[..SCORED.min(shape.samples.mixed.len())];
+    let allowed = (OUTLIERS * samples.len() as f64) as usize;
+    let score = |angle: f64| {
+        let turn = turn_matrix(angle / PI);
+        let motion = Motion::new(frame, turn * kind);
+        let (mut sum, mut missed) = (0.0, 0);
+        for s in samples {
+            match shape.nearest(motion.apply(s.point), 0, &Target::Any, loose) {
+                Some(n) => sum += n.distance,
+                None => {
+                    sum += loose;
+                    missed += 1;
+                    if missed > allowed {
+                        return f64::INFINITY;
+                    }
+                }
+            }
+        }
+        sum
+    };
+    let angle = |i: usize| period * i as f64 / steps as f64;
+    let scores: Vec<f64> = (0..steps).map(|i| score(angle(i))).collect();
+    let mut candidates: Vec<usize> = (0..steps)
+        .filter(|&i| {
+            let s = scores[i];
+            s.is_finite() && s <= scores[(i + 1) % steps] && s <= scores[(i + steps - 1) % steps]
+        })
+        .collect();
+    candidates.sort_by(|&i, &j| scores[i].total_cmp(&scores[j]).then(i.cmp(&j)));
+    candidates.truncate(CLOSE);
+
+    let limit = limits.tolerance * radius;
+    let mut best: Option<Found> = None;
+    for i in candidates {
+        let (s, c) = libm::sincos(angle(i));
+        let x = frame.rotation * DVec3::new(c, s, 0.0);
+        let Some(turned) = Frame::from_axis(frame.origin, frame.rotation.z_axis, x) else {
+            continue;
+        };
+        let adjusted = if fixed {
+            turn_only(shape, turned, kind, loose)
+        } else {
+            let mut operations = vec![canonical(kind)];
+            if rotation.distinct {
+                operations.extend(powers(*order, &Target::Any));
+            }
+            refine(shape, turned, &operations, 5_000, loose)
+        };
+        let motion = Motion::new(&adjusted, kind);
+        if let Ok((deviation, permutation)) = shape.verify_one(motion, limit, depth) {
+            let better = best
+                .as_ref()
+                .is_none_or(|b| deviation.value < 0.5 * b.deviation.value);
+            if better {
+                best = Some(Found {
+                    frame: adjusted,
+                    deviation,
+                    permutation,
+                });
+            }
+        }
+    }
+    best
+}
+
+fn canonical(matrix: DMat3) -> Canonical {
+    Canonical {
+        matrix,
+        target: Target::Any,
+    }
+}
+
+/// Adjusts the angle about the axis and leaves axis and centre where they are.
+fn turn_only(shape: &Shape, frame: Frame, kind: DMat3, loose: f64) -> Frame {
+    let adjusted = refine(shape, frame, &[canonical(kind)], 5_000, loose);
+    Frame::from_axis(
+        frame.origin,
+        frame.rotation.z_axis,
+        adjusted.rotation.x_axis,
+    )
+    .unwrap_or(frame)
+}
+
+/// Verifies `R(turn) * H`: the mirror across the axis (`turn` 0) or the rotary reflection by
+/// `turn = 1 / (2 n)`. The centre is adjusted along the axis, never across it.
+pub fn find_flip(
+    shape: &Shape,
+    rotation: &Rotation,
+    turn: Isometry,
+    limits: Limits,
+    depth: Depth,
+) -> Option<Found> {
+    let frame = &rotation.frame;
+    let matrix = turn.matrix() * HORIZONTAL;
+    let loose = limits.loose * rotation.radius;
+    let adjusted = refine(shape, *frame, &[canonical(matrix)], 5_000, loose);
+    let axis = frame.rotation.z_axis;
+    let along = axis * axis.dot(adjusted.origin - frame.origin);
+    let slid = Frame {
+        origin: frame.origin + along,
+        ..*frame
+    };
+    let limit = limits.tolerance * rotation.radius;
+    let mut best: Option<Found> = None;
+    for frame in [slid, *frame] {
+        if let Ok((deviation, permutation)) =
+            shape.verify_one(Motion::new(&frame, matrix), limit, depth)
+            && best
+                .as_ref()
+                .is_none_or(|b| deviation.value < 0.5 * b.deviation.value)
+        {
+            best = Some(Found {
+                frame,
+                deviation,
+                permutation,
+            });
+        }
+    }
+    best
+}
+
+/// Finds the mirror plane whose normal is near `normal`, of a body without rotation symmetry. The
+/// frame's y direction is the plane's normal; its axis is the coordinate axis that lies best in the
+/// plane, turned into it.
+pub fn find_mirror_plane(
+    shape: &Shape,
+    centre: DVec3,
+    normal: DVec3,
+    axis: Option<DVec3>,
+    limits: Limits,
+    depth: Depth,
+) -> Option<(Found, f64)> {
+    let frame_of = |origin: DVec3, normal: DVec3| {
+        let hint = axis.unwrap_or_else(|| in_plane_axis(normal));
+        let z = (hint - normal * hint.dot(normal)).try_normalize()?;
+        Frame::from_axis(origin, z, normal.cross(z))
+    };
+    let start = frame_of(centre, normal)?;
+    let radius = shape.radius(&start);
+    let adjusted = refine(
+        shape,
+        start,
+        &[canonical(VERTICAL)],
+        4_000,
+        limits.loose * radius,
+    );
+    let frame = frame_of(adjusted.origin, adjusted.rotation.y_axis)?;
+    let radius = shape.radius(&frame);
+    let motion = Motion::new(&frame, VERTICAL);
+    let limit = limits.tolerance * radius;
+    let (deviation, permutation) = shape.verify_one(motion, limit, depth).ok()?;
+    let found = Found {
+        frame,
+        deviation,
+        permutation,
+    };
+    Some((found, radius))
+}
+
+/// The coordinate axis that lies best in the plane with the given normal; z before x before y.
+fn in_plane_axis(normal: DVec3) -> DVec3 {
+    let mut best = DVec3::Z;
+    for axis in [DVec3::X, DVec3::Y] {
+        if normal.dot(axis).abs() < normal.dot(best).abs() - 1e-6 {
+            best = axis;
+        }
+    }
+    best
+}

@@ -1,0 +1,341 @@
+//! The highest rotation order about one axis.
+
+use crate::permutation::Permutation;
+use crate::refine::{Canonical, refine};
+use crate::samples::{Random, Sample};
+use crate::shape::{Motion, Shape, Target};
+use crate::verify::{Depth, Deviation, Operation, golden_rotations};
+use glam::DVec3;
+use std::ops::RangeInclusive;
+use tmesh::{Frame, Isometry};
+
+/// Tolerances of a search, relative to the radius about the axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// What verified operations keep to.
+    pub tolerance: f64,
+    /// What candidates keep to before axis and centre are adjusted.
+    pub loose: f64,
+}
+
+impl Limits {
+    /// For a tolerance.
+    pub fn new(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            loose: (8.0 * tolerance).clamp(8e-3, 0.2),
+        }
+    }
+}
+
+/// A rotation symmetry found.
+#[derive(Clone, Debug)]
+pub struct Rotation {
+    /// Axis z, centre at the origin.
+    pub frame: Frame,
+    /// Largest distance of the surface from the axis.
+    pub radius: f64,
+    /// Order.
+    pub order: u32,
+    /// Regions under one step.
+    pub permutation: Permutation,
+    /// Largest deviation, in the units of the shape.
+    pub deviation: Deviation,
+    /// Whether all orders hold.
+    pub axisymmetric: bool,
+    /// Whether the order stands out; false for a body of revolution without a facet count.
+    pub distinct: bool,
+}
+
+impl Rotation {
+    /// Whether this is the better find. `noise` is the deviation that is not worth a distinction.
+    fn beats(&self, other: &Self, noise: f64) -> bool {
+        let key = |r: &Self| (r.distinct, r.order);
+        if key(self) != key(other) {
+            return key(self) > key(other);
+        }
+        self.deviation.value.max(noise) < other.deviation.value.max(noise)
+    }
+}
+
+/// Samples in a scan over orders.
+const SCAN: usize = 96;
+/// Share of samples that may be off while axis and centre are still rough.
+const OUTLIERS: f64 = 0.12;
+/// Factor by which the deviations of all other orders exceed those of the facet count's divisors.
+const SEPARATION: f64 = 3.0;
+/// Orders with many divisors, for bodies of revolution without a facet count.
+const COMPOSITE: [u32; 14] = [2, 4, 6, 12, 24, 36, 48, 60, 120, 180, 240, 360, 720, 840];
+
+/// Finds the highest order in `orders` about an axis near `direction` through a point near `centre`.
+///
+/// The axis and centre are adjusted to the shape unless `fixed`. Near a body of revolution, where
+/// many orders hold within the tolerance, the facet count is told by its deviation.
+pub fn find_rotation(
+    shape: &Shape,
+    centre: DVec3,
+    direction: DVec3,
+    fixed: bool,
+    orders: RangeInclusive<u32>,
+    limits: Limits,
+    depth: Depth,
+) -> Option<Rotation> {
+    let search = Search {
+        shape,
+        orders,
+        limits,
+        depth,
+    };
+    let start = Frame::from_axis(centre, direction, direction.any_orthogonal_vector())?;
+    let radius = shape.radius(&start);
+    if radius <= 0.0 {
+        return None;
+    }
+    let loose = limits.loose * radius;
+    let candidates = search.scan(&start, loose, OUTLIERS);
+    let largest = *candidates.last()?;
+    let mut best: Option<Rotation> = None;
+    let keep = |best: &mut Option<Rotation>, found: Option<Rotation>| {
+        if let Some(found) = found
+            && best
+                .as_ref()
+                .is_none_or(|b| found.beats(b, 0.5 * shape.precision))
+        {
+            *best = Some(found);
+        }
+    };
+    keep(&mut best, search.in_frame(&start));
+    if fixed {
+        return best;
+    }
+    let target = shape.target_in_place();
+    let near_revolution = candidates.len() > 20;
+    let operations = if near_revolution {
+        golden(&start, 12)
+    } else {
+        powers(largest, &target)
+    };
+    let adjusted = refine(shape, start, &operations, 4_000, loose);
+    keep(&mut best, search.in_frame(&adjusted));
+    if best.is_none() && !near_revolution {
+        for &n in candidates.iter().rev().skip(1).take(5) {
+            let adjusted = refine(shape, start, &powers(n, &target), 4_000, loose);
+            keep(&mut best, search.in_frame(&adjusted));
+            if best.is_some() {
+                break;
+            }
+        }
+    }
+    let found = best.clone()?;
+    let target = shape.target(&found.permutation);
+    let target = if found.permutation.is_identity() {
+        target
+    } else {
+        Target::Any
+    };
+    let operations = if found.distinct {
+        powers(found.order, &target)
+    } else {
+        golden(&found.frame, 12)
+    };
+    let reach = (4.0 * found.deviation.value).clamp(1e-4 * radius, 4.0 * limits.tolerance * radius);
+    let polished = refine(shape, found.frame, &operations, 12_000, reach);
+    keep(&mut best, search.in_frame(&polished));
+    best
+}
+
+/// A handful of powers of the rotation by a turn over `n`, for an adjustment.
+pub fn powers(n: u32, target: &Target) -> Vec<Canonical> {
+    let mut ks = vec![1, n / 2, n / 3, 2 * n / 5, n / 5, 3 * n / 7];
+    ks.retain(|&k| k > 0 && k < n);
+    ks.sort_unstable();
+    ks.dedup();
+    ks.into_iter()
+        .map(|k| Canonical {
+            matrix: Isometry::rotation(i64::from(k), n).matrix(),
+            target: target.clone(),
+        })
+        .collect()
+}
+
+fn golden(frame: &Frame, count: usize) -> Vec<Canonical> {
+    let q = frame.rotation;
+    golden_rotations(frame, count, Target::Any)
+        .into_iter()
+        .map(|o| Canonical {
+            matrix: q.transpose() * o.motion.linear * q,
+            target: Target::Any,
+        })
+        .collect()
+}
+
+struct Search<'a> {
+    shape: &'a Shape,
+    orders: RangeInclusive<u32>,
+    limits: Limits,
+    depth: Depth,
+}
+
+impl Search<'_> {
+    /// Orders that a few samples do not rule out, increasing. Regions do not count here.
+    fn scan(&self, frame: &Frame, limit: f64, outliers: f64) -> Vec<u32> {
+        self.orders
+            .clone()
+            .filter(|&n| self.passes(frame, n, limit, outliers))
+            .collect()
+    }
+
+    fn passes(&self, frame: &Frame, n: u32, limit: f64, outliers: f64) -> bool {
+        let samples = &self.shape.samples.mixed;
+        let count = SCAN.min(samples.len());
+        let mut left = (outliers * count as f64) as usize;
+        let mut random = Random(u64::from(n));
+        for (i, sample) in samples.iter().take(count).enumerate() {
+            let k = if i % 2 == 0 {
+                1
+            } else {
+                1 + random.below(n as usize - 1) as i64
+            };
+            if distance(self.shape, frame, Isometry::rotation(k, n), sample, limit).is_none() {
+                if left == 0 {
+                    return false;
+                }
+                left -= 1;
+            }
+        }
+        true
+    }
+
+    /// The highest order that holds with the frame as it is.
+    fn in_frame(&self, frame: &Frame) -> Option<Rotation> {
+        let radius = self.shape.radius(frame);
+        let limit = self.limits.tolerance * radius;
+        let survivors = self.scan(frame, limit, 0.0);
+        let most = *survivors.last()?;
+        let found = |order: u32, permutation, deviation, axisymmetric, distinct| {
+            Some(Rotation {
+                frame: *frame,
+                radius,
+                order,
+                permutation,
+                deviation,
+                axisymmetric,
+                distinct,
+            })
+        };
+        let verify = |n| self.shape.verify_rotation(frame, n, limit, self.depth);
+        let full_range = self.orders.end() > self.orders.start();
+        let revolution = if most > 2 || !full_range {
+            let d = self.shape.deviation_from_revolution(frame, 3.0 * limit);
+            (d.value <= 3.0 * limit).then_some(d)
+        } else {
+            None
+        };
+        let axisymmetric = revolution.is_some_and(|d| d.value <= limit);
+        if full_range && revolution.is_some() {
+            if let Some(n) = self.facet_count(frame, limit)
+                && let Ok((deviation, permutation)) = verify(n)
+            {
+                return found(n, permutation, deviation, axisymmetric, true);
+            }
+            if let (true, Some(deviation)) = (axisymmetric, revolution) {
+                let n = (COMPOSITE.iter().rev())
+                    .find(|n| self.orders.contains(n))
+                    .copied()
+                    .unwrap_or(*self.orders.start());
+                let p = Permutation::identity(self.shape.regions.len());
+                return found(n, p, deviation, true, false);
+            }
+        }
+        for &n in survivors.iter().rev() {
+            if let Ok((deviation, permutation)) = verify(n) {
+                return found(n, permutation, deviation, axisymmetric, true);
+            }
+        }
+        None
+    }
+
+    /// The order whose divisors, and only they, hold distinctly better than all other orders; the
+    /// highest of such orders. `None` when no order stands out within `limit`.
+    fn facet_count(&self, frame: &Frame, limit: f64) -> Option<u32> {
+        let most = *self.orders.end();
+        // Rounding of coordinates is no distinction.
+        let floor = 2.0 * self.shape.precision.max(1e-13);
+        let worst: Vec<f64> = (0..=most)
+            .map(|n| match n {
+                0 | 1 => 0.0,
+                n => deviation_of_order(self.shape, frame, n, 128, 3.0 * limit).max(floor),
+            })
+            .collect();
+        (3..=most).rev().find(|&n| {
+            let divisors = (2..=n).filter(|d| n % d == 0);
+            let inside = divisors.map(|d| worst[d as usize]).fold(0.0, f64::max);
+            inside <= limit
+                && (2..=most)
+                    .filter(|m| n % m != 0)
+                    .all(|m| worst[m as usize] >= SEPARATION * inside)
+        })
+    }
+}
+
+/// Distance of the image of a sample under an isometry of the frame from any triangle, if within
+/// `limit`.
+fn distance(
+    shape: &Shape,
+    frame: &Frame,
+    isometry: Isometry,
+    sample: &Sample,
+    limit: f64,
+) -> Option<f64> {
+    let p = frame.to_world(isometry.apply(frame.to_canonical(sample.point)));
+    shape
+        .nearest(p, sample.triangle, &Target::Any, limit)
+        .map(|n| n.distance)
+}
+
+/// Largest deviation of `count` vertices under random powers of the rotation of order `n` that do not
+/// belong to a lower order, up to `limit`. Regions do not count.
+pub fn deviation_of_order(shape: &Shape, frame: &Frame, n: u32, count: usize, limit: f64) -> f64 {
+    let mut random = Random(u64::from(n));
+    let mut worst = 0.0_f64;
+    for sample in shape.samples.vertices.iter().take(count) {
+        let mut k = 1 + random.below(n as usize - 1) as i64;
+        while gcd(k as u32, n) != 1 {
+            k = 1 + k % (i64::from(n) - 1);
+        }
+        match distance(shape, frame, Isometry::rotation(k, n), sample, limit) {
+            Some(d) => worst = worst.max(d),
+            None => return limit,
+        }
+    }
+    worst
+}
+
+/// Largest deviation over a few hundred samples and random powers of the rotation of order `n`, not
+/// cut off.
+pub fn deviation_measured(shape: &Shape, frame: &Frame, n: u32, count: usize) -> Deviation {
+    let mut random = Random(u64::from(n));
+    let target = shape.target_in_place();
+    let operations: Vec<Operation> = (0..count.min(64))
+        .map(|i| {
+            let k = if i % 4 == 0 {
+                1
+            } else {
+                1 + random.below(n as usize - 1) as i64
+            };
+            Operation {
+                motion: Motion::new(frame, Isometry::rotation(k, n).matrix()),
+                target: target.clone(),
+            }
+        })
+        .collect();
+    let samples = &shape.samples.mixed;
+    shape.worst(count.min(samples.len()), f64::INFINITY, |i| {
+        (&samples[i], &operations[(i * 7) % operations.len()])
+    })
+}
+
+/// Greatest common divisor.
+pub fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}

@@ -1,0 +1,44 @@
+//! The JSON report.
+
+use serde::Serialize;
+use tmesh::{Document, Symmetry};
+
+/// What `--report` writes: the symmetry, and what it was found in.
+#[derive(Debug, Serialize)]
+pub struct Report<'a> {
+    /// The symmetry.
+    #[serde(flatten)]
+    pub symmetry: &'a Symmetry,
+    /// Triangles of the surface.
+    pub triangles: usize,
+    /// Regions of the document.
+    pub regions: Vec<ReportRegion<'a>>,
+    /// Remarks, a sentence each.
+    pub notes: &'a [String],
+}
+
+/// A region in the report.
+#[derive(Debug, Serialize)]
+pub struct ReportRegion<'a> {
+    /// Id.
+    pub id: u32,
+    /// Name.
+    pub name: &'a str,
+}
+
+impl<'a> Report<'a> {
+    /// The report on a document.
+    pub fn new(document: &'a Document, symmetry: &'a Symmetry, notes: &'a [String]) -> Self {
+        Self {
+            symmetry,
+            triangles: document.templates.iter().map(|t| t.triangles.len()).sum(),
+            regions: (document.regions.iter())
+                .map(|r| ReportRegion {
+                    id: r.id,
+                    name: &r.name,
+                })
+                .collect(),
+            notes,
+        }
+    }
+}

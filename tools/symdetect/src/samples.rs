@@ -1,0 +1,198 @@
+//! Points at which symmetry is tested.
+
+use glam::DVec3;
+use std::ops::Range;
+
+/// Vertices taken at most.
+const MOST_VERTICES: usize = 150_000;
+/// Face samples at least and at most.
+const FACE_SAMPLES: Range<usize> = 6_000..60_000;
+/// Samples of every kind of interface at least.
+const PER_CLASS: usize = 12;
+/// How far the normals around a vertex must spread for it to count as a feature: one minus the
+/// length of their area-weighted mean.
+const SHARP: f64 = 0.02;
+
+/// A point of the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Where it is.
+    pub point: DVec3,
+    /// A triangle it lies on.
+    pub triangle: u32,
+}
+
+/// Samples in a fixed random order, so that any run of them is representative.
+pub struct Samples {
+    /// Points inside faces, evenly spread by area, every kind of interface represented.
+    pub faces: Vec<Sample>,
+    /// Vertices, once for each kind of interface they are on; those on sharp edges first when there
+    /// are too many.
+    pub vertices: Vec<Sample>,
+    /// Both, alternating until one kind runs out.
+    pub mixed: Vec<Sample>,
+}
+
+/// A small deterministic random generator (SplitMix64, Steele et al. 2014).
+#[derive(Clone)]
+pub struct Random(pub u64);
+
+impl Random {
+    /// Next 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in `0..n`, `n` positive.
+    pub fn below(&mut self, n: usize) -> usize {
+        ((u128::from(self.bits()) * n as u128) >> 64) as usize
+    }
+
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Puts a slice into random order.
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for i in (1..items.len()).rev() {
+            items.swap(i, self.below(i + 1));
+        }
+    }
+}
+
+impl Samples {
+    /// Samples a surface; `class` is the kind of interface of each triangle, out of `classes`.
+    pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]], class: &[u32], classes: usize) -> Self {
+        let mut random = Random(0x5EED);
+        let corners = |t: usize| triangles[t].map(|v| vertices[v as usize]);
+        let mut faces = sample_faces(triangles.len(), &corners, class, classes, &mut random);
+        random.shuffle(&mut faces);
+        let mut picked = pick_vertices(vertices, triangles, class, &mut random);
+        random.shuffle(&mut picked);
+        let mut mixed = Vec::with_capacity(faces.len() + picked.len());
+        let common = faces.len().min(picked.len());
+        for i in 0..common {
+            mixed.extend([picked[i], faces[i]]);
+        }
+        mixed.extend_from_slice(&faces[common..]);
+        mixed.extend_from_slice(&picked[common..]);
+        Self {
+            faces,
+            vertices: picked,
+            mixed,
+        }
+    }
+}
+
+fn sample_faces(
+    count: usize,
+    corners: &impl Fn(usize) -> [DVec3; 3],
+    class: &[u32],
+    classes: usize,
+    random: &mut Random,
+) -> Vec<Sample> {
+    let area = |t: usize| {
+        let [a, b, c] = corners(t);
+        (b - a).cross(c - a).length()
+    };
+    let inside = |t: usize, random: &mut Random| {
+        let [a, b, c] = corners(t);
+        let (mut u, mut v) = (random.unit(), random.unit());
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        Sample {
+            point: a + (b - a) * u + (c - a) * v,
+            triangle: t as u32,
+        }
+    };
+    let total: f64 = (0..count).map(area).sum();
+    let wanted = (2 * count).clamp(FACE_SAMPLES.start, FACE_SAMPLES.end);
+    let mut taken = vec![0_usize; classes];
+    let mut samples = Vec::with_capacity(wanted + PER_CLASS * classes);
+    // Systematic sampling: equal steps along the cumulated area.
+    let step = total / wanted as f64;
+    let mut next = 0.5 * step;
+    let mut sum = 0.0;
+    for t in 0..count {
+        sum += area(t);
+        while next < sum && samples.len() < wanted {
+            samples.push(inside(t, random));
+            taken[class[t] as usize] += 1;
+            next += step;
+        }
+    }
+    if taken.iter().any(|&n| n < PER_CLASS) {
+        let mut members = vec![0_usize; classes];
+        for &c in class {
+            members[c as usize] += 1;
+        }
+        for (t, &c) in class.iter().enumerate() {
+            let c = c as usize;
+            if taken[c] < PER_CLASS {
+                for _ in 0..PER_CLASS.div_ceil(members[c]) {
+                    samples.push(inside(t, random));
+                    taken[c] += 1;
+                }
+            }
+        }
+    }
+    samples
+}
+
+/// Vertices in use, once per class of their triangles.
+fn pick_vertices(
+    vertices: &[DVec3],
+    triangles: &[[u32; 3]],
+    class: &[u32],
+    random: &mut Random,
+) -> Vec<Sample> {
+    let mut pairs: Vec<(u32, u32, u32)> = Vec::with_capacity(triangles.len() * 3);
+    for (t, corners) in triangles.iter().enumerate() {
+        for &v in corners {
+            pairs.push((v, class[t], t as u32));
+        }
+    }
+    if class.iter().all(|&c| c == class[0]) {
+        // One kind of interface: the first triangle of each vertex will do, without sorting.
+        let mut seen = vec![false; vertices.len()];
+        pairs.retain(|p| !std::mem::replace(&mut seen[p.0 as usize], true));
+    } else {
+        pairs.sort_unstable();
+        pairs.dedup_by_key(|p| (p.0, p.1));
+    }
+    if pairs.len() > MOST_VERTICES {
+        let sharp = sharp_vertices(vertices, triangles);
+        random.shuffle(&mut pairs);
+        pairs.sort_by_key(|p| !sharp[p.0 as usize]);
+        pairs.truncate(MOST_VERTICES);
+    }
+    pairs
+        .into_iter()
+        .map(|(v, _, triangle)| Sample {
+            point: vertices[v as usize],
+            triangle,
+        })
+        .collect()
+}
+
+fn sharp_vertices(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Vec<bool> {
+    let mut sum = vec![(DVec3::ZERO, 0.0); vertices.len()];
+    for t in triangles {
+        let [a, b, c] = t.map(|v| vertices[v as usize]);
+        let n = (b - a).cross(c - a);
+        let length = n.length();
+        for &v in t {
+            let s = &mut sum[v as usize];
+            *s = (s.0 + n, s.1 + length);
+        }
+    }
+    sum.iter()
+        .map(|(n, total)| n.length() < (1.0 - SHARP) * total)
+        .collect()
+}

@@ -1,0 +1,315 @@
+//! Verification of operations: how far the image of the surface is from the surface.
+
+use crate::permutation::Permutation;
+use crate::samples::{Random, Sample};
+use crate::shape::{Motion, NO_CLASS, Shape, Target};
+use glam::{DMat3, DVec3};
+use rustc_hash::FxHashMap;
+use std::thread;
+use tmesh::{Frame, Isometry};
+
+/// A deviation and where it was found.
+#[derive(Clone, Copy, Debug)]
+pub struct Deviation {
+    /// Distance of an image from the surface, in the units of the shape.
+    pub value: f64,
+    /// The sample whose image is that far off.
+    pub at: DVec3,
+}
+
+impl Deviation {
+    /// No deviation.
+    pub const NONE: Self = Self {
+        value: 0.0,
+        at: DVec3::ZERO,
+    };
+
+    /// The larger of two.
+    pub fn max(self, other: Self) -> Self {
+        if other.value > self.value {
+            other
+        } else {
+            self
+        }
+    }
+}
+
+/// How thorough a verification is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// A few thousand tests: enough to rank candidates.
+    Quick,
+    /// Every vertex and face sample for one step of the rotation and for one mirror, and a share of
+    /// them for all other operations.
+    Full,
+}
+
+/// An operation and what images may land on.
+pub struct Operation {
+    /// The motion.
+    pub motion: Motion,
+    /// Where triangles may land.
+    pub target: Target,
+}
+
+/// Tests run between two looks at whether one failed.
+const BLOCK: usize = 1 << 15;
+/// Tests below which threads do not pay.
+const PARALLEL: usize = 1 << 12;
+/// Tests spread over all operations: quick and full.
+const SHARED: [usize; 2] = [3_000, 250_000];
+
+impl Shape {
+    /// Deviation of one test: sample, operation. Beyond `limit`, the distance to any triangle that
+    /// would do, or 1 when there is none.
+    fn test(&self, sample: &Sample, operation: &Operation, limit: f64) -> f64 {
+        let image = operation.motion.apply(sample.point);
+        let find = |within| self.nearest(image, sample.triangle, &operation.target, within);
+        // A little beyond the limit, so that what is found within it is found exactly.
+        match find(1.01 * limit) {
+            Some(n) => n.distance,
+            None => find(f64::INFINITY).map_or(1.0, |n| n.distance),
+        }
+    }
+
+    /// Runs tests 0 to `count - 1`; `job` names sample and operation of each. Returns the largest
+    /// deviation, or the first one beyond `limit`. Does not depend on the number of threads.
+    pub fn worst<'a>(
+        &self,
+        count: usize,
+        limit: f64,
+        job: impl Fn(usize) -> (&'a Sample, &'a Operation) + Sync,
+    ) -> Deviation {
+        let run = |range: std::ops::Range<usize>| {
+            let mut worst = Deviation::NONE;
+            for i in range {
+                let (sample, operation) = job(i);
+                let value = self.test(sample, operation, limit);
+                if value > worst.value {
+                    let at = sample.point;
+                    worst = Deviation { value, at };
+                    if value > limit {
+                        break;
+                    }
+                }
+            }
+            worst
+        };
+        let threads = thread::available_parallelism().map_or(1, |n| n.get().min(16));
+        let mut worst = Deviation::NONE;
+        let mut first = 0;
+        // Small blocks to begin with: what fails mostly fails early.
+        let mut block = PARALLEL / 2;
+        while first < count {
+            let end = (first + block).min(count);
+            let parts = if end - first < PARALLEL { 1 } else { threads };
+            let step = (end - first).div_ceil(parts);
+            let range = |p: usize| (first + p * step).min(end)..(first + (p + 1) * step).min(end);
+            let results: Vec<Deviation> = if parts == 1 {
+                vec![run(first..end)]
+            } else {
+                thread::scope(|scope| {
+                    let run = &run;
+                    let handles: Vec<_> = (1..parts)
+                        .map(|p| {
+                            let range = range(p);
+                            scope.spawn(move || run(range))
+                        })
+                        .collect();
+                    let mut all = vec![run(range(0))];
+                    for handle in handles {
+                        match handle.join() {
+                            Ok(deviation) => all.push(deviation),
+                            Err(panic) => std::panic::resume_unwind(panic),
+                        }
+                    }
+                    all
+                })
+            };
+            for result in results {
+                worst = worst.max(result);
+                if result.value > limit {
+                    return result;
+                }
+            }
+            first = end;
+            block = BLOCK;
+        }
+        worst
+    }
+
+    /// The permutation of regions an operation makes, by votes of the triangles that images land on;
+    /// `None` when the votes are no permutation or outside does not stay outside.
+    pub fn vote(&self, motion: &Motion, within: f64) -> Option<Permutation> {
+        let n = self.regions.len();
+        let mut votes: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+        for sample in self.samples.faces.iter().take(20_000.max(40 * n)) {
+            let Some(hit) = self.nearest(motion.apply(sample.point), 0, &Target::Any, within)
+            else {
+                continue;
+            };
+            let (from, to) = (sample.triangle as usize, hit.triangle as usize);
+            let cosine = self.normals[to].dot(motion.linear * self.normals[from]);
+            if cosine.abs() < 0.5 {
+                continue;
+            }
+            let ([a, b], [c, d]) = (self.sides[from], self.sides[to]);
+            let (c, d) = if cosine > 0.0 { (c, d) } else { (d, c) };
+            *votes.entry([a, c]).or_default() += 1;
+            *votes.entry([b, d]).or_default() += 1;
+        }
+        let mut best: Vec<(u32, u32)> = vec![(0, NO_CLASS); n];
+        for (&[from, to], &count) in &votes {
+            let b = &mut best[from as usize];
+            // Ties go to the lower region, so that the order of the table does not matter.
+            if count > b.0 || (count == b.0 && to < b.1) {
+                *b = (count, to);
+            }
+        }
+        let last = n as u32 - 1;
+        let permutation = Permutation::new(best.iter().map(|b| b.1).collect())?;
+        (permutation.get(last) == last).then_some(permutation)
+    }
+
+    /// Verifies one operation that is its own kind (a mirror): every sample, or a few thousand.
+    /// Regions stay where they are if that can be, else they are permuted.
+    pub fn verify_one(
+        &self,
+        motion: Motion,
+        limit: f64,
+        depth: Depth,
+    ) -> Result<(Deviation, Permutation), Deviation> {
+        self.with_permutation(motion, limit, |permutation| {
+            let operation = Operation {
+                motion,
+                target: self.target(permutation),
+            };
+            let samples = &self.samples.mixed;
+            let count = match depth {
+                Depth::Quick => samples.len().min(SHARED[0]),
+                Depth::Full => samples.len(),
+            };
+            self.worst(count, limit, |i| (&samples[i], &operation))
+        })
+    }
+
+    /// Verifies that the rotation by every multiple of a turn over `n` about the frame's z axis maps
+    /// the surface onto itself within `limit`.
+    pub fn verify_rotation(
+        &self,
+        frame: &Frame,
+        n: u32,
+        limit: f64,
+        depth: Depth,
+    ) -> Result<(Deviation, Permutation), Deviation> {
+        let step = Motion::new(frame, Isometry::rotation(1, n).matrix());
+        self.with_permutation(step, limit, |permutation| {
+            let powers = permutation.powers(n);
+            if !powers[n as usize - 1].after(permutation).is_identity() {
+                return Deviation {
+                    value: 1.0,
+                    at: DVec3::ZERO,
+                };
+            }
+            let operations: Vec<Operation> = (1..n)
+                .map(|k| Operation {
+                    motion: Motion::new(frame, Isometry::rotation(i64::from(k), n).matrix()),
+                    target: self.target(&powers[k as usize]),
+                })
+                .collect();
+            self.verify_family(&operations, limit, depth)
+        })
+    }
+
+    /// Verifies many operations: a share of the samples for each, and with [`Depth::Full`] all of
+    /// them for the first.
+    pub fn verify_family(&self, operations: &[Operation], limit: f64, depth: Depth) -> Deviation {
+        let samples = &self.samples.mixed;
+        let others = operations.len();
+        // Each sample with an operation drawn at random, before anything systematic.
+        let mut random = Random(others as u64);
+        let draws: Vec<u32> = (0..samples.len().min(1_500))
+            .map(|_| random.below(others) as u32)
+            .collect();
+        let mut worst = self.worst(draws.len(), limit, |i| {
+            (&samples[i], &operations[draws[i] as usize])
+        });
+        if worst.value > limit {
+            return worst;
+        }
+        if depth == Depth::Full {
+            worst = worst.max(self.worst(samples.len(), limit, |i| (&samples[i], &operations[0])));
+            if worst.value > limit {
+                return worst;
+            }
+        }
+        let shared = SHARED[usize::from(depth == Depth::Full)];
+        let each = (shared / others).clamp(24, samples.len().max(24));
+        let count = each * others;
+        worst.max(self.worst(count, limit, |i| {
+            // Consecutive tests take consecutive samples, so that all samples have their turn.
+            (&samples[i % samples.len()], &operations[i / each])
+        }))
+    }
+
+    /// Runs `check` with regions in place; should that fail while the bare geometry passes, with the
+    /// permutation of regions that the motion makes.
+    fn with_permutation(
+        &self,
+        motion: Motion,
+        limit: f64,
+        check: impl Fn(&Permutation) -> Deviation,
+    ) -> Result<(Deviation, Permutation), Deviation> {
+        let identity = Permutation::identity(self.regions.len());
+        let deviation = check(&identity);
+        if deviation.value <= limit {
+            return Ok((deviation, identity));
+        }
+        if self.regions.len() > 2
+            && let Some(permutation) = self.vote(&motion, limit)
+            && !permutation.is_identity()
+        {
+            let permuted = check(&permutation);
+            if permuted.value <= limit {
+                return Ok((permuted, permutation));
+            }
+        }
+        Err(deviation)
+    }
+
+    /// Largest deviation under rotations by angles spread over the whole turn, each sample by an
+    /// angle of its own: small for a body of revolution. Stops beyond `limit`.
+    pub fn deviation_from_revolution(&self, frame: &Frame, limit: f64) -> Deviation {
+        let operations = golden_rotations(frame, 233, self.target_in_place());
+        let samples = &self.samples.mixed;
+        let count = samples.len().min(20_000);
+        self.worst(count, limit, |i| {
+            (&samples[i], &operations[i % operations.len()])
+        })
+    }
+
+    /// Every region stays where it is.
+    pub fn target_in_place(&self) -> Target {
+        self.target(&Permutation::identity(self.regions.len()))
+    }
+}
+
+/// Rotations about the frame's z axis by multiples of the golden section of a turn.
+pub fn golden_rotations(frame: &Frame, count: usize, target: Target) -> Vec<Operation> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    (1..=count)
+        .map(|i| {
+            let turn = (i as f64 * GOLDEN).fract();
+            Operation {
+                motion: Motion::new(frame, turn_matrix(turn)),
+                target: target.clone(),
+            }
+        })
+        .collect()
+}
+
+/// Rotation about z by a fraction of a full turn.
+pub fn turn_matrix(turn: f64) -> DMat3 {
+    let (s, c) = libm::sincos(std::f64::consts::TAU * turn);
+    DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z)
+}
