@@ -1,6 +1,6 @@
 //! Reading a whole file, and telling its format from its first bytes.
 
-use crate::{Format, ReadError, stl, surface};
+use crate::{Format, ReadError, obj, off, ply, stl, surface};
 use std::path::Path;
 use tmesh::Document;
 
@@ -23,6 +23,15 @@ pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
     if stl::looks_ascii(head) || stl::looks_binary(head) {
         return Some(Format::Stl);
     }
+    if ply::looks_like(head) {
+        return Some(Format::Ply);
+    }
+    if off::looks_like(head) {
+        return Some(Format::Off);
+    }
+    if obj::looks_like(head) {
+        return Some(Format::Obj);
+    }
     path.and_then(Format::from_path)
 }
 
@@ -38,6 +47,9 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Imported, ReadError> {
             notices: Vec::new(),
         }),
         Format::Stl => surface::build(stl::read(bytes)?, "stl"),
+        Format::Obj => surface::build(obj::read(bytes)?, "obj"),
+        Format::Ply => surface::build(ply::read(bytes)?, "ply"),
+        Format::Off => surface::build(off::read(bytes)?, "off"),
         other => Err(ReadError::NotAnInput(other.name())),
     }
 }

@@ -128,7 +128,7 @@ fn read_binary(bytes: &[u8]) -> Result<Soup, ReadError> {
 }
 
 fn read_ascii(bytes: &[u8]) -> Result<Soup, ReadError> {
-    let mut tokens = Tokens::new(bytes, "stl");
+    let mut tokens = Tokens::new(bytes, "stl", None);
     let mut soup = Soup {
         group_word: "solid",
         ..Soup::default()
@@ -178,12 +178,7 @@ fn facet(tokens: &mut Tokens<'_>, welder: &mut Welder) -> Result<[u32; 3], ReadE
     let mut corners = [0; 3];
     for corner in &mut corners {
         tokens.expect("vertex")?;
-        let (x, y, z) = (
-            tokens.coordinate()?,
-            tokens.coordinate()?,
-            tokens.coordinate()?,
-        );
-        *corner = welder.id(DVec3::new(x, y, z));
+        *corner = welder.id(tokens.point()?);
     }
     tokens.expect("endloop")?;
     tokens.expect("endfacet")?;

@@ -2,6 +2,7 @@
 
 use crate::ReadError;
 use crate::soup::{DOUBLE, SINGLE};
+use glam::DVec3;
 
 /// Words of a text, separated by white space.
 pub struct Tokens<'a> {
@@ -9,12 +10,14 @@ pub struct Tokens<'a> {
     at: usize,
     line: usize,
     format: &'static str,
+    comment: Option<u8>,
     precision: TextPrecision,
 }
 
 impl<'a> Tokens<'a> {
-    /// Words of `bytes`; `format` names the format in errors.
-    pub fn new(bytes: &'a [u8], format: &'static str) -> Self {
+    /// Words of `bytes`; `format` names the format in errors, and `comment` is the byte that makes
+    /// the rest of a line a comment.
+    pub fn new(bytes: &'a [u8], format: &'static str, comment: Option<u8>) -> Self {
         let start = if bytes.starts_with(b"\xef\xbb\xbf") {
             3
         } else {
@@ -25,23 +28,19 @@ impl<'a> Tokens<'a> {
             at: start,
             line: 1,
             format,
+            comment,
             precision: TextPrecision::default(),
         }
-    }
-
-    /// Line of the word read last, counted from 1.
-    pub fn line(&self) -> usize {
-        self.line
-    }
-
-    /// Bytes read so far.
-    pub fn position(&self) -> usize {
-        self.at
     }
 
     /// What the coordinates read so far show.
     pub fn precision(&self) -> &TextPrecision {
         &self.precision
+    }
+
+    /// Takes a coordinate into account that was read by other means.
+    pub fn note(&mut self, word: &[u8], value: f64) {
+        self.precision.note(word, value);
     }
 
     /// An error at the current line.
@@ -54,29 +53,46 @@ impl<'a> Tokens<'a> {
 
     /// The next word, or `None` at the end.
     pub fn next_word(&mut self) -> Option<&'a [u8]> {
-        while let Some(&b) = self.bytes.get(self.at) {
-            if !b.is_ascii_whitespace() {
-                break;
+        loop {
+            if let Some(word) = self.word_on_line() {
+                return Some(word);
             }
-            self.line += usize::from(b == b'\n');
+            // At a line's end, or the file's.
+            self.bytes.get(self.at)?;
+            self.line += 1;
             self.at += 1;
         }
+    }
+
+    /// The next word on the current line, or `None` at the line's end.
+    pub fn word_on_line(&mut self) -> Option<&'a [u8]> {
         let rest = &self.bytes[self.at..];
+        let blank = rest
+            .iter()
+            .position(|&b| b == b'\n' || !b.is_ascii_whitespace())
+            .unwrap_or(rest.len());
+        self.at += blank;
+        let rest = &rest[blank..];
+        match rest.first() {
+            None | Some(b'\n') => return None,
+            Some(_) if rest.first().copied() == self.comment => {
+                self.rest_of_line();
+                return None;
+            }
+            Some(_) => {}
+        }
         let length = rest
             .iter()
-            .position(u8::is_ascii_whitespace)
+            .position(|&b| b.is_ascii_whitespace() || Some(b) == self.comment)
             .unwrap_or(rest.len());
         self.at += length;
-        (length > 0).then(|| &rest[..length])
+        Some(&rest[..length])
     }
 
     /// The rest of the line, trimmed; the line's end is left to be read.
     pub fn rest_of_line(&mut self) -> &'a [u8] {
         let rest = &self.bytes[self.at..];
-        let length = rest
-            .iter()
-            .position(|&b| b == b'\n' || b == b'\r')
-            .unwrap_or(rest.len());
+        let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
         self.at += length;
         rest[..length].trim_ascii()
     }
@@ -91,6 +107,61 @@ impl<'a> Tokens<'a> {
             Some(w) => Err(self.error(format!("'{word}' expected, found '{}'", shown(w)))),
             None => Err(self.error(format!("'{word}' expected, but the file ends here"))),
         }
+    }
+
+    /// The next word as an integer; `what` names it in errors.
+    ///
+    /// # Errors
+    /// Not an integer, or the end.
+    pub fn integer(&mut self, what: &str) -> Result<i64, ReadError> {
+        match self.next_word() {
+            Some(word) => self.as_integer(word, what),
+            None => Err(self.error(format!("{what} expected, but the file ends here"))),
+        }
+    }
+
+    /// The next word as a count, which is a claim of the file.
+    ///
+    /// # Errors
+    /// Not a count, or the end.
+    pub fn count(&mut self, what: &str) -> Result<usize, ReadError> {
+        let value = self.integer(what)?;
+        usize::try_from(value).map_err(|_| self.error(format!("{value} as {what}")))
+    }
+
+    /// The next word on the current line as an integer, if there is one.
+    ///
+    /// # Errors
+    /// Not an integer.
+    pub fn integer_on_line(&mut self, what: &str) -> Result<Option<i64>, ReadError> {
+        match self.word_on_line() {
+            Some(word) => self.as_integer(word, what).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    fn as_integer(&self, word: &[u8], what: &str) -> Result<i64, ReadError> {
+        std::str::from_utf8(word)
+            .ok()
+            .and_then(|w| w.parse().ok())
+            .ok_or_else(|| self.error(format!("{what} expected, found '{}'", shown(word))))
+    }
+
+    /// Bytes not read yet: no more elements than that can follow.
+    pub fn left(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    /// The next three words as a point.
+    ///
+    /// # Errors
+    /// Not numbers, not finite, or the end.
+    pub fn point(&mut self) -> Result<DVec3, ReadError> {
+        Ok(DVec3::new(
+            self.coordinate()?,
+            self.coordinate()?,
+            self.coordinate()?,
+        ))
     }
 
     /// The next word as a finite coordinate.
