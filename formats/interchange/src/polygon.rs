@@ -94,8 +94,8 @@ impl Polygons {
     }
 }
 
-/// Twice the area vector of a closed polygon (Newell's method).
-fn area_vector(points: &[DVec3], corners: &[u32]) -> DVec3 {
+/// Twice the area vector of a closed polygon (Newell's method), which has corners.
+pub fn area_vector(points: &[DVec3], corners: &[u32]) -> DVec3 {
     let origin = points[corners[0] as usize];
     let at = |i: usize| points[corners[i % corners.len()] as usize] - origin;
     (1..corners.len()).map(|i| at(i).cross(at(i + 1))).sum()

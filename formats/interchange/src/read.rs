@@ -1,6 +1,6 @@
 //! Reading a whole file, and telling its format from its first bytes.
 
-use crate::{Format, ReadError, obj, off, ply, stl, surface};
+use crate::{Format, ReadError, obj, off, plc, ply, poly, stl, surface};
 use std::path::Path;
 use tmesh::Document;
 
@@ -32,7 +32,12 @@ pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
     if obj::looks_like(head) {
         return Some(Format::Obj);
     }
-    path.and_then(Format::from_path)
+    let named = path.and_then(Format::from_path);
+    if poly::looks_like(head) {
+        // The two look alike at first.
+        return named.filter(|f| *f == Format::Smesh).or(Some(Format::Poly));
+    }
+    named
 }
 
 /// Reads a whole file of the given format into a document: one template in world coordinates, with
@@ -49,6 +54,8 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Imported, ReadError> {
         Format::Stl => surface::build(stl::read(bytes)?, "stl"),
         Format::Obj => surface::build(obj::read(bytes)?, "obj"),
         Format::Ply => surface::build(ply::read(bytes)?, "ply"),
+        Format::Poly => plc::build(poly::read(bytes, false)?, "poly"),
+        Format::Smesh => plc::build(poly::read(bytes, true)?, "smesh"),
         Format::Off => surface::build(off::read(bytes)?, "off"),
         other => Err(ReadError::NotAnInput(other.name())),
     }

@@ -147,6 +147,14 @@ impl<'a> Tokens<'a> {
             .ok_or_else(|| self.error(format!("{what} expected, found '{}'", shown(word))))
     }
 
+    /// Whether no word follows.
+    pub fn is_at_end(&mut self) -> bool {
+        let (at, line) = (self.at, self.line);
+        let end = self.next_word().is_none();
+        (self.at, self.line) = (at, line);
+        end
+    }
+
     /// Bytes not read yet: no more elements than that can follow.
     pub fn left(&self) -> usize {
         self.bytes.len() - self.at
