@@ -1,5 +1,6 @@
-//! Integer arrays on cells, common to the VTK formats.
+//! What goes into the VTK formats beside points and connectivity: integer arrays on cells, and names.
 
+use super::title::MAX_TITLE;
 use crate::MeshStream;
 use std::io;
 use tmesh::OUTSIDE;
@@ -115,4 +116,31 @@ pub enum Values<'a> {
     Each(&'a [u32]),
     /// The same one for so many.
     Same(u32, u64),
+}
+
+/// Names of regions, and of markers and walls when there are triangles, as field data: array name,
+/// and text with a line `id name` for each. Empty ones are left out.
+pub fn name_fields(mesh: &dyn MeshStream, cells: Cells) -> Vec<(&'static str, String)> {
+    let list = |names: &mut dyn Iterator<Item = (u32, &str)>| -> String {
+        names
+            .map(|(id, name)| format!("{id} {}\n", one_line(name)))
+            .collect()
+    };
+    let regions = &mut mesh.regions().iter().map(|r| (r.id, r.name.as_str()));
+    let mut fields = vec![("region_names", list(regions))];
+    if cells.triangles > 0 {
+        let markers = &mut mesh.markers().iter().map(|m| (m.id, m.name.as_str()));
+        fields.push(("marker_names", list(markers)));
+        let walls = &mut (1..).zip(mesh.wall_names().iter().map(String::as_str));
+        fields.push(("wall_names", list(walls)));
+    }
+    fields.retain(|(_, text)| !text.is_empty());
+    fields
+}
+
+/// Text without line ends and other control characters, of at most [`MAX_TITLE`] bytes.
+pub fn one_line(text: &str) -> String {
+    let mut line = text.replace(|c: char| c.is_control(), " ");
+    line.truncate(line.floor_char_boundary(MAX_TITLE));
+    line
 }

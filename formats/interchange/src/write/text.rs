@@ -60,6 +60,8 @@ impl Table {
 }
 
 fn number(x: f64) -> String {
+    // No minus before zero.
+    let x = x + 0.0;
     if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
         format!("{x}")
     } else {

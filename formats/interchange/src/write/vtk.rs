@@ -8,8 +8,7 @@
 
 use super::WriteError;
 use super::bytes::{ByteSink, Order};
-use super::cells::{CellArray, Cells, Values};
-use super::title::MAX_TITLE;
+use super::cells::{CellArray, Cells, Values, name_fields, one_line};
 use crate::MeshStream;
 use std::io::Write;
 
@@ -85,22 +84,7 @@ fn write_names(
     cells: Cells,
     sink: &mut ByteSink<'_>,
 ) -> Result<(), WriteError> {
-    let list = |names: &mut dyn Iterator<Item = (u32, &str)>| -> String {
-        names
-            .map(|(id, name)| format!("{id} {}\n", one_line(name)))
-            .collect()
-    };
-    let mut fields = vec![(
-        "region_names",
-        list(&mut mesh.regions().iter().map(|r| (r.id, r.name.as_str()))),
-    )];
-    if cells.triangles > 0 {
-        let markers = &mut mesh.markers().iter().map(|m| (m.id, m.name.as_str()));
-        fields.push(("marker_names", list(markers)));
-        let walls = &mut (1..).zip(mesh.wall_names().iter().map(String::as_str));
-        fields.push(("wall_names", list(walls)));
-    }
-    fields.retain(|(_, text)| !text.is_empty());
+    let fields = name_fields(mesh, cells);
     if fields.is_empty() {
         return Ok(());
     }
@@ -109,11 +93,4 @@ fn write_names(
         sink.text(&format!("{name} 1 {} unsigned_char\n{text}\n", text.len()))?;
     }
     Ok(())
-}
-
-/// Text as one line of at most [`MAX_TITLE`] bytes.
-fn one_line(text: &str) -> String {
-    let mut line = text.replace(|c: char| c.is_control(), " ");
-    line.truncate(line.floor_char_boundary(MAX_TITLE));
-    line
 }

@@ -2,12 +2,12 @@
 //!
 //! Format: "VTK File Formats", section "XML File Formats". Little-endian; each appended array is
 //! preceded by its size in bytes as `UInt64`. Sizes are known beforehand, so arrays are streamed.
-//! Field data: `title` (see [`crate::promise_title`]), and `region_ids`, `region_names` and the like
-//! for markers and walls.
+//! Field data, as in the legacy format: `region_names`, `marker_names`, `wall_names`, characters
+//! with a line `id name` each; and `title` (see [`crate::promise_title`]).
 
 use super::WriteError;
 use super::bytes::{ByteSink, Order};
-use super::cells::{CellArray, Cells, Values};
+use super::cells::{CellArray, Cells, Values, name_fields, one_line};
 use crate::MeshStream;
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -106,18 +106,9 @@ fn header(mesh: &dyn MeshStream, cells: Cells, wide: bool) -> String {
     xml += "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
             byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
     xml += "    <FieldData>\n";
-    string_array(
-        &mut xml,
-        "title",
-        &mut std::iter::once(mesh.title().as_str()),
-    );
-    let regions = &mut mesh.regions().iter().map(|r| (r.id, r.name.as_str()));
-    names(&mut xml, "region", regions);
-    if cells.triangles > 0 {
-        let markers = &mut mesh.markers().iter().map(|m| (m.id, m.name.as_str()));
-        names(&mut xml, "marker", markers);
-        let walls = &mut (1..).zip(mesh.wall_names().iter().map(String::as_str));
-        names(&mut xml, "wall", walls);
+    text_array(&mut xml, "title", &one_line(&mesh.title()));
+    for (name, text) in name_fields(mesh, cells) {
+        text_array(&mut xml, name, &text);
     }
     xml += "    </FieldData>\n";
     let _ = writeln!(
@@ -141,36 +132,14 @@ fn header(mesh: &dyn MeshStream, cells: Cells, wide: bool) -> String {
     xml
 }
 
-/// Arrays `<what>_ids` and `<what>_names`.
-fn names(xml: &mut String, what: &str, entries: &mut dyn Iterator<Item = (u32, &str)>) {
-    let (ids, names): (Vec<u32>, Vec<&str>) = entries.unzip();
-    if ids.is_empty() {
-        return;
-    }
-    let ids: Vec<String> = ids.iter().map(u32::to_string).collect();
+/// Text as the codes of its bytes: not every reader knows arrays of strings.
+fn text_array(xml: &mut String, name: &str, text: &str) {
+    let codes: Vec<String> = text.bytes().map(|b| b.to_string()).collect();
     let _ = writeln!(
         xml,
-        "      <DataArray type=\"UInt32\" Name=\"{what}_ids\" NumberOfTuples=\"{}\" \
+        "      <DataArray type=\"UInt8\" Name=\"{name}\" NumberOfTuples=\"{}\" \
          format=\"ascii\">{}</DataArray>",
-        ids.len(),
-        ids.join(" ")
-    );
-    string_array(xml, &format!("{what}_names"), &mut names.into_iter());
-}
-
-/// Strings as VTK wants them in ASCII data: the codes of their bytes, each string ended by 0.
-fn string_array(xml: &mut String, name: &str, strings: &mut dyn Iterator<Item = &str>) {
-    let (mut count, mut codes) = (0, String::new());
-    for string in strings {
-        count += 1;
-        for byte in string.bytes().filter(|&b| b != 0).chain([0]) {
-            let _ = write!(codes, "{byte} ");
-        }
-    }
-    let _ = writeln!(
-        xml,
-        "      <DataArray type=\"String\" Name=\"{name}\" NumberOfTuples=\"{count}\" \
-         format=\"ascii\">{}</DataArray>",
-        codes.trim_end()
+        codes.len(),
+        codes.join(" ")
     );
 }
