@@ -21,6 +21,8 @@ use tmesh::{Axis, Document, Frame, Isometry, OtherAxis, RejectedOrder, Symmetry}
 const MOST_OTHER_AXES: usize = 64;
 /// Rejected orders listed at most.
 const MOST_REJECTED: usize = 16;
+/// Deviation, relative to the radius, beyond which a rejected order is not measured exactly.
+const FAR_OFF: f64 = 0.05;
 /// How far from the direction given, in radians, an adjusted axis may be.
 const OVERRIDE_ANGLE: f64 = 0.02;
 
@@ -294,6 +296,7 @@ impl Job<'_> {
         let limit = limits.tolerance * radius;
         let fixed = self.params.axis.is_some() && rotation.deviation.value <= self.noise(radius);
         let mut rotation = self.directed(rotation);
+        let base = rotation.clone();
         let mut group = Group {
             order: rotation.order,
             mirror: false,
@@ -309,14 +312,14 @@ impl Job<'_> {
         let mut extend =
             |group: &mut Group, rotation: &mut Rotation, wider: Group, frames: &[Frame]| {
                 for frame in frames {
-                    if let Ok(v) = wider.verify(shape, frame, limit, Depth::Full) {
+                    if let Ok(v) = wider.verify(shape, frame, limit, Depth::Quick) {
                         (*group, rotation.frame, state) = (wider, *frame, v);
                         return true;
                     }
                 }
                 false
             };
-        if let Some(found) = find_turned(shape, &rotation, VERTICAL, fixed, limits, Depth::Quick) {
+        if let Some(found) = find_turned(shape, &rotation, VERTICAL, fixed, limits) {
             let wider = Group {
                 mirror: true,
                 ..group
@@ -324,17 +327,12 @@ impl Job<'_> {
             let frames = [found.frame, turned_to(&rotation.frame, &found.frame)];
             extend(&mut group, &mut rotation, wider, &frames);
         }
-        log(if group.mirror {
-            "mirrors contain the axis"
-        } else {
-            "no mirror contains the axis"
-        });
         for (flip, turn) in [
             (Flip::Horizontal, Isometry::IDENTITY),
             (Flip::Rotary, Isometry::rotation(1, 2 * group.order)),
         ] {
             let wider = Group { flip, ..group };
-            if let Some(found) = find_flip(shape, &rotation, turn, limits, Depth::Quick)
+            if let Some(found) = find_flip(shape, &rotation, turn, limits)
                 && extend(&mut group, &mut rotation, wider, &[found.frame])
             {
                 break;
@@ -342,8 +340,7 @@ impl Job<'_> {
         }
         if !group.mirror
             && group.flip == Flip::None
-            && let Some(found) =
-                find_turned(shape, &rotation, HALF_TURN, fixed, limits, Depth::Quick)
+            && let Some(found) = find_turned(shape, &rotation, HALF_TURN, fixed, limits)
         {
             let wider = Group {
                 flip: Flip::HalfTurn,
@@ -352,7 +349,7 @@ impl Job<'_> {
             let frames = [found.frame, turned_to(&rotation.frame, &found.frame)];
             extend(&mut group, &mut rotation, wider, &frames);
         }
-        log(&format!("group {}", group.symbol()));
+        log(&format!("group {} by a quick test", group.symbol()));
         let mut found = Found {
             frame: rotation.frame,
             radius,
@@ -361,11 +358,38 @@ impl Job<'_> {
             axisymmetric: rotation.axisymmetric,
             distinct: rotation.distinct,
         };
+        let rough = found.frame;
         if !fixed {
             self.polish(&mut found);
         }
         self.settle(&mut found);
+        self.certify(&mut found, &rough, &base);
         found
+    }
+
+    /// Verifies the whole group in full; what does not hold in any of the frames at hand is dropped.
+    fn certify(&self, found: &mut Found, rough: &Frame, base: &Rotation) {
+        let limit = self.limits.tolerance * found.radius;
+        loop {
+            for frame in [found.frame, *rough] {
+                if let Ok(verified) = found.group.verify(self.shape, &frame, limit, Depth::Full) {
+                    found.frame = frame;
+                    found.verified = verified;
+                    return;
+                }
+            }
+            if found.group.flip != Flip::None {
+                found.group.flip = Flip::None;
+            } else if found.group.mirror {
+                found.group.mirror = false;
+            } else {
+                break;
+            }
+        }
+        // The rotation alone was verified in full before.
+        found.frame = base.frame;
+        found.verified.deviation = base.deviation;
+        found.verified.rotation = base.permutation.clone();
     }
 
     /// Points the axis along its largest component, or as the user pointed it.
@@ -428,7 +452,7 @@ impl Job<'_> {
     fn adopt(&self, found: &mut Found, frame: Frame, factor: f64) {
         let limit = (found.verified.deviation.value * factor).max(self.shape.precision);
         let limit = limit.min(self.limits.tolerance * found.radius);
-        if let Ok(verified) = found.group.verify(self.shape, &frame, limit, Depth::Full) {
+        if let Ok(verified) = found.group.verify(self.shape, &frame, limit, Depth::Quick) {
             found.frame = frame;
             found.verified = verified;
         }
@@ -447,7 +471,7 @@ impl Job<'_> {
         if let Some(frame) = frame {
             // The same group in an equivalent frame: only rounding and region maps can differ.
             let limit = self.limits.tolerance * found.radius;
-            if let Ok(verified) = found.group.verify(self.shape, &frame, limit, Depth::Full) {
+            if let Ok(verified) = found.group.verify(self.shape, &frame, limit, Depth::Quick) {
                 found.frame = frame;
                 found.verified = verified;
             }
@@ -472,7 +496,7 @@ impl Job<'_> {
                     axisymmetric: false,
                     distinct: true,
                 };
-                let found = find_turned(shape, &rotation, VERTICAL, true, limits, Depth::Quick)?;
+                let found = find_turned(shape, &rotation, VERTICAL, true, limits)?;
                 vec![found.frame.rotation.y_axis]
             }
         };
@@ -511,6 +535,11 @@ impl Job<'_> {
             distinct: true,
         };
         self.settle(&mut found);
+        let limit = limits.tolerance * radius;
+        match found.group.verify(shape, &found.frame, limit, Depth::Full) {
+            Ok(verified) => found.verified = verified,
+            Err(_) => found.frame = mirror.frame,
+        }
         Some(found)
     }
 
@@ -537,7 +566,7 @@ impl Job<'_> {
             for n in 1..=self.params.max_order.min(16) {
                 let deviation = match n {
                     1 => mirror(&frame, 300),
-                    n => deviation_measured(shape, &frame, n, 300),
+                    n => deviation_measured(shape, &frame, n, 300, 0.2 * radius),
                 };
                 let residual = deviation.value / radius;
                 if best.as_ref().is_none_or(|b| residual < b.0) {
@@ -555,8 +584,8 @@ impl Job<'_> {
         };
         let radius = shape.radius(&frame).max(1e-12);
         let measure = |frame: &Frame| match order {
-            1 => mirror(frame, 6_000),
-            n => deviation_measured(shape, frame, n, 6_000),
+            1 => mirror(frame, 3_000),
+            n => deviation_measured(shape, frame, n, 3_000, f64::MAX),
         };
         let adjusted = refine(shape, frame, &matrices, 4_000, self.limits.loose * radius);
         let (as_is, better) = (measure(&frame), measure(&adjusted));
@@ -579,7 +608,7 @@ impl Job<'_> {
         let measured = directions.iter().take(24).filter_map(|&d| {
             let frame = Frame::from_axis(self.centre, d, d.any_orthogonal_vector())?;
             let radius = shape.radius(&frame).max(1e-12);
-            let deviation = deviation_measured(shape, &frame, order, 4_000);
+            let deviation = deviation_measured(shape, &frame, order, 3_000, f64::MAX);
             Some((deviation.value / radius, deviation.at, frame))
         });
         let best = measured.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -796,11 +825,13 @@ impl Job<'_> {
     fn rejected(&self, found: &Found) -> Vec<RejectedOrder> {
         let n = found.group.order;
         let most = self.params.max_order.max(n).min((4 * n).max(48)).min(768);
+        let most_off = FAR_OFF * found.radius;
         let measured: Vec<RejectedOrder> = (2..=most)
             .filter(|m| n % m != 0)
             .map(|m| RejectedOrder {
                 order: m,
-                residual: deviation_measured(self.shape, &found.frame, m, 80).value / found.radius,
+                residual: deviation_measured(self.shape, &found.frame, m, 80, most_off).value
+                    / found.radius,
             })
             .filter(|r| r.residual > self.params.tolerance)
             .collect();

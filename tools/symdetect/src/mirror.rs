@@ -43,7 +43,6 @@ pub fn find_turned(
     kind: DMat3,
     fixed: bool,
     limits: Limits,
-    depth: Depth,
 ) -> Option<Found> {
     let Rotation {
         frame,
@@ -104,7 +103,7 @@ pub fn find_turned(
             refine(shape, turned, &operations, 5_000, loose)
         };
         let motion = Motion::new(&adjusted, kind);
-        if let Ok((deviation, permutation)) = shape.verify_one(motion, limit, depth) {
+        if let Ok((deviation, permutation)) = shape.verify_one(motion, limit, Depth::Quick) {
             let better = best
                 .as_ref()
                 .is_none_or(|b| deviation.value < 0.5 * b.deviation.value);
@@ -145,7 +144,6 @@ pub fn find_flip(
     rotation: &Rotation,
     turn: Isometry,
     limits: Limits,
-    depth: Depth,
 ) -> Option<Found> {
     let frame = &rotation.frame;
     let matrix = turn.matrix() * HORIZONTAL;
@@ -161,7 +159,7 @@ pub fn find_flip(
     let mut best: Option<Found> = None;
     for frame in [slid, *frame] {
         if let Ok((deviation, permutation)) =
-            shape.verify_one(Motion::new(&frame, matrix), limit, depth)
+            shape.verify_one(Motion::new(&frame, matrix), limit, Depth::Quick)
             && best
                 .as_ref()
                 .is_none_or(|b| deviation.value < 0.5 * b.deviation.value)

@@ -105,7 +105,12 @@ pub fn find_rotation(
         }
     };
     keep(&mut best, search.in_frame(&start));
-    if fixed {
+    let rounding = 8.0 * shape.precision + 1e-12;
+    if fixed
+        || best
+            .as_ref()
+            .is_some_and(|b| b.distinct && b.deviation.value <= rounding)
+    {
         return best;
     }
     let target = shape.target_in_place();
@@ -264,7 +269,7 @@ impl Search<'_> {
         let worst: Vec<f64> = (0..=most)
             .map(|n| match n {
                 0 | 1 => 0.0,
-                n => deviation_of_order(self.shape, frame, n, 128, 3.0 * limit).max(floor),
+                n => deviation_of_order(self.shape, frame, n, 48, 3.0 * limit).max(floor),
             })
             .collect();
         (3..=most).rev().find(|&n| {
@@ -311,9 +316,15 @@ pub fn deviation_of_order(shape: &Shape, frame: &Frame, n: u32, count: usize, li
     worst
 }
 
-/// Largest deviation over a few hundred samples and random powers of the rotation of order `n`, not
-/// cut off.
-pub fn deviation_measured(shape: &Shape, frame: &Frame, n: u32, count: usize) -> Deviation {
+/// Largest deviation over `count` samples and random powers of the rotation of order `n`; stops at the
+/// first one beyond `most`.
+pub fn deviation_measured(
+    shape: &Shape,
+    frame: &Frame,
+    n: u32,
+    count: usize,
+    most: f64,
+) -> Deviation {
     let mut random = Random(u64::from(n));
     let target = shape.target_in_place();
     let operations: Vec<Operation> = (0..count.min(64))
@@ -330,7 +341,7 @@ pub fn deviation_measured(shape: &Shape, frame: &Frame, n: u32, count: usize) ->
         })
         .collect();
     let samples = &shape.samples.mixed;
-    shape.worst(count.min(samples.len()), f64::INFINITY, |i| {
+    shape.worst(count.min(samples.len()), most, |i| {
         (&samples[i], &operations[(i * 7) % operations.len()])
     })
 }

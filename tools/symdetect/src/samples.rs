@@ -4,9 +4,9 @@ use glam::DVec3;
 use std::ops::Range;
 
 /// Vertices taken at most.
-const MOST_VERTICES: usize = 150_000;
+const MOST_VERTICES: usize = 80_000;
 /// Face samples at least and at most.
-const FACE_SAMPLES: Range<usize> = 6_000..60_000;
+const FACE_SAMPLES: Range<usize> = 6_000..40_000;
 /// Samples of every kind of interface at least.
 const PER_CLASS: usize = 12;
 /// How far the normals around a vertex must spread for it to count as a feature: one minus the
@@ -31,6 +31,8 @@ pub struct Samples {
     pub vertices: Vec<Sample>,
     /// Both, alternating until one kind runs out.
     pub mixed: Vec<Sample>,
+    /// Both, neighbours in space near each other in the list: quicker to go through in full.
+    pub sorted: Vec<Sample>,
 }
 
 /// A small deterministic random generator (SplitMix64, Steele et al. 2014).
@@ -81,12 +83,24 @@ impl Samples {
         }
         mixed.extend_from_slice(&faces[common..]);
         mixed.extend_from_slice(&picked[common..]);
+        let mut sorted = mixed.clone();
+        sorted.sort_by_cached_key(|s| morton(s.point));
         Self {
             faces,
             vertices: picked,
             mixed,
+            sorted,
         }
     }
+}
+
+/// Place of a point of the unit ball along a space-filling curve.
+fn morton(p: DVec3) -> u64 {
+    let spread = |x: f64| {
+        let cell = (((x + 1.0) * 512.0) as u64).min(1023);
+        (0..10).fold(0, |m, bit| m | ((cell >> bit) & 1) << (3 * bit))
+    };
+    spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2
 }
 
 fn sample_faces(

@@ -57,7 +57,7 @@ const BLOCK: usize = 1 << 15;
 /// Tests below which threads do not pay.
 const PARALLEL: usize = 1 << 12;
 /// Tests spread over all operations: quick and full.
-const SHARED: [usize; 2] = [3_000, 250_000];
+const SHARED: [usize; 2] = [3_000, 100_000];
 
 impl Shape {
     /// Deviation of one test: sample, operation. Beyond `limit`, the distance to any triangle that
@@ -66,10 +66,18 @@ impl Shape {
         let image = operation.motion.apply(sample.point);
         let find = |within| self.nearest(image, sample.triangle, &operation.target, within);
         // A little beyond the limit, so that what is found within it is found exactly.
-        match find(1.01 * limit) {
-            Some(n) => n.distance,
-            None => find(f64::INFINITY).map_or(1.0, |n| n.distance),
+        if let Some(n) = find(1.01 * limit) {
+            return n.distance;
         }
+        // Where many triangles are about equally far, an open search would visit them all.
+        let mut within = 4.0 * limit;
+        while within < 2.0 {
+            if let Some(n) = find(within) {
+                return n.distance;
+            }
+            within *= 4.0;
+        }
+        find(f64::INFINITY).map_or(1.0, |n| n.distance)
     }
 
     /// Runs tests 0 to `count - 1`; `job` names sample and operation of each. Returns the largest
@@ -184,12 +192,13 @@ impl Shape {
                 motion,
                 target: self.target(permutation),
             };
-            let samples = &self.samples.mixed;
-            let count = match depth {
-                Depth::Quick => samples.len().min(SHARED[0]),
-                Depth::Full => samples.len(),
-            };
-            self.worst(count, limit, |i| (&samples[i], &operation))
+            let (mixed, sorted) = (&self.samples.mixed, &self.samples.sorted);
+            let first = mixed.len().min(SHARED[0]);
+            let worst = self.worst(first, limit, |i| (&mixed[i], &operation));
+            if depth == Depth::Quick || worst.value > limit {
+                return worst;
+            }
+            self.worst(sorted.len(), limit, |i| (&sorted[i], &operation))
         })
     }
 
@@ -224,7 +233,7 @@ impl Shape {
     /// Verifies many operations: a share of the samples for each, and with [`Depth::Full`] all of
     /// them for the first.
     pub fn verify_family(&self, operations: &[Operation], limit: f64, depth: Depth) -> Deviation {
-        let samples = &self.samples.mixed;
+        let (samples, sorted) = (&self.samples.mixed, &self.samples.sorted);
         let others = operations.len();
         // Each sample with an operation drawn at random, before anything systematic.
         let mut random = Random(others as u64);
@@ -238,17 +247,21 @@ impl Shape {
             return worst;
         }
         if depth == Depth::Full {
-            worst = worst.max(self.worst(samples.len(), limit, |i| (&samples[i], &operations[0])));
+            worst = worst.max(self.worst(sorted.len(), limit, |i| (&sorted[i], &operations[0])));
             if worst.value > limit {
                 return worst;
             }
         }
         let shared = SHARED[usize::from(depth == Depth::Full)];
-        let each = (shared / others).clamp(24, samples.len().max(24));
-        let count = each * others;
-        worst.max(self.worst(count, limit, |i| {
-            // Consecutive tests take consecutive samples, so that all samples have their turn.
-            (&samples[i % samples.len()], &operations[i / each])
+        let each = (shared / others).clamp(24, sorted.len().max(24));
+        let stride = (sorted.len() / each).max(1);
+        worst.max(self.worst(each * others, limit, |i| {
+            let (which, i) = (i / each, i % each);
+            // Spread over the whole surface, and other samples for the next operation.
+            (
+                &sorted[(i * stride + which) % sorted.len()],
+                &operations[which],
+            )
         }))
     }
 
