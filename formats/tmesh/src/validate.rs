@@ -444,9 +444,14 @@ impl Pairs<'_> {
         for &[a, b] in self.triangle_pairs {
             let low = first.triangles[a as usize].vertices.map(partner);
             let [x, y, z] = second.triangles[b as usize].vertices;
-            // The two faces face each other: reverse orientation.
-            let reversed = [[x, z, y], [z, y, x], [y, x, z]].map(|r| r.map(Some));
-            if !reversed.contains(&low) {
+            // Once placed the two faces face each other, in reverse orientation; the placement may
+            // itself reverse it.
+            let facing = if isometry.reverses_orientation() {
+                [[x, y, z], [y, z, x], [z, x, y]]
+            } else {
+                [[x, z, y], [z, y, x], [y, x, z]]
+            };
+            if !facing.map(|r| r.map(Some)).contains(&low) {
                 found.add(Violation::TrianglesDiffer {
                     wall: self.wall.to_owned(),
                     template: self.index,
