@@ -185,13 +185,27 @@ fn usable(document: &Document) -> Result<Vec<Violation>, Error> {
                 | Violation::NotAnImage { .. }
                 | Violation::TrianglesDiffer { .. }
                 | Violation::MissingNeighbour { .. }
+                | Violation::OpenWall { .. }
                 | Violation::RepeatedInstance { .. }
         )
     };
-    match violations.iter().find(|v| !usable(v)) {
+    let unusable = violations.iter().find(|v| !usable(v));
+    // Violations of walls end validation before it comes to the instances, and a thousand of any kind
+    // end it anywhere.
+    let unknown = (violations.len() >= 1000 || !instances_in_range(document))
+        .then(|| violations.first())
+        .flatten();
+    match unusable.or(unknown) {
         Some(violation) => Err(Error::Invalid(violation.clone())),
         None => Ok(violations),
     }
+}
+
+fn instances_in_range(document: &Document) -> bool {
+    document.instances.iter().all(|i| {
+        (i.template as usize) < document.templates.len()
+            && i.region_map as usize <= document.region_maps.len()
+    })
 }
 
 fn summary(document: &Document, measured: Measured, bins: &[Vec<f64>]) -> Summary {

@@ -57,8 +57,9 @@ kinds! {
     RegionImage, "symmetry", "tetrahedra whose image has a region at odds with the others";
     TriangleImage, "symmetry", "surface triangles whose image is no surface triangle with the same sides";
     BadPromise, "symmetry", "promises that make no sense";
-    Volume, "volume", "volumes that differ from the input's";
-    BoundaryArea, "volume", "boundary areas that differ from the input's";
+    Volume, "volume", "total volume that differs from the input's";
+    RegionVolume, "volume", "volumes of regions that differ from the input's";
+    BoundaryArea, "volume", "boundary area that differs from the input's";
 }
 
 /// Findings of a run.

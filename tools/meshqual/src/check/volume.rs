@@ -74,7 +74,7 @@ pub fn check(
             checks.region_volume_error = Some(worst.max(error));
         }
         if (found - expected).abs() > allowed {
-            findings.add(Kind::Volume, || {
+            findings.add(Kind::RegionVolume, || {
                 let name = region(document, r.id).map_or("", |r| &r.name);
                 let what = format!("the volume of region {} '{name}'", r.id);
                 differs(&what, found, expected, allowed)
