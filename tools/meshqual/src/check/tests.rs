@@ -246,7 +246,7 @@ fn wrong_regions() {
     template.triangles.clear();
     sectors.source = None;
     for (i, t) in template.tets.iter_mut().enumerate() {
-        t.region = 10 * (i / per) as u32 + t.region;
+        t.region += 10 * (i / per) as u32;
     }
     sectors.regions = (0..4)
         .flat_map(|k| [1, 2].map(|r| (10 * k + r, r)))
