@@ -1,0 +1,9 @@
+//! The tools as their users run them: real processes, real pipes, real files.
+
+#[path = "../../examples/body/generator/mod.rs"]
+#[allow(dead_code, unused_imports)]
+mod generator;
+
+mod bodies;
+mod failures;
+mod support;
