@@ -42,6 +42,21 @@ pub struct Cli {
     /// axis [default: from the input's precision and the symmetry's residual]
     #[arg(long, value_name = "REL", value_parser = relative)]
     snap: Option<f64>,
+
+    /// Collapse edges shorter than this, relative to the radius about the axis
+    #[arg(long, value_name = "REL|off", default_value = "1e-5", value_parser = clean)]
+    clean: Clean,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Clean(f64);
+
+fn clean(text: &str) -> Result<Clean, String> {
+    if text == "off" {
+        Ok(Clean(0.0))
+    } else {
+        relative(text).map(Clean)
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
@@ -95,6 +110,7 @@ impl Command for Cli {
             order: self.order.0,
             start_angle: self.start_angle.0.map(f64::to_radians),
             snap: self.snap,
+            clean: self.clean.0,
         };
         let (Hub::Auto | Hub::None) = self.hub;
         let document = session.read()?;

@@ -6,6 +6,7 @@
 //! polygons ([`clip`]); the sections closed by caps that carry the region interfaces ([`section`]);
 //! for rotation wedges, the two sections paired and made exact images ([`seam`]).
 
+mod clean;
 mod cli;
 mod clip;
 mod error;
@@ -96,7 +97,8 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
     let copies = document.instances.len();
     let wedge_volume = total_volume(&document.templates[0]) * copies as f64;
     let relative = (wedge_volume - body_volume).abs() / body_volume.abs();
-    let drift = symmetry.residual.max(0.0) * tolerances.radius + tolerances.plane;
+    let drift =
+        symmetry.residual.max(0.0) * tolerances.radius + tolerances.plane + tolerances.detail;
     let allowed = 1e-6 + 4.0 * drift * body_area / body_volume.abs();
     if document.templates[0].triangles.is_empty() {
         return Err(CutError::Empty);
@@ -126,6 +128,8 @@ struct Tolerances {
     plane: f64,
     /// Faces that count as in one plane.
     flat: f64,
+    /// Edges that are collapsed; 0 for none.
+    detail: f64,
     /// Points of the two sections that count as partners.
     partner: f64,
 }
@@ -165,6 +169,7 @@ impl Tolerances {
             equal,
             plane,
             flat: equal,
+            detail: params.clean * radius,
             partner,
         }
     }
@@ -226,6 +231,13 @@ fn cut_wedge(
     let split_at_axis = plan.is_half() && !plan.mirror;
     for &side in opening.sides() {
         clip::clip(&mut surface, &opening, side, split_at_axis);
+    }
+    if tolerances.detail > 0.0 {
+        let collapsed = clean::collapse_short_edges(&mut surface, tolerances.detail);
+        notes.push(format!(
+            "edges below {:.1e} collapsed: {} points and {} faces fewer",
+            tolerances.detail, collapsed.points, collapsed.faces
+        ));
     }
     let far = if plan.is_half() {
         Extent::FarHalf

@@ -29,6 +29,8 @@ pub struct Params {
     /// about the axis; `None` derives it from the precision of the input and the residual of the
     /// symmetry.
     pub snap: Option<f64>,
+    /// Edges shorter than this, relative to the radius about the axis, are collapsed; 0 for none.
+    pub clean: f64,
 }
 
 /// The wedge and its copies.

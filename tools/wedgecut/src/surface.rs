@@ -38,7 +38,7 @@ impl Surface {
                 surface.faces.push(face);
             }
         }
-        cancel_opposite(&mut surface.faces);
+        cancel_opposite(&mut surface.faces, &mut surface.patches);
         surface.patches = flat_patches(&surface.points, &surface.faces, flatness);
         surface
     }
@@ -58,7 +58,7 @@ impl Surface {
 
 /// Removes pairs of faces on the same three points that face each other with the same material
 /// between them or outside of them: what is left of a sliver whose points were joined.
-fn cancel_opposite(faces: &mut Vec<Triangle>) {
+pub fn cancel_opposite(faces: &mut Vec<Triangle>, patches: &mut Vec<u32>) {
     let mut seen: FxHashMap<[u32; 3], usize> = FxHashMap::default();
     let mut keep = vec![true; faces.len()];
     for (i, f) in faces.iter().enumerate() {
@@ -86,11 +86,10 @@ fn cancel_opposite(faces: &mut Vec<Triangle>) {
             seen.insert(key, j);
         }
     }
-    let mut at = 0;
-    faces.retain(|_| {
-        at += 1;
-        keep[at - 1]
-    });
+    let mut flags = keep.iter();
+    faces.retain(|_| *flags.next().unwrap_or(&true));
+    let mut flags = keep.iter();
+    patches.retain(|_| *flags.next().unwrap_or(&true));
 }
 
 /// Cosine above which neighbouring normals may belong to one flat patch; flatness decides, this

@@ -11,6 +11,7 @@ const DEFAULT: Params = Params {
     order: None,
     start_angle: None,
     snap: None,
+    clean: 1e-5,
 };
 
 /// Nested rings of points around the axis, extruded and twisted; region k + 1 lies inside ring k.
