@@ -1,5 +1,30 @@
-//! Passes a document on.
+//! Fills the templates of a document with tetrahedra, by TetGen.
+//!
+//! The surface's triangles say by their two sides where which region is, so no seeds are asked of
+//! anybody. Mirror walls are refined freely: both neighbours of such a wall are images of the same
+//! face. Seams and faces shared with another template are preserved. Afterwards every wall, volume
+//! and orientation is checked again.
 
+mod cells;
+mod check;
 mod cli;
+mod diagnose;
+mod error;
+mod facets;
+mod fill;
+mod mesher;
+mod params;
+mod plc;
+mod raycast;
+mod seeds;
+mod walls;
 
 pub use cli::Cli;
+pub use error::{Error, Place, RegionName};
+pub use mesher::{Meshed, tetrahedralize};
+pub use params::{DEFAULT_OPTIMIZE, Params, RegionSize, Sizes, volume_of_edge};
+
+#[cfg(test)]
+mod bodies;
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,379 @@
+//! From TetGen's mesh back to a template.
+
+use crate::cells::{Cells, label};
+use crate::error::Place;
+use crate::plc::Plc;
+use crate::walls::{Projection, face_key, on_segments, touching_edges};
+use crate::{Error, check};
+use geom::edges::orientation;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use tetgen_sys::Mesh;
+use tmesh::{Document, Template, Tet, Triangle, Wall};
+
+/// Points that belong to a plane or to the axis may be this far from it, relative to the largest
+/// coordinate: rounding of what TetGen computes.
+const ROUNDING: f64 = 1e-11;
+
+/// No counterpart.
+pub const NONE: u32 = u32::MAX;
+
+/// A filled template.
+pub struct Filled {
+    /// The template; vertex and triangle pairs of its hub walls still have the old numbers of the
+    /// other template.
+    pub template: Template,
+    /// New id of each old vertex, or [`NONE`].
+    pub vertices: Vec<u32>,
+    /// New index of each old triangle that had to be preserved, else [`NONE`].
+    pub triangles: Vec<u32>,
+    /// Tetrahedra in cells that are to be empty, left out.
+    pub dropped: usize,
+}
+
+/// Makes the filled template `index` from TetGen's mesh of `plc`.
+///
+/// # Errors
+/// [`Error::Unusable`] when anything that must hold does not.
+pub fn fill(document: &Document, index: usize, plc: &Plc, mesh: &Mesh) -> Result<Filled, Error> {
+    let input = &document.templates[index];
+    let unusable = |what: String| Error::Unusable {
+        template: index,
+        what,
+    };
+    if mesh.tetrahedra().is_empty() {
+        return Err(unusable("it is empty".to_owned()));
+    }
+    let kept = plc.points.len();
+    if mesh.points().len() < kept || mesh.points()[..kept] != plc.points {
+        return Err(unusable("input points were moved or left out".to_owned()));
+    }
+    let Cells { region, surface } = label(plc, mesh).map_err(|c| {
+        let place = Place(plc.to_model(c.place));
+        unusable(format!("there are {} near {place}", c.what))
+    })?;
+
+    let numbering = Numbering::new(mesh, &region, &surface);
+    let mut vertices = Vec::with_capacity(numbering.count);
+    for (i, p) in mesh.points().iter().enumerate() {
+        if numbering.new_id[i] != NONE {
+            vertices.push(match plc.vertex_of_point.get(i) {
+                Some(&v) => input.vertices[v as usize],
+                None => plc.to_model(*p),
+            });
+        }
+    }
+    let renumber = |v: u32| numbering.new_id[v as usize];
+    let triangles: Vec<Triangle> = surface
+        .iter()
+        .map(|s| Triangle {
+            vertices: s.triangle.vertices.map(renumber),
+            ..s.triangle
+        })
+        .collect();
+    let faces: Vec<u32> = surface.iter().map(|s| s.face).collect();
+    let tets: Vec<Tet> = mesh
+        .tetrahedra()
+        .iter()
+        .zip(&region)
+        .filter(|&(_, &region)| region != tmesh::OUTSIDE)
+        .map(|(t, &region)| Tet {
+            vertices: t.map(|v| renumber(v as u32)),
+            region,
+        })
+        .collect();
+    let mut of_vertex = vec![NONE; input.vertices.len()];
+    for (point, &v) in plc.vertex_of_point.iter().enumerate() {
+        of_vertex[v as usize] = numbering.new_id[point];
+    }
+    let dropped = mesh.tetrahedra().len() - tets.len();
+    let mut filled = Filled {
+        template: Template {
+            vertices,
+            triangles,
+            tets,
+            walls: Vec::new(),
+            axis: Vec::new(),
+        },
+        vertices: of_vertex,
+        triangles: vec![NONE; input.triangles.len()],
+        dropped,
+    };
+    // Old vertices come first, in their order.
+    let first_new = filled.vertices.iter().filter(|&&v| v != NONE).count();
+    restore_preserved(input, plc, &faces, &mut filled).map_err(&unusable)?;
+    restore_walls(input, plc, &faces, first_new, &mut filled).map_err(&unusable)?;
+    orientations(&filled.template, first_new).map_err(&unusable)?;
+    check::measures(document, index, plc, &faces, &filled.template).map_err(&unusable)?;
+    Ok(filled)
+}
+
+/// Numbers for the points that the mesh uses.
+struct Numbering {
+    new_id: Vec<u32>,
+    count: usize,
+}
+
+impl Numbering {
+    fn new(mesh: &Mesh, region: &[u32], surface: &[crate::cells::Surface]) -> Self {
+        let mut new_id = vec![NONE; mesh.points().len()];
+        for (t, &region) in mesh.tetrahedra().iter().zip(region) {
+            if region != tmesh::OUTSIDE {
+                t.iter().for_each(|&v| new_id[v as usize] = 0);
+            }
+        }
+        for s in surface {
+            s.triangle
+                .vertices
+                .iter()
+                .for_each(|&v| new_id[v as usize] = 0);
+        }
+        let mut count = 0;
+        for id in new_id.iter_mut().filter(|id| **id == 0) {
+            *id = count as u32;
+            count += 1;
+        }
+        Self { new_id, count }
+    }
+}
+
+fn sorted(mut t: [u32; 3]) -> [u32; 3] {
+    t.sort_unstable();
+    t
+}
+
+/// Finds every triangle that had to be preserved, by its vertices.
+fn restore_preserved(
+    input: &Template,
+    plc: &Plc,
+    faces: &[u32],
+    filled: &mut Filled,
+) -> Result<(), String> {
+    if !plc.faces.preserve() {
+        return Ok(());
+    }
+    let mut new_index: FxHashMap<[u32; 3], u32> = FxHashMap::default();
+    for (i, t) in filled.template.triangles.iter().enumerate() {
+        if faces[i] != crate::walls::NO_FACE {
+            new_index.insert(sorted(t.vertices), i as u32);
+        }
+    }
+    for (old, t) in input.triangles.iter().enumerate() {
+        if !plc.faces.preserved[old] {
+            continue;
+        }
+        let vertices = t.vertices.map(|v| filled.vertices[v as usize]);
+        match new_index.get(&sorted(vertices)) {
+            Some(&new) if vertices.iter().all(|&v| v != NONE) => filled.triangles[old] = new,
+            _ => {
+                let place = Place(t.vertices.map(|v| input.vertices[v as usize])[0]);
+                return Err(format!(
+                    "a triangle of a face that must be preserved is gone near {place}"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Rebuilds walls and axis, and puts new vertices on them exactly where they belong.
+fn restore_walls(
+    input: &Template,
+    plc: &Plc,
+    faces: &[u32],
+    first_new: usize,
+    filled: &mut Filled,
+) -> Result<(), String> {
+    let tolerance = ROUNDING * plc.extent;
+    let on_surface = {
+        let mut on = vec![false; filled.template.vertices.len()];
+        for &v in filled.template.triangles.iter().flat_map(|t| &t.vertices) {
+            on[v as usize] = true;
+        }
+        on
+    };
+    let mut walls = Vec::with_capacity(input.walls.len());
+    // Of each vertex: mirror walls it is on, as planes to project onto.
+    let mut projections: Vec<(u32, Projection)> = Vec::new();
+    for (w, wall) in input.walls.iter().enumerate() {
+        let mut wall = wall.clone();
+        match &mut wall {
+            Wall::Mirror(mirror) => {
+                let projection = Projection::of(mirror);
+                let touching = segments(
+                    input,
+                    &touching_edges(input, &mirror.vertices, &mirror.triangles),
+                );
+                let key = face_key(w, false);
+                let triangles: Vec<u32> = (0..faces.len() as u32)
+                    .filter(|&t| faces[t as usize] == key)
+                    .collect();
+                let mut vertices: Vec<u32> = mirror
+                    .vertices
+                    .iter()
+                    .map(|&v| filled.vertices[v as usize])
+                    .filter(|&v| v != NONE)
+                    .collect();
+                for &t in &triangles {
+                    vertices.extend(filled.template.triangles[t as usize].vertices);
+                }
+                if !touching.is_empty() {
+                    vertices.extend((first_new..on_surface.len()).filter_map(|v| {
+                        let p = filled.template.vertices[v];
+                        let near = mirror.plane.distance(p).abs() <= tolerance;
+                        (on_surface[v] && near && on_segments(p, &touching, tolerance))
+                            .then_some(v as u32)
+                    }));
+                }
+                vertices.sort_unstable();
+                vertices.dedup();
+                let new = vertices.iter().filter(|&&v| v as usize >= first_new);
+                projections.extend(new.map(|&v| (v, projection)));
+                mirror.vertices = vertices;
+                mirror.triangles = triangles;
+            }
+            Wall::Seam(seam) => {
+                pairs(&mut seam.vertex_pairs, &filled.vertices, &filled.vertices)?;
+                pairs(
+                    &mut seam.triangle_pairs,
+                    &filled.triangles,
+                    &filled.triangles,
+                )?;
+            }
+            // The other template's numbers are not known here.
+            Wall::Hub(hub) => {
+                let same: Vec<u32> = Vec::new();
+                pairs(&mut hub.vertex_pairs, &filled.vertices, &same)?;
+                pairs(&mut hub.triangle_pairs, &filled.triangles, &same)?;
+            }
+        }
+        walls.push(wall);
+    }
+
+    let mut axis: Vec<u32> = input
+        .axis
+        .iter()
+        .map(|&v| filled.vertices[v as usize])
+        .filter(|&v| v != NONE)
+        .collect();
+    let along_axis = axis_intervals(input);
+    if !along_axis.is_empty() {
+        let new = filled
+            .template
+            .vertices
+            .iter_mut()
+            .enumerate()
+            .skip(first_new);
+        for (v, p) in new {
+            if on_surface[v] && p.x.hypot(p.y) <= tolerance && within(&along_axis, p.z) {
+                *p = DVec3::new(0.0, 0.0, p.z);
+                axis.push(v as u32);
+            }
+        }
+    }
+    axis.sort_unstable();
+    axis.dedup();
+
+    for (v, projection) in projections {
+        let p = &mut filled.template.vertices[v as usize];
+        let image = projection.apply(*p);
+        let distance = (image - *p).length();
+        if distance > tolerance {
+            return Err(format!(
+                "a vertex on a mirror wall is {distance:.3e} off its plane near {}",
+                Place(*p)
+            ));
+        }
+        *p = image;
+    }
+    filled.template.walls = walls;
+    filled.template.axis = axis;
+    Ok(())
+}
+
+/// Renumbers pairs; an empty second list leaves second members as they are.
+fn pairs(pairs: &mut [[u32; 2]], first: &[u32], second: &[u32]) -> Result<(), String> {
+    for pair in pairs.iter_mut() {
+        let old = *pair;
+        pair[0] = first[pair[0] as usize];
+        if !second.is_empty() {
+            pair[1] = second[pair[1] as usize];
+        }
+        if pair.contains(&NONE) {
+            return Err(format!("a pair of a wall, {old:?}, lost a member"));
+        }
+    }
+    pairs.sort_unstable();
+    Ok(())
+}
+
+fn segments(input: &Template, edges: &[[u32; 2]]) -> Vec<[DVec3; 2]> {
+    edges
+        .iter()
+        .map(|e| e.map(|v| input.vertices[v as usize]))
+        .collect()
+}
+
+/// Stretches of the axis that are edges of the surface, increasing, merged.
+fn axis_intervals(input: &Template) -> Vec<[f64; 2]> {
+    let mut stretches: Vec<[f64; 2]> = segments(input, &touching_edges(input, &input.axis, &[]))
+        .iter()
+        .map(|[a, b]| [a.z.min(b.z), a.z.max(b.z)])
+        .collect();
+    stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut merged: Vec<[f64; 2]> = Vec::new();
+    for s in stretches {
+        match merged.last_mut() {
+            Some(last) if s[0] <= last[1] => last[1] = last[1].max(s[1]),
+            _ => merged.push(s),
+        }
+    }
+    merged
+}
+
+fn within(intervals: &[[f64; 2]], z: f64) -> bool {
+    let after = intervals.partition_point(|i| i[0] <= z);
+    after > 0 && z <= intervals[after - 1][1]
+}
+
+/// All tetrahedra positive, exactly.
+fn orientations(template: &Template, first_new: usize) -> Result<(), String> {
+    let mut bad = 0_usize;
+    let mut first = None;
+    for t in &template.tets {
+        let [a, b, c, d] = t.vertices.map(|v| template.vertices[v as usize]);
+        if orientation(a, b, c, d) <= 0.0 {
+            bad += 1;
+            first.get_or_insert((a + b + c + d) * 0.25);
+        }
+    }
+    match first {
+        None => Ok(()),
+        Some(place) => Err(format!(
+            "{bad} of {} tetrahedra are inverted or flat ({} new vertices), the first near {}",
+            template.tets.len(),
+            template.vertices.len() - first_new,
+            Place(place)
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_are_found_in_intervals() {
+        let intervals = [[0.0, 1.0], [2.0, 3.0]];
+        for (z, inside) in [
+            (-0.1, false),
+            (0.0, true),
+            (0.5, true),
+            (1.5, false),
+            (3.0, true),
+            (3.1, false),
+        ] {
+            assert_eq!(within(&intervals, z), inside, "{z}");
+        }
+    }
+}

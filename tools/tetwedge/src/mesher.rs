@@ -1,0 +1,195 @@
+//! The whole document: every template meshed, walls between templates renumbered.
+
+use crate::diagnose::{Chatter, failure};
+use crate::fill::{Filled, NONE, fill};
+use crate::params::switches;
+use crate::plc::Plc;
+use crate::{Error, Params, Sizes};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+use tetgen_sys::Limits;
+use tmesh::{Document, Wall};
+
+/// Most tetrahedra that may be asked for in a template: TetGen counts in 32 bits.
+const MOST: f64 = 4e8;
+
+/// A document that was filled, and what there is to say about it.
+pub struct Meshed {
+    /// The document; its history is as it was.
+    pub document: Document,
+    /// What the user should know or do otherwise, a sentence each.
+    pub advice: Vec<String>,
+    /// What was made, a sentence for each template.
+    pub facts: Vec<String>,
+}
+
+/// Fills every template of a document with tetrahedra. Tetrahedra that were there before are
+/// replaced.
+///
+/// `log` receives details while the work goes on.
+///
+/// # Errors
+/// See [`Error`].
+pub fn tetrahedralize(
+    mut document: Document,
+    params: &Params,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<Meshed, Error> {
+    let sizes = Sizes::new(&document, params)?;
+    let count = document.templates.len();
+    let next = AtomicUsize::new(0);
+    let results: Vec<Mutex<Option<Result<Done, Error>>>> =
+        (0..count).map(|_| Mutex::new(None)).collect();
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(slot) = results.get(index) else {
+                break;
+            };
+            let result = template(&document, index, params, &sizes, log);
+            if let Ok(mut slot) = slot.lock() {
+                *slot = Some(result);
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..params.threads.min(count) {
+            scope.spawn(work);
+        }
+        work();
+    });
+    let mut done = Vec::with_capacity(count);
+    for slot in results {
+        // Every slot is filled: each worker ends only when there is no template left.
+        if let Some(result) = slot.into_inner().unwrap_or(None) {
+            done.push(result?);
+        }
+    }
+
+    let mut advice = Vec::new();
+    let mut facts = Vec::new();
+    let refined = document.history.iter().any(|h| h.tool == "periodic-surf");
+    if !refined && done.iter().any(|d| d.preserved) {
+        advice.push(
+            "the surface was preserved for the sake of its seams; periodic-surf before tetwedge \
+             gives better elements"
+                .to_owned(),
+        );
+    }
+    for (index, d) in done.iter().enumerate() {
+        facts.push(format!(
+            "template {index}: {} tetrahedra, {} vertices, {} surface triangles (TetGen switches {})",
+            d.filled.template.tets.len(),
+            d.filled.template.vertices.len(),
+            d.filled.template.triangles.len(),
+            d.switches
+        ));
+    }
+    for index in 0..count {
+        let mut template = std::mem::take(&mut done[index].filled.template);
+        for wall in &mut template.walls {
+            if let Wall::Hub(hub) = wall {
+                let other = &done[hub.other as usize].filled;
+                let lost = renumber_second(&mut hub.vertex_pairs, &other.vertices)
+                    || renumber_second(&mut hub.triangle_pairs, &other.triangles);
+                if lost {
+                    return Err(Error::Unusable {
+                        template: hub.other as usize,
+                        what: format!("it lost a part of wall '{}'", hub.name),
+                    });
+                }
+            }
+        }
+        document.templates[index] = template;
+    }
+    Ok(Meshed {
+        document,
+        advice,
+        facts,
+    })
+}
+
+/// Renumbers the second members; returns whether one has no counterpart.
+fn renumber_second(pairs: &mut [[u32; 2]], new: &[u32]) -> bool {
+    for pair in pairs.iter_mut() {
+        pair[1] = new[pair[1] as usize];
+    }
+    pairs.iter().any(|p| p[1] == NONE)
+}
+
+struct Done {
+    filled: Filled,
+    switches: String,
+    preserved: bool,
+}
+
+fn template(
+    document: &Document,
+    index: usize,
+    params: &Params,
+    sizes: &Sizes,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<Done, Error> {
+    let begun = Instant::now();
+    let plc = Plc::new(document, index, sizes)?;
+    check_count(document, index, sizes)?;
+    let preserved = plc.faces.preserve();
+    let switches = switches(params, plc.max_volume, plc.per_region, preserved);
+    log(&format!(
+        "template {index}: {} points, {} triangles in {} facets, {} void(s); switches {switches}",
+        plc.points.len(),
+        plc.facets.of_triangle.len(),
+        plc.facets.facets.len(),
+        plc.hole_count(),
+    ));
+    let prepared = Instant::now();
+    let limits = Limits {
+        timeout: params.timeout,
+    };
+    let mut chatter = Chatter::new(log);
+    let mesh = tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |bytes| {
+        chatter.take(bytes);
+    })
+    .map_err(|error| failure(error, &chatter, &plc, params.timeout))?;
+    let meshed = Instant::now();
+    let filled = fill(document, index, &plc, &mesh)?;
+    log(&format!(
+        "template {index}: {} tetrahedra, {} vertices; prepared in {:.3} s, meshed in {:.3} s, checked in {:.3} s",
+        filled.template.tets.len(),
+        filled.template.vertices.len(),
+        (prepared - begun).as_secs_f64(),
+        (meshed - prepared).as_secs_f64(),
+        meshed.elapsed().as_secs_f64(),
+    ));
+    if filled.dropped > 0 {
+        log(&format!(
+            "template {index}: {} tetrahedra in voids were left out",
+            filled.dropped
+        ));
+    }
+    Ok(Done {
+        filled,
+        switches,
+        preserved,
+    })
+}
+
+/// Refuses sizes that could only end in running out of memory.
+fn check_count(document: &Document, index: usize, sizes: &Sizes) -> Result<(), Error> {
+    let template = &document.templates[index];
+    for (region, limit) in document.regions.iter().zip(&sizes.of_region) {
+        if let Some(max_volume) = *limit {
+            let count = geom::measure::region_volume(template, region.id) / max_volume;
+            if count > MOST {
+                return Err(Error::TooMany {
+                    template: index,
+                    max_volume,
+                    count,
+                    limit: MOST,
+                });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,191 @@
+//! The piecewise linear complex that TetGen is given for a template.
+
+use crate::facets::Facets;
+use crate::seeds::seeds;
+use crate::walls::Faces;
+use crate::{Error, Sizes};
+use geom::edges::Edges;
+use glam::DVec3;
+use tetgen_sys::{Complex, RegionSeed};
+use tmesh::{Document, OUTSIDE};
+
+/// Facets may be uneven by this part of the body's diagonal, or by a few times the input's
+/// precision where that is more.
+const FLATNESS: f64 = 1e-9;
+const PRECISIONS: f64 = 4.0;
+
+/// A template in TetGen's terms. Lengths are scaled by a power of two, so that coordinates are near
+/// one (models come in metres and in nanometres) and no bit of them changes.
+pub struct Plc {
+    /// TetGen's length unit per model unit.
+    pub scale: f64,
+    /// Template vertex of each point.
+    pub vertex_of_point: Vec<u32>,
+    /// Scaled positions.
+    pub points: Vec<[f64; 3]>,
+    triangles: Vec<[i32; 3]>,
+    markers: Vec<i32>,
+    holes: Vec<[f64; 3]>,
+    regions: Vec<RegionSeed>,
+    /// Facets; the marker of facet `f` is `f + 1`.
+    pub facets: Facets,
+    /// Wall faces of the template's triangles.
+    pub faces: Faces,
+    /// Largest coordinate, model units.
+    pub extent: f64,
+    /// Limit that holds in all regions, TetGen's unit cubed.
+    pub max_volume: Option<f64>,
+    /// Whether seeds carry limits for single regions.
+    pub per_region: bool,
+}
+
+impl Plc {
+    /// Describes template `index`.
+    ///
+    /// # Errors
+    /// [`Error::NoSurface`], and what [`seeds`] says about surfaces that bound nothing.
+    pub fn new(document: &Document, index: usize, sizes: &Sizes) -> Result<Self, Error> {
+        let template = &document.templates[index];
+        let corners: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
+        if corners.len() < 4 {
+            return Err(Error::NoSurface { template: index });
+        }
+        let (vertex_of_point, point_of_vertex) = used(template.vertices.len(), &corners);
+        let position = |&v: &u32| template.vertices[v as usize];
+        let (low, high) = vertex_of_point
+            .iter()
+            .map(position)
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| {
+                (l.min(p), h.max(p))
+            });
+        let extent = low.abs().max(high.abs()).max_element();
+        let diagonal = (high - low).length();
+        let scale = power_of_two_near(diagonal);
+
+        let edges = Edges::new(&corners);
+        let seeds = seeds(index, template, &corners, &edges)?;
+        let faces = Faces::new(document, index);
+        let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
+        let tolerance = (FLATNESS * diagonal).max(PRECISIONS * precision);
+        let facets = Facets::new(template, &edges, &faces.of_triangle, tolerance);
+
+        let region_index = |id: u32| document.regions.binary_search_by_key(&id, |r| r.id).ok();
+        let mut present: Vec<usize> = seeds
+            .iter()
+            .filter_map(|s| region_index(s.region))
+            .collect();
+        present.sort_unstable();
+        present.dedup();
+        let per_region = sizes.differ(&present);
+        let cube = scale * scale * scale;
+        let regions = seeds
+            .iter()
+            .filter(|s| per_region && s.region != OUTSIDE)
+            .filter_map(|s| {
+                let r = region_index(s.region)?;
+                Some(RegionSeed {
+                    point: (s.point * scale).to_array(),
+                    attribute: r as f64,
+                    max_volume: sizes.of_region[r].map_or(-1.0, |v| v * cube),
+                })
+            })
+            .collect();
+        let holes = seeds
+            .iter()
+            .filter(|s| s.region == OUTSIDE)
+            .map(|s| (s.point * scale).to_array())
+            .collect();
+        Ok(Self {
+            scale,
+            points: vertex_of_point
+                .iter()
+                .map(|v| (position(v) * scale).to_array())
+                .collect(),
+            vertex_of_point,
+            triangles: corners
+                .iter()
+                .map(|t| t.map(|v| point_of_vertex[v as usize] as i32))
+                .collect(),
+            markers: facets.of_triangle.iter().map(|&f| f as i32 + 1).collect(),
+            holes,
+            regions,
+            facets,
+            faces,
+            extent,
+            max_volume: sizes.loosest(&present).map(|v| v * cube),
+            per_region,
+        })
+    }
+
+    /// The complex, as the binding takes it.
+    pub fn complex(&self) -> Complex<'_> {
+        Complex {
+            points: &self.points,
+            triangles: &self.triangles,
+            markers: &self.markers,
+            holes: &self.holes,
+            regions: &self.regions,
+        }
+    }
+
+    /// Model position of a scaled point.
+    pub fn to_model(&self, p: [f64; 3]) -> DVec3 {
+        // Exact: the scale is a power of two.
+        DVec3::from_array(p) / self.scale
+    }
+
+    /// Middle of a triangle, model units.
+    pub fn middle(&self, triangle: usize) -> DVec3 {
+        let corners = self.triangles[triangle].map(|v| self.to_model(self.points[v as usize]));
+        corners.iter().sum::<DVec3>() / 3.0
+    }
+
+    /// Number of voids to be left empty.
+    pub fn hole_count(&self) -> usize {
+        self.holes.len()
+    }
+}
+
+/// Vertices that triangles use, in order, and the place of each in that list.
+fn used(vertices: usize, corners: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
+    let mut place = vec![u32::MAX; vertices];
+    for &v in corners.iter().flatten() {
+        place[v as usize] = 0;
+    }
+    let mut list = Vec::new();
+    for (v, place) in place.iter_mut().enumerate() {
+        if *place == 0 {
+            *place = list.len() as u32;
+            list.push(v as u32);
+        }
+    }
+    (list, place)
+}
+
+/// A power of two that brings `size` into [1, 2); 1 for sizes without one.
+fn power_of_two_near(size: f64) -> f64 {
+    if size > 0.0 && size.is_finite() {
+        // Within bounds where the cube of the scale is still a normal number.
+        let exponent = libm::ilogb(size).clamp(-300, 300);
+        libm::scalbn(1.0, -exponent)
+    } else {
+        1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_are_powers_of_two() {
+        for size in [1e-6, 0.99, 1.0, 1.01, 2.0, 1e6, 1e-80, 3e5] {
+            let scale = power_of_two_near(size);
+            assert!((1.0..2.0).contains(&(size * scale)), "{size} {scale}");
+            assert_eq!(scale.to_bits() & ((1 << 52) - 1), 0);
+            let x = size * 0.1;
+            assert_eq!((x * scale) / scale, x);
+        }
+        assert_eq!(power_of_two_near(0.0), 1.0);
+    }
+}

@@ -1,0 +1,507 @@
+use crate::bodies::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
+use crate::{Error, Params, RegionSize, tetrahedralize};
+use geom::measure::{region_volume, tet_volume};
+use glam::DVec3;
+use kit::Failure;
+use std::time::Duration;
+use tmesh::{Document, OUTSIDE, Template, Wall, validate};
+
+fn mesh(document: Document, params: &Params) -> Result<Document, Error> {
+    assert_eq!(validate(&document), []);
+    let begun = document.clone();
+    let done = tetrahedralize(document, params, &|_| ())?.document;
+    check(&begun, &done);
+    Ok(done)
+}
+
+fn sized(max_volume: f64) -> Params {
+    Params {
+        max_volume: Some(max_volume),
+        timeout: Some(Duration::from_secs(120)),
+        ..Params::default()
+    }
+}
+
+fn volume(template: &Template, region: u32) -> f64 {
+    template
+        .tets
+        .iter()
+        .filter(|t| t.region == region)
+        .map(|t| {
+            let [a, b, c, d] = t.vertices.map(|v| template.vertices[v as usize]);
+            tet_volume(a, b, c, d)
+        })
+        .sum()
+}
+
+/// What holds after meshing, seen from outside of the code that makes it hold.
+fn check(before: &Document, after: &Document) {
+    assert_eq!(validate(after), []);
+    assert_eq!(before.instances, after.instances);
+    for (old, new) in before.templates.iter().zip(&after.templates) {
+        assert!(!new.tets.is_empty());
+        for t in &new.tets {
+            let [a, b, c, d] = t.vertices.map(|v| new.vertices[v as usize]);
+            assert!(tet_volume(a, b, c, d) > 0.0);
+        }
+        for region in &before.regions {
+            let surface = region_volume(old, region.id);
+            let refined = region_volume(new, region.id);
+            let tets = volume(new, region.id);
+            assert!(
+                (surface - tets).abs() <= 1e-9 * surface.abs(),
+                "{surface} {tets}"
+            );
+            assert!((surface - refined).abs() <= 1e-9 * surface.abs());
+        }
+        faces_match(new);
+        // Every vertex is used, old ones come first.
+        let mut used = vec![false; new.vertices.len()];
+        for v in new.tets.iter().flat_map(|t| t.vertices) {
+            used[v as usize] = true;
+        }
+        assert!(used.iter().all(|&u| u));
+        assert_eq!(new.vertices[..old.vertices.len()], old.vertices);
+        // Exactly the vertices on a wall's plane are on the wall; the same for the axis.
+        for wall in &new.walls {
+            if let Wall::Mirror(m) = wall {
+                let extent = new
+                    .vertices
+                    .iter()
+                    .fold(0.0_f64, |e, p| e.max(p.abs().max_element()));
+                for (v, &p) in new.vertices.iter().enumerate() {
+                    let listed = m.vertices.binary_search(&(v as u32)).is_ok();
+                    let near = m.plane.distance(p).abs() <= 1e-13 * extent;
+                    // The two walls of a half space lie in one plane.
+                    if m.reflection.n() > 1 || after.instances.len() > 2 {
+                        assert_eq!(listed, near, "vertex {v} at {p} and {}", m.name);
+                    }
+                    assert!(near || !listed);
+                    if m.reflection.k() == 0 && listed {
+                        assert_eq!(p.y, 0.0);
+                    }
+                }
+            }
+        }
+        if !old.axis.is_empty() {
+            for (v, p) in new.vertices.iter().enumerate() {
+                let listed = new.axis.binary_search(&(v as u32)).is_ok();
+                assert_eq!(listed, p.x == 0.0 && p.y == 0.0, "{p}");
+            }
+        }
+    }
+}
+
+/// Each tet face is shared by two tets of one region, or is a surface triangle with the right
+/// regions on its sides.
+fn faces_match(template: &Template) {
+    use std::collections::BTreeMap;
+    // Sorted face: regions seen (front of the sorted order, back of it).
+    let mut faces: BTreeMap<[u32; 3], [u32; 2]> = BTreeMap::new();
+    let even = |t: [u32; 3]| {
+        let mut s = t;
+        s.sort_unstable();
+        let even = [s, [s[1], s[2], s[0]], [s[2], s[0], s[1]]].contains(&t);
+        (s, even)
+    };
+    for t in &template.tets {
+        let [a, b, c, d] = t.vertices;
+        // Faces counter-clockwise seen from inside.
+        for face in [[a, b, c], [a, d, b], [b, d, c], [a, c, d]] {
+            let (key, even) = even(face);
+            let entry = faces.entry(key).or_insert([OUTSIDE; 2]);
+            let side = &mut entry[usize::from(!even)];
+            assert_eq!(*side, OUTSIDE, "two tets on one side of a face");
+            *side = t.region;
+        }
+    }
+    let mut differing = faces.values().filter(|r| r[0] != r[1]).count();
+    for t in &template.triangles {
+        let (key, even) = even(t.vertices);
+        let mut wanted = [t.front, t.back];
+        if !even {
+            wanted.reverse();
+        }
+        assert_eq!(faces.get(&key), Some(&wanted));
+        if t.front != t.back {
+            differing -= 1;
+        }
+    }
+    assert_eq!(
+        differing, 0,
+        "faces between regions without a surface triangle"
+    );
+}
+
+#[test]
+fn prisms_with_an_axis() {
+    for order in [1, 3, 4, 16] {
+        let done = mesh(prism(order), &sized(1e-3)).unwrap();
+        let template = &done.templates[0];
+        assert!(template.axis.len() > 2, "axis vertices were added");
+        let surface = [SIDE, WALL, LEVEL];
+        assert!(
+            template
+                .triangles
+                .iter()
+                .all(|t| surface.contains(&t.marker))
+        );
+        assert!(template.triangles.iter().any(|t| t.marker == LEVEL));
+    }
+}
+
+#[test]
+fn coatings_keep_their_region_and_may_have_a_size() {
+    let done = mesh(coated_ring(16, 5e-3), &sized(0.01)).unwrap();
+    let count = |d: &Document, r| d.templates[0].tets.iter().filter(|t| t.region == r).count();
+    assert!(count(&done, 4) > 0 && count(&done, 9) > 0);
+
+    // Optimization moves vertices after the sizes were met, and may exceed them.
+    let mut params = Params {
+        region_sizes: vec![RegionSize {
+            region: "material-9".to_owned(),
+            max_volume: 2e-6,
+        }],
+        optimize: None,
+        ..Params::default()
+    };
+    for (optimize, limit) in [(None, 2e-6), (Some(130.0), 4e-6)] {
+        params.optimize = optimize;
+        let done = mesh(coated_ring(16, 0.2), &params).unwrap();
+        let template = &done.templates[0];
+        let biggest = |region| {
+            template
+                .tets
+                .iter()
+                .filter(|t| t.region == region)
+                .map(|t| {
+                    let [a, b, c, d] = t.vertices.map(|v| template.vertices[v as usize]);
+                    tet_volume(a, b, c, d)
+                })
+                .fold(0.0, f64::max)
+        };
+        assert!(biggest(9) <= limit && biggest(4) > 1e-5, "{}", biggest(9));
+    }
+    params.region_sizes[0].region = "copper".to_owned();
+    let error = mesh(coated_ring(16, 0.2), &params).unwrap_err();
+    assert!(matches!(error.failure(), Failure::Usage(_)));
+}
+
+#[test]
+fn voids_stay_empty() {
+    // A shell of region 2 around a core of region 0 with a void in it, off the axis.
+    let document = Grid {
+        order: 5,
+        mirror: true,
+        radii: &[0.3, 0.5, 0.6, 0.7, 0.9],
+        turns: 5,
+        heights: &[0.0, 0.2, 0.3, 0.4, 0.7],
+        region: &|i, j, k| match (i, j, k) {
+            (1, 2, 1) => OUTSIDE,
+            (1..=2, 1..=3, 1..=2) => 0,
+            _ => 2,
+        },
+    }
+    .document();
+    let done = mesh(document, &sized(1e-4)).unwrap();
+    assert_eq!(done.regions.len(), 2);
+}
+
+#[test]
+fn pieces_may_be_apart() {
+    let document = Grid {
+        order: 6,
+        mirror: true,
+        radii: &[0.0, 0.4, 0.5, 1.0],
+        turns: 1,
+        heights: &[0.0, 0.3, 0.4, 0.5],
+        region: &|i, _, k| {
+            if i == 1 || (i == 2 && k == 1) {
+                OUTSIDE
+            } else {
+                7
+            }
+        },
+    }
+    .document();
+    mesh(document, &sized(1e-3)).unwrap();
+}
+
+fn ratchet(order: u32) -> Document {
+    Grid {
+        order,
+        mirror: false,
+        radii: &[0.0, 0.25, 0.5, 0.75, 1.0],
+        turns: 3,
+        heights: &[0.0, 0.25, 0.5],
+        region: &|i, j, k| match (i, j) {
+            (3, 0) => OUTSIDE,
+            _ => k as u32,
+        },
+    }
+    .document()
+}
+
+#[test]
+fn seams_are_preserved() {
+    for order in [2, 3, 7, 12] {
+        let before = ratchet(order);
+        let done = tetrahedralize(before.clone(), &sized(1e-3), &|_| ()).unwrap();
+        assert!(done.advice[0].contains("periodic-surf"));
+        check(&before, &done.document);
+        let (Wall::Seam(old), Wall::Seam(new)) = (
+            &before.templates[0].walls[0],
+            &done.document.templates[0].walls[0],
+        ) else {
+            panic!("no seam");
+        };
+        assert_eq!(old.vertex_pairs, new.vertex_pairs);
+        assert_eq!(old.triangle_pairs.len(), new.triangle_pairs.len());
+        let mut refined = before;
+        let mut entry = tmesh::HistoryEntry {
+            tool: "periodic-surf".to_owned(),
+            version: String::new(),
+            arguments: Vec::new(),
+            notes: Vec::new(),
+        };
+        refined.history.push(entry.clone());
+        entry.tool = "tetwedge".to_owned();
+        refined.history.push(entry);
+        let done = tetrahedralize(refined, &sized(1e-3), &|_| ()).unwrap();
+        assert!(done.advice.is_empty());
+    }
+}
+
+#[test]
+fn faces_between_templates_are_preserved() {
+    let before = with_hub(6);
+    for threads in [1, 4] {
+        let params = Params {
+            threads,
+            ..sized(1e-4)
+        };
+        let done = mesh(before.clone(), &params).unwrap();
+        let Wall::Hub(hub) = &done.templates[0].walls[2] else {
+            panic!("no hub wall");
+        };
+        assert_eq!(hub.triangle_pairs.len(), 8);
+    }
+}
+
+#[test]
+fn any_scale_gives_the_same_mesh() {
+    let base = mesh(coated_ring(16, 5e-2), &sized(1e-3)).unwrap();
+    // Powers of two change no bit of the mantissas.
+    for exponent in [-20, 20] {
+        let scale = f64::from(exponent).exp2();
+        let mut document = coated_ring(16, 5e-2);
+        document.templates[0]
+            .vertices
+            .iter_mut()
+            .for_each(|p| *p *= scale);
+        let done = mesh(document, &sized(1e-3 * scale.powi(3))).unwrap();
+        assert_eq!(done.templates[0].tets, base.templates[0].tets);
+        assert_eq!(done.templates[0].triangles, base.templates[0].triangles);
+    }
+    for scale in [1e-6, 1e6] {
+        let mut document = ratchet(5);
+        for p in &mut document.templates[0].vertices {
+            *p *= scale;
+        }
+        // Scaling rounds: put the high face back onto the image of the low one.
+        let Wall::Seam(seam) = document.templates[0].walls[0].clone() else {
+            panic!("no seam");
+        };
+        for [a, b] in seam.vertex_pairs {
+            document.templates[0].vertices[b as usize] = seam
+                .rotation
+                .apply(document.templates[0].vertices[a as usize]);
+        }
+        mesh(document, &sized(1e-3 * scale * scale * scale)).unwrap();
+    }
+}
+
+#[test]
+fn meshing_again_starts_from_the_surface() {
+    let once = mesh(prism(4), &sized(1e-2)).unwrap();
+    let mut again = once.clone();
+    again.templates[0].vertices.push(DVec3::new(9.0, 9.0, 9.0));
+    let done = tetrahedralize(again, &sized(1e-2), &|_| ())
+        .unwrap()
+        .document;
+    assert_eq!(validate(&done), []);
+    assert!(!done.templates[0].vertices.contains(&DVec3::splat(9.0)));
+}
+
+#[test]
+fn a_plain_tetrahedralization_adds_little() {
+    let params = Params {
+        quality: false,
+        ..Params::default()
+    };
+    let done = mesh(coated_ring(16, 5e-3), &params).unwrap();
+    assert!(done.templates[0].tets.len() < 100);
+}
+
+#[test]
+fn open_surfaces_are_refused() {
+    let mut document = coated_ring(6, 0.1);
+    let removed = document.templates[0]
+        .triangles
+        .iter()
+        .position(|t| t.marker == LEVEL)
+        .unwrap();
+    document.templates[0].triangles.remove(removed);
+    document.templates[0].walls.clear();
+    let error = tetrahedralize(document, &sized(0.01), &|_| ())
+        .err()
+        .unwrap();
+    assert!(matches!(error, Error::Open { edges: 2..=3, .. }), "{error}");
+    assert!(matches!(error.failure(), Failure::Input(_)));
+}
+
+#[test]
+fn inconsistent_regions_are_refused() {
+    let mut document = coated_ring(6, 0.1);
+    let t = &mut document.templates[0].triangles[3];
+    for side in [&mut t.front, &mut t.back] {
+        if *side == 4 {
+            *side = 9;
+        }
+    }
+    let error = tetrahedralize(document, &sized(0.01), &|_| ())
+        .err()
+        .unwrap();
+    assert!(matches!(error, Error::MixedCell { .. }), "{error}");
+
+    let mut document = prism(6);
+    for t in &mut document.templates[0].triangles {
+        std::mem::swap(&mut t.front, &mut t.back);
+    }
+    let error = tetrahedralize(document, &sized(0.01), &|_| ())
+        .err()
+        .unwrap();
+    assert!(matches!(error, Error::Unbounded { .. }), "{error}");
+
+    let mut document = prism(6);
+    document.templates[0].triangles.clear();
+    document.templates[0].walls.clear();
+    let error = tetrahedralize(document, &sized(0.01), &|_| ())
+        .err()
+        .unwrap();
+    assert!(matches!(error, Error::NoSurface { .. }), "{error}");
+}
+
+#[test]
+fn intersections_are_reported_with_their_place() {
+    let mut document = prism(4);
+    let mut other = document.templates[0].clone();
+    let template = &mut document.templates[0];
+    let base = template.vertices.len() as u32;
+    for p in &other.vertices {
+        template.vertices.push(*p * 0.5 + DVec3::new(0.6, 0.2, 0.1));
+    }
+    for t in &mut other.triangles {
+        t.vertices = t.vertices.map(|v| v + base);
+    }
+    template.triangles.append(&mut other.triangles);
+    let error = tetrahedralize(document, &sized(0.01), &|_| ())
+        .err()
+        .unwrap();
+    let text = error.to_string();
+    assert!(matches!(error, Error::Mesher { .. }), "{text}");
+    assert!(
+        text.contains("intersect") && text.contains("near ("),
+        "{text}"
+    );
+    assert!(matches!(error.failure(), Failure::Impossible(_)));
+}
+
+#[test]
+fn hopeless_requests_end() {
+    let params = Params {
+        timeout: Some(Duration::from_millis(200)),
+        ..sized(1e-8)
+    };
+    let error = mesh(prism(4), &params).unwrap_err();
+    let text = error.to_string();
+    assert!(
+        text.contains("0.2 s") && text.contains("--timeout"),
+        "{text}"
+    );
+    let error = mesh(prism(4), &sized(1e-30)).unwrap_err();
+    assert!(matches!(error, Error::TooMany { .. }), "{error}");
+}
+
+#[test]
+fn switches_that_change_the_contract_are_errors() {
+    for bad in ["o2", "h", "B"] {
+        let params = Params {
+            switches: bad.to_owned(),
+            ..sized(0.1)
+        };
+        assert!(mesh(prism(4), &params).is_err(), "{bad}");
+    }
+}
+
+/// Our time beside that of the `tetgen` program on the same complex with the same switches: run it
+/// with `cargo test --release -p tetwedge -- --ignored --nocapture overhead`.
+#[test]
+#[ignore = "a measurement, and needs the tetgen program"]
+fn overhead() {
+    use crate::params::{Sizes, switches};
+    use crate::plc::Plc;
+    use std::fmt::Write;
+    use std::time::Instant;
+    for (name, document, max_volume) in [
+        ("prism, order 3", prism(3), 2e-6),
+        ("ring, order 16, coating 5e-3", coated_ring(16, 5e-3), 1e-2),
+        ("ring, order 16, coating 2e-4", coated_ring(16, 2e-4), 1e-2),
+        ("with hub, order 6", with_hub(6), 1e-6),
+    ] {
+        let params = sized(max_volume);
+        let sizes = Sizes::new(&document, &params).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let mut theirs = 0.0;
+        for index in 0..document.templates.len() {
+            let plc = Plc::new(&document, index, &sizes).unwrap();
+            let complex = plc.complex();
+            let mut text = format!("{} 3 0 0\n", complex.points.len());
+            for (i, [x, y, z]) in complex.points.iter().enumerate() {
+                writeln!(text, "{i} {x:?} {y:?} {z:?}").unwrap();
+            }
+            writeln!(text, "{} 1", complex.triangles.len()).unwrap();
+            for ([a, b, c], marker) in complex.triangles.iter().zip(complex.markers) {
+                writeln!(text, "1 0 {marker}\n3 {a} {b} {c}").unwrap();
+            }
+            text.push_str("0\n0\n");
+            std::fs::write(folder.path().join("body.poly"), text).unwrap();
+            let switches = switches(&params, plc.max_volume, false, plc.faces.preserve());
+            let begun = Instant::now();
+            let status = std::process::Command::new("tetgen")
+                .arg(format!("-{switches}NEFI"))
+                .arg("body.poly")
+                .current_dir(folder.path())
+                .stdout(std::process::Stdio::null())
+                .status()
+                .unwrap();
+            theirs += begun.elapsed().as_secs_f64();
+            assert!(status.success());
+        }
+        let begun = Instant::now();
+        let lines = std::sync::Mutex::new(Vec::new());
+        let log = |line: &str| lines.lock().unwrap().push(line.to_owned());
+        let done = tetrahedralize(document, &params, &log).unwrap().document;
+        let ours = begun.elapsed().as_secs_f64();
+        let tets: usize = done.templates.iter().map(|t| t.tets.len()).sum();
+        println!("{name}: {tets} tetrahedra, tetgen {theirs:.3} s, tetwedge {ours:.3} s");
+        for line in lines
+            .lock()
+            .unwrap()
+            .iter()
+            .filter(|l| l.starts_with("template"))
+        {
+            println!("    {line}");
+        }
+    }
+}
