@@ -247,7 +247,11 @@ pub fn closest_point(p: DVec3, t: &[DVec3; 3]) -> DVec3 {
         [(a, b), (b, c), (c, a)]
             .map(|(s, e)| on_segment(p, s, e))
             .into_iter()
-            .min_by(|u, v| (p - *u).length_squared().total_cmp(&(p - *v).length_squared()))
+            .min_by(|u, v| {
+                (p - *u)
+                    .length_squared()
+                    .total_cmp(&(p - *v).length_squared())
+            })
             .unwrap_or(a)
     }
 }
@@ -324,9 +328,7 @@ fn build(items: &mut [Item], nodes: &mut Vec<Node>) {
     let mut work = vec![(0_usize, items.len(), 0_usize, None::<usize>)];
     while let Some((first, count, depth, parent)) = work.pop() {
         let range = &mut items[first..first + count];
-        let bounds = range
-            .iter()
-            .fold(Bounds::EMPTY, |b, i| b.union(i.bounds));
+        let bounds = range.iter().fold(Bounds::EMPTY, |b, i| b.union(i.bounds));
         if let Some(parent) = parent {
             nodes[parent].next = nodes.len() as u32;
         }
@@ -349,9 +351,7 @@ fn build(items: &mut [Item], nodes: &mut Vec<Node>) {
 
 /// Partitions a range; returns the size of its left part, or `None` when it cannot be divided.
 fn split(range: &mut [Item], depth: usize) -> Option<usize> {
-    let middles = range
-        .iter()
-        .fold(Bounds::EMPTY, |b, i| b.with(i.middle));
+    let middles = range.iter().fold(Bounds::EMPTY, |b, i| b.with(i.middle));
     let extent = middles.high - middles.low;
     let axis = (0..3).fold(0, |m, i| if extent[i] > extent[m] { i } else { m });
     let half = range.len() / 2;

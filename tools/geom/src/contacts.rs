@@ -59,32 +59,39 @@ pub fn contacts(
 /// A point in which two triangles meet away from their common vertices and edge, if there is one.
 pub fn contact(vertices: &[DVec3], s: &[u32; 3], t: &[u32; 3]) -> Option<DVec3> {
     let at = |v: u32| vertices[v as usize];
-    let position = |u: u32, in_: &[u32; 3]| in_.iter().position(|&v| v == u);
-    let shared: Vec<(usize, usize)> = (0..3)
-        .filter_map(|i| Some((i, position(s[i], t)?)))
-        .collect();
     let (p, q) = (s.map(at), t.map(at));
-    match shared.as_slice() {
+    let mut shared = [(0, 0); 3];
+    let mut count = 0;
+    for i in 0..3 {
+        if let Some(j) = (0..3).find(|&j| t[j] == s[i]) {
+            shared[count] = (i, j);
+            count += 1;
+        }
+    }
+    // Most pairs are settled by one triangle lying on one side of the other.
+    let one_side = |[a, b, c]: [DVec3; 3], v: &[DVec3]| {
+        let mut signs = v.iter().map(|&x| orientation(a, b, c, x));
+        let first = signs.next().unwrap_or(0.0);
+        first != 0.0 && signs.all(|x| x * first.signum() > 0.0)
+    };
+    let others = |v: [DVec3; 3], i: usize| [v[(i + 1) % 3], v[(i + 2) % 3]];
+    match shared[..count] {
         [] => {
-            let one_side = |[a, b, c]: [DVec3; 3], v: [DVec3; 3]| {
-                let d = v.map(|x| orientation(a, b, c, x));
-                d.iter().all(|&x| x > 0.0) || d.iter().all(|&x| x < 0.0)
-            };
-            if one_side(q, p) || one_side(p, q) || is_flat(p) || is_flat(q) {
+            if one_side(q, &p) || one_side(p, &q) || is_flat(p) || is_flat(q) {
                 return None;
             }
             (0..3)
                 .find_map(|i| segment_meets(p[i], p[(i + 1) % 3], q))
                 .or_else(|| (0..3).find_map(|i| segment_meets(q[i], q[(i + 1) % 3], p)))
         }
-        &[(i, j)] => {
-            if is_flat(p) || is_flat(q) {
+        [(i, j)] => {
+            let (pi, qj) = (others(p, i), others(q, j));
+            if one_side(q, &pi) || one_side(p, &qj) || is_flat(p) || is_flat(q) {
                 return None;
             }
-            segment_meets(p[(i + 1) % 3], p[(i + 2) % 3], q)
-                .or_else(|| segment_meets(q[(j + 1) % 3], q[(j + 2) % 3], p))
+            segment_meets(pi[0], pi[1], q).or_else(|| segment_meets(qj[0], qj[1], p))
         }
-        &[(i, j), (k, l)] => {
+        [(i, j), (k, l)] => {
             let (apex, other) = (p[3 - i - k], q[3 - j - l]);
             let (a, b) = (p[i], p[k]);
             if orientation(a, b, apex, other) != 0.0 || is_flat(p) || is_flat(q) {
