@@ -78,3 +78,100 @@ pub fn write_document(
         other => write(&Plain::new(document)?, other, &options, out),
     }
 }
+
+/// A tetrahedron with its surface, in a frame that is not the identity.
+#[cfg(test)]
+fn test_document() -> Document {
+    use glam::DVec3;
+    use tmesh::{
+        Isometry, Marker, MirrorWall, OUTSIDE, Plane, Region, Template, Tet, Triangle, Wall,
+    };
+    let triangle = |vertices, marker| Triangle {
+        vertices,
+        marker,
+        front: OUTSIDE,
+        back: 7,
+    };
+    let mut document = Document::single(Template {
+        vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+        triangles: vec![
+            triangle([0, 2, 1], 0),
+            triangle([0, 1, 3], 2),
+            triangle([1, 2, 3], 2),
+            triangle([0, 3, 2], 2),
+        ],
+        tets: vec![Tet {
+            vertices: [0, 1, 2, 3],
+            region: 7,
+        }],
+        walls: vec![Wall::Mirror(MirrorWall {
+            name: "floor".to_owned(),
+            plane: Plane {
+                normal: -DVec3::Z,
+                offset: 0.0,
+            },
+            reflection: Isometry::new(0, 1, false, true),
+            vertices: vec![0, 1, 2],
+            triangles: vec![0],
+        })],
+        axis: vec![0, 3],
+    });
+    document.frame.origin = DVec3::X;
+    document.regions.push(Region {
+        id: 7,
+        name: "copper".to_owned(),
+        max_volume: None,
+        volume: None,
+    });
+    document.markers.push(Marker {
+        id: 2,
+        name: "top".to_owned(),
+        area: None,
+    });
+    document
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_output_format_takes_every_document() {
+        let document = test_document();
+        assert_eq!(tmesh::validate(&document), []);
+        for format in Format::ALL {
+            let mut bytes = Vec::new();
+            let result = write_document(&document, format, &mut bytes);
+            match format {
+                Format::Tmesh | Format::Text | Format::Vtk | Format::Vtu | Format::Stl => {
+                    result.unwrap();
+                    assert!(!bytes.is_empty());
+                }
+                _ => {
+                    let name = format.name();
+                    let error = result.unwrap_err().to_string();
+                    assert_eq!(error, format!("{name} is not an output format"));
+                    assert!(bytes.is_empty());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sizes_are_estimated_well() {
+        let document = test_document();
+        let mesh = Plain::new(&document).unwrap();
+        for format in [Format::Vtk, Format::Vtu, Format::Stl] {
+            for boundary in [false, true] {
+                let options = WriteOptions {
+                    boundary,
+                    surface: Surface::Boundary,
+                };
+                let mut bytes = Vec::new();
+                write(&mesh, format, &options, &mut bytes).unwrap();
+                let estimate = size_estimate(&mesh, format, &options);
+                assert!(bytes.len() as u64 >= estimate && bytes.len() as u64 <= estimate + 4096);
+            }
+        }
+    }
+}

@@ -87,3 +87,54 @@ fn record(a: DVec3, b: DVec3, c: DVec3) -> [u8; 50] {
     }
     bytes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::write::plain::Plain;
+    use crate::write::test_document;
+
+    fn facets(surface: Surface, document: &tmesh::Document) -> Vec<[f32; 12]> {
+        let mut bytes = Vec::new();
+        write(&Plain::new(document).unwrap(), surface, &mut bytes).unwrap();
+        assert!(!bytes.starts_with(b"solid"));
+        let count = u32::from_le_bytes(bytes[80..84].try_into().unwrap());
+        let (records, rest) = bytes[84..].as_chunks::<50>();
+        assert_eq!((records.len(), rest.len()), (count as usize, 0));
+        records
+            .iter()
+            .map(|r| {
+                let words = r[..48].as_chunks::<4>().0;
+                std::array::from_fn(|i| f32::from_le_bytes(words[i]))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn boundary_normals_point_out_whichever_way_triangles_are_stored() {
+        let mut document = test_document();
+        let straight = facets(Surface::Boundary, &document);
+        assert_eq!(straight[0][..6], [0., 0., -1., 1., 0., 0.]);
+        for t in &mut document.templates[0].triangles {
+            t.vertices.swap(1, 2);
+            (t.front, t.back) = (t.back, t.front);
+        }
+        assert_eq!(facets(Surface::Boundary, &document), straight);
+        // An interface is left out, unless everything is wanted.
+        document.templates[0].triangles[0].back = 7;
+        assert_eq!(facets(Surface::Boundary, &document).len(), 3);
+        assert_eq!(facets(Surface::All, &document).len(), 4);
+    }
+
+    #[test]
+    fn no_surface_is_an_error() {
+        let mut document = test_document();
+        document.templates[0].triangles.clear();
+        document.templates[0].walls.clear();
+        let plain = Plain::new(&document).unwrap();
+        let mut bytes = Vec::new();
+        let error = write(&plain, Surface::All, &mut bytes).unwrap_err();
+        assert!(matches!(error, WriteError::NoSurface("stl")));
+        assert!(bytes.is_empty());
+    }
+}

@@ -403,3 +403,86 @@ fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
             .fold((first, first), |(low, high), &p| (low.min(p), high.max(p))),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::write::test_document;
+
+    #[test]
+    fn a_listing() {
+        let mut document = test_document();
+        document.history.push(tmesh::HistoryEntry {
+            tool: "wedgecut".to_owned(),
+            version: "1.0".to_owned(),
+            arguments: vec!["--order".to_owned(), "4".to_owned()],
+            notes: vec!["mirror wedge of order 4".to_owned()],
+        });
+        let mut bytes = Vec::new();
+        tmesh::write(&document, &mut bytes).unwrap();
+        let (document, chunks) = tmesh::read_with_chunks(bytes.as_slice()).unwrap();
+        let mut text = Vec::new();
+        write_text(&document, &chunks, &mut text).unwrap();
+        let expected = "\
+tmesh document, format version 1.0
+
+chunks read: 10
+  id    scope  offset  bytes
+  FRAM      0      16     96
+  REGN      0     144     26
+  MARK      0     208     23
+  hist      0     264    110
+  VERT      0     408     96
+  TRIS      0     536     96
+  TETS      0     664     20
+  AXIS      0     720      8
+  WALL      0     760     84
+  INST      0     880     24
+
+template 0
+  vertices      4
+  triangles     4 (4 with material on one side, 1 on walls)
+  tetrahedra    1
+  on the axis   2
+  bounds, low   (0, 0, 0)
+  bounds, high  (1, 1, 1)
+  region  name    tetrahedra  in front of triangles  behind triangles
+       7  copper           1                      0                 4
+  marker  name        triangles
+       0  not listed          1
+       2  top                 3
+  walls: 1
+  name   kind    isometry     vertices  triangles  plane or other template
+  floor  mirror  0/1 flipped         3          1  normal (0, 0, -1), offset 0
+
+instances: 1
+  index  template  isometry  orientation  region map
+      0         0  identity  kept         -
+
+frame, canonical axes in the world
+  x       (1, 0, 0)
+  y       (0, 1, 0)
+  z       (0, 0, 1)
+  origin  (1, 0, 0)
+
+symmetry: not determined
+
+regions: 1
+  id  name    volume of the body  largest tetrahedron
+   7  copper  -                   -
+
+markers: 1
+  id  name  area of the body
+   2  top   -
+
+history: 1
+  wedgecut --order 4 (1.0)
+    mirror wedge of order 4
+";
+        let text = String::from_utf8(text).unwrap();
+        for (found, wanted) in text.lines().zip(expected.lines()) {
+            assert_eq!(found, wanted);
+        }
+        assert_eq!(text, expected);
+    }
+}

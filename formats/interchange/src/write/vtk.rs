@@ -94,3 +94,154 @@ fn write_names(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::write::plain::Plain;
+    use crate::write::test_document;
+
+    fn written(boundary: bool) -> Vec<u8> {
+        let document = test_document();
+        let mut bytes = Vec::new();
+        write(&Plain::new(&document).unwrap(), boundary, &mut bytes).unwrap();
+        bytes
+    }
+
+    /// Text and big-endian words, as the format wants them.
+    fn golden(parts: &[(&str, &[u32])]) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for (text, words) in parts {
+            bytes.extend(text.as_bytes());
+            bytes.extend(words.iter().flat_map(|w| w.to_be_bytes()));
+        }
+        bytes
+    }
+
+    /// High words of 0.0, 1.0 and 2.0, whose low words are zero.
+    const O: u32 = 0;
+    const I: u32 = 0x3FF0_0000;
+    const II: u32 = 0x4000_0000;
+    const HEAD: &str = "# vtk DataFile Version 3.0\nsymtet mesh\nBINARY\n\
+                        DATASET UNSTRUCTURED_GRID\n";
+    #[rustfmt::skip]
+    const POINTS: [u32; 24] = [
+        I, 0, O, 0, O, 0,  II, 0, O, 0, O, 0,  I, 0, I, 0, O, 0,  I, 0, O, 0, I, 0,
+    ];
+
+    #[test]
+    fn bytes_of_a_tetrahedron() {
+        let expected = golden(&[
+            (HEAD, &[]),
+            ("FIELD FieldData 1\nregion_names 1 9 unsigned_char\n", &[]),
+            ("7 copper\n\nPOINTS 4 double\n", &POINTS),
+            ("\nCELLS 1 5\n", &[4, 0, 1, 2, 3]),
+            ("\nCELL_TYPES 1\n", &[10]),
+            (
+                "\nCELL_DATA 1\nSCALARS region int 1\nLOOKUP_TABLE default\n",
+                &[7],
+            ),
+            ("\n", &[]),
+        ]);
+        assert_eq!(
+            written(false).escape_ascii().to_string(),
+            expected.escape_ascii().to_string()
+        );
+    }
+
+    #[test]
+    fn bytes_of_a_tetrahedron_with_its_surface() {
+        const NO: u32 = u32::MAX;
+        let cells = [
+            4, 0, 1, 2, 3, 3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 0, 3, 2,
+        ];
+        let expected = golden(&[
+            (HEAD, &[]),
+            (
+                "FIELD FieldData 3\nregion_names 1 9 unsigned_char\n7 copper\n",
+                &[],
+            ),
+            ("\nmarker_names 1 6 unsigned_char\n2 top\n", &[]),
+            ("\nwall_names 1 8 unsigned_char\n1 floor\n", &[]),
+            ("\nPOINTS 4 double\n", &POINTS),
+            ("\nCELLS 5 21\n", &cells),
+            ("\nCELL_TYPES 5\n", &[10, 5, 5, 5, 5]),
+            (
+                "\nCELL_DATA 5\nSCALARS region int 1\nLOOKUP_TABLE default\n",
+                &[7; 5],
+            ),
+            ("\nFIELD FieldData 5\ninstance 1 5 int\n", &[0; 5]),
+            ("\nmarker 1 5 int\n", &[NO, 0, 2, 2, 2]),
+            ("\nwall 1 5 int\n", &[NO, 1, 0, 0, 0]),
+            ("\nfront 1 5 int\n", &[NO; 5]),
+            ("\nback 1 5 int\n", &[NO, 7, 7, 7, 7]),
+            ("\n", &[]),
+        ]);
+        assert_eq!(
+            written(true).escape_ascii().to_string(),
+            expected.escape_ascii().to_string()
+        );
+    }
+
+    #[test]
+    fn without_tetrahedra_the_triangles_are_written() {
+        let mut document = test_document();
+        document.templates[0].tets.clear();
+        let mut bytes = Vec::new();
+        write(&Plain::new(&document).unwrap(), false, &mut bytes).unwrap();
+        let text = bytes.escape_ascii().to_string();
+        assert!(text.contains("CELLS 4 16"), "{text}");
+        assert!(text.contains("marker 1 4 int"), "{text}");
+    }
+
+    /// Claims more points than the format can number.
+    struct Huge<'a>(Plain<'a>);
+
+    impl MeshStream for Huge<'_> {
+        fn title(&self) -> String {
+            self.0.title()
+        }
+        fn point_count(&self) -> u64 {
+            1 << 31
+        }
+        fn tet_count(&self) -> u64 {
+            self.0.tet_count()
+        }
+        fn triangle_count(&self) -> u64 {
+            self.0.triangle_count()
+        }
+        fn regions(&self) -> &[tmesh::Region] {
+            self.0.regions()
+        }
+        fn markers(&self) -> &[tmesh::Marker] {
+            self.0.markers()
+        }
+        fn wall_names(&self) -> &[String] {
+            self.0.wall_names()
+        }
+        fn points(&self, _: &mut crate::PointSink<'_>) -> std::io::Result<()> {
+            unreachable!("refused before")
+        }
+        fn tets(&self, _: &mut crate::TetSink<'_>) -> std::io::Result<()> {
+            unreachable!("refused before")
+        }
+        fn tet_regions(&self, _: &mut crate::TetRegionSink<'_>) -> std::io::Result<()> {
+            unreachable!("refused before")
+        }
+        fn triangles(&self, _: &mut crate::TriangleSink<'_>) -> std::io::Result<()> {
+            unreachable!("refused before")
+        }
+    }
+
+    #[test]
+    fn too_many_points_are_refused_before_a_byte_is_written() {
+        let document = test_document();
+        let mut bytes = Vec::new();
+        let error = write(&Huge(Plain::new(&document).unwrap()), false, &mut bytes).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the mesh has 2147483648 points, and vtk counts no further than 2147483647"
+        );
+        assert!(bytes.is_empty());
+    }
+}

@@ -143,3 +143,96 @@ fn text_array(xml: &mut String, name: &str, text: &str) {
         codes.join(" ")
     );
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::write::plain::Plain;
+    use crate::write::test_document;
+
+    /// Type, name and raw values of every appended array, found by its offset as a reader would.
+    fn arrays_of(bytes: &[u8]) -> Vec<(String, String, Vec<u8>)> {
+        let mark = b"<AppendedData encoding=\"raw\">\n_";
+        let begin = bytes.windows(mark.len()).position(|w| w == mark).unwrap();
+        let xml = std::str::from_utf8(&bytes[..begin]).unwrap();
+        let data = &bytes[begin + mark.len()..];
+        let attribute = |line: &str, name: &str| {
+            let from = line.split_once(&format!("{name}=\"")).unwrap().1;
+            from.split_once('"').unwrap().0.to_owned()
+        };
+        let mut end = 0;
+        let found = xml
+            .lines()
+            .filter(|line| line.contains("appended"))
+            .map(|line| {
+                let offset: usize = attribute(line, "offset").parse().unwrap();
+                assert_eq!(offset, end, "arrays follow each other");
+                let size = u64::from_le_bytes(data[offset..offset + 8].try_into().unwrap());
+                end = offset + 8 + size as usize;
+                let values = data[offset + 8..end].to_vec();
+                (attribute(line, "type"), attribute(line, "Name"), values)
+            })
+            .collect();
+        assert_eq!(&data[end..], b"\n  </AppendedData>\n</VTKFile>\n");
+        found
+    }
+
+    fn integers(bytes: &[u8]) -> Vec<i32> {
+        let words = bytes.as_chunks::<4>().0;
+        words.iter().map(|&w| i32::from_le_bytes(w)).collect()
+    }
+
+    #[test]
+    fn arrays_are_where_the_header_says() {
+        let document = test_document();
+        let mut bytes = Vec::new();
+        write(&Plain::new(&document).unwrap(), true, &mut bytes).unwrap();
+        let arrays = arrays_of(&bytes);
+        let names: Vec<&str> = arrays.iter().map(|a| a.1.as_str()).collect();
+        let expected = [
+            "Points",
+            "connectivity",
+            "offsets",
+            "types",
+            "region",
+            "instance",
+            "marker",
+            "wall",
+            "front",
+            "back",
+        ];
+        assert_eq!(names, expected);
+        let points: Vec<f64> = arrays[0]
+            .2
+            .as_chunks()
+            .0
+            .iter()
+            .map(|&b| f64::from_le_bytes(b))
+            .collect();
+        assert_eq!(points, [1., 0., 0., 2., 0., 0., 1., 1., 0., 1., 0., 1.]);
+        let connectivity = [0, 1, 2, 3, 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
+        assert_eq!(integers(&arrays[1].2), connectivity);
+        assert_eq!(integers(&arrays[2].2), [4, 7, 10, 13, 16]);
+        assert_eq!(arrays[3].2, [10, 5, 5, 5, 5]);
+        assert_eq!(integers(&arrays[4].2), [7; 5]);
+        assert_eq!(integers(&arrays[6].2), [-1, 0, 2, 2, 2]);
+        assert_eq!(integers(&arrays[7].2), [-1, 1, 0, 0, 0]);
+        let expected = "NumberOfTuples=\"9\" format=\"ascii\">55 32 99 111 112 112 101 114 10<";
+        assert!(
+            bytes
+                .escape_ascii()
+                .to_string()
+                .contains(&expected.escape_default().to_string())
+        );
+    }
+
+    #[test]
+    fn only_tetrahedra_unless_asked_for() {
+        let document = test_document();
+        let mut bytes = Vec::new();
+        write(&Plain::new(&document).unwrap(), false, &mut bytes).unwrap();
+        let arrays = arrays_of(&bytes);
+        assert_eq!(arrays.len(), 6);
+        assert_eq!(arrays[3].2, [10]);
+    }
+}
