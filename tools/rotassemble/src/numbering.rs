@@ -10,11 +10,11 @@
 //! Ids are contiguous per instance: first the vertices that the first instance owns, then those of
 //! the second that are not shared with the first, and so on.
 
-use crate::orbit::{Orbits, SetId, TurnTooFine};
+use crate::orbit::{Orbits, SetId};
 use geom::sides::UnionFind;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
-use tmesh::{Document, Instance, Isometry, MAX_TURN_DENOMINATOR, Wall};
+use tmesh::{Document, Instance, Isometry, Wall};
 
 /// Why the copies of a document cannot be numbered.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -45,16 +45,6 @@ pub enum NumberingError {
         /// Template at the end of the chain.
         other: usize,
     },
-    /// Walls combine to a turn that no instance can have.
-    #[error(
-        "the walls' isometries {first} and {second} combine to a turn finer than 1/{MAX_TURN_DENOMINATOR}"
-    )]
-    TurnTooFine {
-        /// First factor.
-        first: Isometry,
-        /// Second factor.
-        second: Isometry,
-    },
     /// More points than ids.
     #[error(
         "the assembled mesh has {points} points, and vertex ids end at {}",
@@ -64,12 +54,6 @@ pub enum NumberingError {
         /// Points needed.
         points: u64,
     },
-}
-
-impl From<TurnTooFine> for NumberingError {
-    fn from(TurnTooFine(first, second): TurnTooFine) -> Self {
-        Self::TurnTooFine { first, second }
-    }
 }
 
 const NONE: u32 = u32::MAX;
@@ -140,7 +124,7 @@ impl Numbering {
             }
             templates.push(ids);
         }
-        let mut nodes = Nodes::new(document, &templates)?;
+        let mut nodes = Nodes::new(document, &templates);
         let mut builder = Builder {
             document,
             places: &places,
@@ -308,7 +292,7 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn new(document: &Document, templates: &[TemplateIds]) -> Result<Self, NumberingError> {
+    fn new(document: &Document, templates: &[TemplateIds]) -> Self {
         let mut nodes = Self {
             orbits: Orbits::new(),
             of_vertex: vec![Vec::new(); document.templates.len()],
@@ -337,27 +321,27 @@ impl Nodes {
                     Wall::Mirror(wall) => {
                         for &v in &wall.vertices {
                             let v = node(&mut nodes, t, v);
-                            nodes.orbits.relate(v, wall.reflection, v)?;
+                            nodes.orbits.relate(v, wall.reflection, v);
                         }
                     }
                     Wall::Seam(wall) => {
                         for &[low, high] in &wall.vertex_pairs {
                             let low = node(&mut nodes, t, low);
                             let high = node(&mut nodes, t, high);
-                            nodes.orbits.relate(high, wall.rotation, low)?;
+                            nodes.orbits.relate(high, wall.rotation, low);
                         }
                     }
                     Wall::Hub(wall) => {
                         for &[here, there] in &wall.vertex_pairs {
                             let here = node(&mut nodes, t, here);
                             let there = node(&mut nodes, wall.other as usize, there);
-                            nodes.orbits.relate(here, wall.placement, there)?;
+                            nodes.orbits.relate(here, wall.placement, there);
                         }
                     }
                 }
             }
         }
-        Ok(nodes)
+        nodes
     }
 }
 
@@ -388,7 +372,7 @@ impl Builder<'_> {
             ids.index = vec![NONE; count];
             for v in 0..count {
                 let set = match nodes.of_vertex[t].get(v) {
-                    Some(&node) if node != NONE => match nodes.orbits.find(node)? {
+                    Some(&node) if node != NONE => match nodes.orbits.find(node) {
                         (root, _) if root == node => nodes.orbits.set(root),
                         _ => continue,
                     },
@@ -403,7 +387,7 @@ impl Builder<'_> {
         }
         let mut groups: FxHashMap<(usize, usize, Isometry), u32> = FxHashMap::default();
         for node in 0..nodes.vertex.len() as u32 {
-            let (root, offset) = nodes.orbits.find(node)?;
+            let (root, offset) = nodes.orbits.find(node);
             if root == node {
                 continue;
             }

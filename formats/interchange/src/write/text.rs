@@ -431,13 +431,13 @@ chunks read: 10
   FRAM      0      16     96
   REGN      0     144     26
   MARK      0     208     23
-  hist      0     264    110
-  VERT      0     408     96
-  TRIS      0     536     96
-  TETS      0     664     20
-  AXIS      0     720      8
-  WALL      0     760     84
-  INST      0     880     24
+  hist      0     264    101
+  VERT      0     400     96
+  TRIS      0     528     96
+  TETS      0     656     20
+  AXIS      0     712      8
+  WALL      0     752     88
+  INST      0     872     24
 
 template 0
   vertices      4

@@ -1,5 +1,7 @@
 //! What the tests share.
 
+#![allow(dead_code)] // Not every test needs all of it.
+
 pub mod structured;
 
 use glam::DVec3;
