@@ -30,9 +30,11 @@ impl Copies {
     }
 }
 
-/// Whether the document is one wedge taken out of its context: its walls are open faces.
+/// Whether the document is a wedge taken out of its context, each template placed at most once: its
+/// walls are open faces.
 pub fn is_sector(document: &Document) -> bool {
-    document.instances.len() == 1 && document.templates.iter().any(|t| !t.walls.is_empty())
+    let copies = Copies::of(document).of_template;
+    copies.iter().all(|&n| n <= 1) && document.templates.iter().any(|t| !t.walls.is_empty())
 }
 
 /// For each triangle of a template, whether it is on a wall, be it the template's own or another

@@ -70,6 +70,7 @@ pub fn check(
     let has_tets = document.templates.iter().any(|t| !t.tets.is_empty());
     let size = document.diagonal();
     let on_wall = wall_triangles(document);
+    let sector = is_sector(document);
 
     let mut skins = Vec::new();
     let mut inverted_count = 0;
@@ -86,7 +87,9 @@ pub fn check(
     for index in 0..document.templates.len() {
         walls::check(document, index, size, &skins, &mut findings);
     }
-    walls::hub_coverage(document, &mut findings);
+    if !sector {
+        walls::hub_coverage(document, &mut findings);
+    }
     vertices::coincident_vertices(document, size, &mut findings);
 
     let promise = document.symmetry.as_ref().and_then(|s| s.promise.as_ref());
@@ -96,7 +99,7 @@ pub fn check(
             checks.symmetry_residual = Some(found.residual);
             checks.connectivity_symmetric = Some(found.connectivity);
         }
-    } else if document.instances.len() > 1 {
+    } else if !sector && has_tets {
         checks.symmetry_residual = Some(plane_residual(document, size));
         let missing = violations
             .iter()
@@ -118,7 +121,7 @@ pub fn check(
         });
         checks.connectivity_symmetric = Some(!missing && kept);
     }
-    if !is_sector(document) && !document.instances.is_empty() {
+    if !sector && !document.instances.is_empty() {
         volume::check(document, measured, &skins, &mut checks, &mut findings);
     }
 

@@ -232,9 +232,6 @@ impl Across<'_> {
 /// Checks that the hub walls together cover each triangle they meet, in each of its instances, exactly
 /// once.
 pub fn hub_coverage(document: &Document, findings: &mut Findings) {
-    if document.instances.len() <= 1 {
-        return;
-    }
     let copies = crate::instances::Copies::of(document).of_template;
     let mut met: Vec<FxHashMap<u32, u64>> = vec![FxHashMap::default(); copies.len()];
     let mut order: BTreeMap<(usize, u32), ()> = BTreeMap::new();
