@@ -351,3 +351,36 @@ fn stages_in_the_wrong_order() {
     let stl = encode(&gear(), EXACT_STL);
     run("wedgecut", &[], &stl).fails(3, &["symdetect"]);
 }
+
+/// Documents whose bytes are in order and whose content is not: every word of every payload
+/// replaced. Each ends in a result or a failure of the contract, never in a panic.
+#[test]
+fn altered_documents() {
+    let mut tried = 0;
+    for id in [b"VERT", b"TRIS", b"TETS", b"AXIS", b"WALL", b"INST"] {
+        let (start, length) = payload(PYRAMID, id);
+        let trailer = (start + length).next_multiple_of(8);
+        for place in (start..start + length).step_by(4) {
+            for word in [0, 1, 2, u32::MAX] {
+                let mut altered = PYRAMID.to_vec();
+                altered[place..place + 4].copy_from_slice(&u32::to_le_bytes(word));
+                let crc = crc32fast::hash(&altered[start..start + length]);
+                altered[trailer..trailer + 4].copy_from_slice(&crc.to_le_bytes());
+                // What the reader refuses has its own tests.
+                if altered == PYRAMID || tmesh::read(altered.as_slice()).is_err() {
+                    continue;
+                }
+                tried += 1;
+                for tool in TOOLS {
+                    let outcome = run(tool, &["-q"], &altered);
+                    if outcome.code != 0 {
+                        let code = outcome.code;
+                        assert!(code == 1 || code == 3, "{place}: {word}: {outcome:?}");
+                        outcome.fails(code, &[]);
+                    }
+                }
+            }
+        }
+    }
+    assert!(tried > 50);
+}

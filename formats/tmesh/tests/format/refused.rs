@@ -629,3 +629,33 @@ fn one_byte_at_a_time() {
     let whole = bytes(&column());
     assert_eq!(read(Trickle(&whole)).expect("valid"), column());
 }
+
+/// Every 32-bit word of every payload set to values that mean trouble, checksums made right: a
+/// document is refused, or it is valid and survives a round trip.
+#[test]
+fn every_word_replaced() {
+    let mut accepted = 0;
+    for document in [pyramid(), column()] {
+        let whole = bytes(&document);
+        let (_, list) = tmesh::read_with_chunks(whole.as_slice()).expect("valid");
+        for chunk in &list {
+            let start = chunk.offset as usize + 24;
+            let end = start + chunk.length as usize;
+            let trailer = end.next_multiple_of(8);
+            for place in (start..end - 3).step_by(4) {
+                for word in [0, 1, 3, 65_537, 0x7ff0_0000, 0x8000_0000, u32::MAX] {
+                    let mut altered = whole.clone();
+                    altered[place..place + 4].copy_from_slice(&u32::to_le_bytes(word));
+                    let crc = crc32fast::hash(&altered[start..end]);
+                    altered[trailer..trailer + 4].copy_from_slice(&crc.to_le_bytes());
+                    if let Ok(document) = read(altered.as_slice()) {
+                        accepted += 1;
+                        let again = bytes(&document);
+                        assert_eq!(read(again.as_slice()).expect("valid"), document);
+                    }
+                }
+            }
+        }
+    }
+    assert!(accepted > 100);
+}
