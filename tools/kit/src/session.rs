@@ -2,7 +2,7 @@
 
 use crate::CommonArgs;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
@@ -15,7 +15,7 @@ pub struct Session {
     pub(crate) common: CommonArgs,
     begun: Instant,
     /// Chunks of the input, when it was a document.
-    pub(crate) read: OnceCell<Vec<ChunkInfo>>,
+    pub(crate) read: OnceLock<Vec<ChunkInfo>>,
 }
 
 impl Session {
@@ -30,7 +30,7 @@ impl Session {
             arguments,
             common,
             begun: Instant::now(),
-            read: OnceCell::new(),
+            read: OnceLock::new(),
         }
     }
 
