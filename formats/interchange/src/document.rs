@@ -40,7 +40,7 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, Re
         let volume = volumes.get(&region.id).copied().unwrap_or(0.0);
         // As thin as the coordinates are uncertain: there is nothing inside.
         let surface = surfaces.get(&region.id).copied().unwrap_or(0.0);
-        if volume <= 0.5 * precision * surface {
+        if !(volume > 0.5 * precision * surface) {
             return Err(ReadError::BadSurface(format!(
                 "region '{}' encloses no volume: {} on a surface of {}",
                 region.name,
@@ -108,6 +108,23 @@ pub fn largest_coordinate(points: &[DVec3]) -> f64 {
     points
         .iter()
         .fold(0.0_f64, |m, p| m.max(p.abs().max_element()))
+}
+
+/// Refuses models so large or small that volumes, or the exact predicates, leave the range of
+/// numbers.
+///
+/// # Errors
+/// Says the largest coordinate.
+pub fn check_scale(points: &[DVec3]) -> Result<(), ReadError> {
+    let largest = largest_coordinate(points);
+    if largest == 0.0 || (1e-80..1e80).contains(&largest) {
+        return Ok(());
+    }
+    let size = if largest < 1.0 { "small" } else { "large" };
+    Err(ReadError::BadSurface(format!(
+        "the largest coordinate, {}, is too {size} to compute with; use another unit",
+        short(largest)
+    )))
 }
 
 fn drop_unused_vertices(template: &mut Template) {

@@ -5,7 +5,7 @@
 //! space into, and from the hole and region points in those cells.
 
 use crate::closure::odd_edges;
-use crate::document::{Labelled, document, dropped, largest_coordinate};
+use crate::document::{Labelled, check_scale, document, dropped, largest_coordinate};
 use crate::facet::{FacetError, triangulate};
 use crate::place::{counted, place};
 use crate::polygon::{Projection, area_vector};
@@ -63,6 +63,7 @@ pub struct Seed {
 /// Facets that are not planar subdivisions, that cross, or that leave a region open; hole and region
 /// points that contradict each other.
 pub fn build(plc: Plc, format: &'static str) -> Result<Imported, ReadError> {
+    check_scale(&plc.points)?;
     let mut notices = Vec::new();
     let Surface {
         points,

@@ -2,7 +2,7 @@
 
 use crate::closure::{groups_are_closed, odd_edges, open_surface};
 use crate::coincident::merge;
-use crate::document::{Labelled, document, dropped, largest_coordinate, unique_names};
+use crate::document::{Labelled, check_scale, document, dropped, largest_coordinate, unique_names};
 use crate::near::near_points;
 use crate::place::{counted, short};
 use crate::solids::{Labels, label};
@@ -97,6 +97,7 @@ pub fn build(soup: Soup, format: &'static str) -> Result<Imported, ReadError> {
     if triangles.is_empty() {
         return Err(ReadError::BadSurface("it has no triangles".to_owned()));
     }
+    check_scale(&points)?;
     let (group, groups) = used_groups(group_of, groups.into_iter().map(|g| g.name).collect());
     let mut surface = Surface {
         solid: group.clone(),
