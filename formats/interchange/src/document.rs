@@ -40,7 +40,7 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, Re
         let volume = volumes.get(&region.id).copied().unwrap_or(0.0);
         // As thin as the coordinates are uncertain: there is nothing inside.
         let surface = surfaces.get(&region.id).copied().unwrap_or(0.0);
-        if !(volume > 0.5 * precision * surface) {
+        if volume <= 0.5 * precision * surface {
             return Err(ReadError::BadSurface(format!(
                 "region '{}' encloses no volume: {} on a surface of {}",
                 region.name,

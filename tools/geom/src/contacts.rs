@@ -62,8 +62,8 @@ pub fn contact(vertices: &[DVec3], s: &[u32; 3], t: &[u32; 3]) -> Option<DVec3> 
     let (p, q) = (s.map(at), t.map(at));
     let mut shared = [(0, 0); 3];
     let mut count = 0;
-    for i in 0..3 {
-        if let Some(j) = (0..3).find(|&j| t[j] == s[i]) {
+    for (i, v) in s.iter().enumerate() {
+        if let Some(j) = t.iter().position(|w| w == v) {
             shared[count] = (i, j);
             count += 1;
         }
