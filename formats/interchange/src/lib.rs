@@ -6,6 +6,7 @@ mod document;
 mod error;
 mod facet;
 mod format;
+mod grid;
 mod near;
 mod obj;
 mod off;
@@ -22,6 +23,8 @@ mod stl;
 mod stream;
 mod surface;
 mod tokens;
+mod vtk;
+mod vtu;
 mod weld;
 mod write;
 

@@ -1,6 +1,6 @@
 //! Reading a whole file, and telling its format from its first bytes.
 
-use crate::{Format, ReadError, obj, off, plc, ply, poly, stl, surface};
+use crate::{Format, ReadError, grid, obj, off, plc, ply, poly, stl, surface, vtk, vtu};
 use std::path::Path;
 use tmesh::Document;
 
@@ -19,6 +19,12 @@ pub struct Imported {
 pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
     if head.starts_with(&tmesh::MAGIC) {
         return Some(Format::Tmesh);
+    }
+    if vtk::looks_like(head) {
+        return Some(Format::Vtk);
+    }
+    if vtu::looks_like(head) {
+        return Some(Format::Vtu);
     }
     if stl::looks_ascii(head) || stl::looks_binary(head) {
         return Some(Format::Stl);
@@ -41,7 +47,7 @@ pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
 }
 
 /// Reads a whole file of the given format into a document: one template in world coordinates, with
-/// regions, markers and [`tmesh::Source`] filled in.
+/// regions and markers. [`tmesh::Source`] is filled in for surfaces.
 ///
 /// # Errors
 /// Malformed bytes, and surfaces that do not bound a body.
@@ -57,6 +63,8 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Imported, ReadError> {
         Format::Poly => plc::build(poly::read(bytes, false)?, "poly"),
         Format::Smesh => plc::build(poly::read(bytes, true)?, "smesh"),
         Format::Off => surface::build(off::read(bytes)?, "off"),
-        other => Err(ReadError::NotAnInput(other.name())),
+        Format::Vtk => grid::build(vtk::read(bytes)?, "vtk"),
+        Format::Vtu => grid::build(vtu::read(bytes)?, "vtu"),
+        Format::Text => Err(ReadError::NotAnInput(format.name())),
     }
 }

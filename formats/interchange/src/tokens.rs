@@ -12,6 +12,7 @@ pub struct Tokens<'a> {
     format: &'static str,
     comment: Option<u8>,
     precision: TextPrecision,
+    by_byte: bool,
 }
 
 impl<'a> Tokens<'a> {
@@ -30,7 +31,14 @@ impl<'a> Tokens<'a> {
             format,
             comment,
             precision: TextPrecision::default(),
+            by_byte: false,
         }
+    }
+
+    /// Gives places in errors as bytes from the beginning, from now on: for text with binary numbers
+    /// in it.
+    pub fn count_bytes(&mut self) {
+        self.by_byte = true;
     }
 
     /// What the coordinates read so far show.
@@ -43,11 +51,15 @@ impl<'a> Tokens<'a> {
         self.precision.note(word, value);
     }
 
-    /// An error at the current line.
+    /// An error at the current place.
     pub fn error(&self, reason: impl std::fmt::Display) -> ReadError {
         ReadError::Malformed {
             format: self.format,
-            reason: format!("line {}: {reason}", self.line),
+            reason: if self.by_byte {
+                format!("byte {}: {reason}", self.at)
+            } else {
+                format!("line {}: {reason}", self.line)
+            },
         }
     }
 
@@ -149,10 +161,37 @@ impl<'a> Tokens<'a> {
 
     /// Whether no word follows.
     pub fn is_at_end(&mut self) -> bool {
+        self.peek().is_none()
+    }
+
+    /// The next word, without reading it.
+    pub fn peek(&mut self) -> Option<&'a [u8]> {
         let (at, line) = (self.at, self.line);
-        let end = self.next_word().is_none();
+        let word = self.next_word();
         (self.at, self.line) = (at, line);
-        end
+        word
+    }
+
+    /// Passes over bytes that are not text, or the line feed at the end of a line.
+    pub fn skip(&mut self, bytes: usize) {
+        let end = self.bytes.len().min(self.at.saturating_add(bytes));
+        if bytes == 1 && self.bytes.get(self.at) == Some(&b'\n') {
+            self.line += 1;
+        }
+        self.at = end;
+    }
+
+    /// The next word as a number, finite or not.
+    ///
+    /// # Errors
+    /// Not a number, or the end.
+    pub fn number(&mut self) -> Result<f64, ReadError> {
+        match self.next_word() {
+            Some(word) => {
+                number(word).ok_or_else(|| self.error(format!("'{}' is not a number", shown(word))))
+            }
+            None => Err(self.error("a number expected, but the file ends here")),
+        }
     }
 
     /// Bytes not read yet: no more elements than that can follow.

@@ -36,7 +36,19 @@ fn samples() -> Vec<(Format, Vec<u8>)> {
                 3 1 4 3\n1\n1 9 9 9\n1\n1 0.1 0.1 0.1 2 0.5\n";
     let smesh =
         "4 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4\n3 0 2 1 5\n3 0 1 3\n3 1 2 3\n3 0 3 2\n0\n0\n";
+    let document = read(obj.as_bytes(), Format::Obj).unwrap().document;
+    let [vtk, vtu] = [Format::Vtk, Format::Vtu].map(|format| {
+        let mut bytes = Vec::new();
+        interchange::write_document(&document, format, &mut bytes).unwrap();
+        bytes
+    });
+    let tets = "# vtk DataFile Version 4.2\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n\
+                0 0 0 1 0 0 0 1 0\n0 0 1 0 0 -1\nCELLS 2 10\n4 0 1 2 3\n4 0 2 1 4\nCELL_TYPES 2\n\
+                10 10\nCELL_DATA 2\nSCALARS region int 1\nLOOKUP_TABLE default\n3 4\n";
     vec![
+        (Format::Vtk, vtk),
+        (Format::Vtu, vtu),
+        (Format::Vtk, tets.into()),
         (Format::Stl, binary_stl(b"", &both)),
         (Format::Stl, ascii_stl(&two)),
         (Format::Obj, obj.into()),

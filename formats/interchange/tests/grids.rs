@@ -1,0 +1,203 @@
+//! VTK files: those written here, and those of other programs.
+
+mod common;
+
+use common::*;
+use glam::DVec3;
+use interchange::Format::{self, Vtk, Vtu};
+use interchange::{promise_title, sniff, write_document};
+use tmesh::{Document, Marker, OUTSIDE, Promise, Region, Symmetry, Template, Tet, Triangle};
+
+/// Two tetrahedra of different regions, with surface and interface.
+fn two_tets() -> Document {
+    let triangle = |vertices, marker, front, back| Triangle {
+        vertices,
+        marker,
+        front,
+        back,
+    };
+    let mut document = Document::single(Template {
+        vertices: vec![
+            DVec3::ZERO,
+            DVec3::X,
+            DVec3::Y,
+            DVec3::Z,
+            DVec3::new(0.1, 0.2, -0.7),
+        ],
+        triangles: vec![
+            triangle([0, 1, 3], 2, OUTSIDE, 0),
+            triangle([1, 2, 3], 2, OUTSIDE, 0),
+            triangle([0, 3, 2], 2, OUTSIDE, 0),
+            triangle([0, 1, 2], 5, 0, 7),
+            triangle([0, 4, 1], 2, OUTSIDE, 7),
+            triangle([1, 4, 2], 2, OUTSIDE, 7),
+            triangle([2, 4, 0], 2, OUTSIDE, 7),
+        ],
+        tets: vec![
+            Tet {
+                vertices: [0, 1, 2, 3],
+                region: 0,
+            },
+            Tet {
+                vertices: [0, 2, 1, 4],
+                region: 7,
+            },
+        ],
+        ..Template::default()
+    });
+    document.regions = [(0, "silicon"), (7, "copper alloy")]
+        .map(|(id, name)| Region {
+            id,
+            name: name.to_owned(),
+            max_volume: None,
+            volume: None,
+        })
+        .to_vec();
+    document.markers = [(2, "outer"), (5, "bond")]
+        .map(|(id, name)| Marker {
+            id,
+            name: name.to_owned(),
+            area: None,
+        })
+        .to_vec();
+    document
+}
+
+fn written(document: &Document, format: Format) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write_document(document, format, &mut bytes).unwrap();
+    bytes
+}
+
+#[test]
+fn meshes_round_trip() {
+    let document = two_tets();
+    assert_eq!(tmesh::validate(&document), []);
+    for format in [Vtk, Vtu] {
+        let bytes = written(&document, format);
+        assert_eq!(sniff(&bytes, None), Some(format));
+        let back = good(&bytes, format).document;
+        assert_eq!(back.templates, document.templates);
+        assert_eq!(back.regions, document.regions);
+        assert_eq!(back.markers, document.markers);
+        assert_eq!(back.symmetry, None);
+    }
+}
+
+#[test]
+fn surfaces_round_trip() {
+    let mut document = two_tets();
+    document.templates[0].tets.clear();
+    for format in [Vtk, Vtu] {
+        let imported = good(&written(&document, format), format);
+        assert_eq!(imported.document.templates, document.templates);
+        let volumes = [(0, "silicon", 1.0 / 6.0), (7, "copper alloy", 0.7 / 6.0)];
+        let volumes = volumes.map(|(id, name, v)| (id, name, round(v)));
+        assert_eq!(regions(&imported), volumes);
+        assert!(imported.document.source.is_some());
+    }
+}
+
+#[test]
+fn the_promise_comes_back() {
+    let promise = Promise {
+        order: 12,
+        mirror: true,
+        horizontal_mirror: false,
+        rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        origin: [1.0, 2.0, 3.0],
+    };
+    let title = promise_title(&promise);
+    for format in [Vtk, Vtu] {
+        let text = written(&two_tets(), format);
+        // The title of a mesh that promises nothing, replaced by hand.
+        let bytes = match format {
+            Vtk => replaced(&text, b"symtet mesh", title.as_bytes()),
+            _ => {
+                let codes = |t: &str| {
+                    let list: Vec<String> = t.bytes().map(|b| b.to_string()).collect();
+                    format!(">{}<", list.join(" "))
+                };
+                replaced(
+                    &text,
+                    codes("symtet mesh").as_bytes(),
+                    codes(&title).as_bytes(),
+                )
+            }
+        };
+        let symmetry: Symmetry = good(&bytes, format).document.symmetry.unwrap();
+        assert_eq!(symmetry.group, "C12v");
+        assert_eq!(symmetry.axis.point, [1.0, 2.0, 3.0]);
+        assert_eq!(symmetry.promise, Some(promise.clone()));
+    }
+}
+
+fn replaced(bytes: &[u8], from: &[u8], to: &[u8]) -> Vec<u8> {
+    let at = bytes
+        .windows(from.len())
+        .position(|w| w == from)
+        .expect("is there");
+    [&bytes[..at], to, &bytes[at + from.len()..]].concat()
+}
+
+const ASCII: &str = "# vtk DataFile Version 4.2\nby hand\nASCII\nDATASET UNSTRUCTURED_GRID\n\
+    POINTS 5 float\n0 0 0 1 0 0 0 1 0\n0 0 1 0 0 -1\nMETADATA\nINFORMATION 0\n\n\
+    CELLS 3 12\n4 0 1 2 3\n4 0 2 1 4\n1 0\nCELL_TYPES 3\n10 10 1\nPOINT_DATA 5\nSCALARS t double\n\
+    LOOKUP_TABLE default\n1 2 3 4 nan\nVECTORS v float\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n\
+    CELL_DATA 3\nFIELD FieldData 2\nother 2 3 int\n1 2 3 4 5 6\nregion 1 3 int\n3 4 0\n";
+
+#[test]
+fn ascii_files_of_others() {
+    assert_eq!(sniff(ASCII.as_bytes(), None), Some(Vtk));
+    let imported = good(ASCII.as_bytes(), Vtk);
+    let template = &imported.document.templates[0];
+    let tets: Vec<u32> = template.tets.iter().map(|t| t.region).collect();
+    assert_eq!(tets, [3, 4]);
+    assert_eq!(imported.document.regions[1].name, "region4");
+    assert_eq!(imported.notices, ["1 cell that is no tetrahedron ignored"]);
+    let version5 = ASCII.replace(
+        "CELLS 3 12\n4 0 1 2 3\n4 0 2 1 4\n1 0\n",
+        "CELLS 4 9\nOFFSETS vtktypeint64\n0 4 8 9\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 2 1 4 0\n",
+    );
+    let same = good(version5.as_bytes(), Vtk);
+    assert_eq!(same.document.templates, imported.document.templates);
+    let polydata = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n\
+                    0 0 0 1 0 0 0 1 0 0 0 1\nPOLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+    let surface = good(polydata.as_bytes(), Vtk);
+    assert_eq!(regions(&surface), [(1, "region1", round(1.0 / 6.0))]);
+    let xml = "<?xml version='1.0'?>\n<VTKFile type=\"UnstructuredGrid\" byte_order='LittleEndian'>\
+               <UnstructuredGrid><Piece NumberOfPoints='4' NumberOfCells='1'><Points>\
+               <DataArray type='Float32' NumberOfComponents='3' format='ascii'>\
+               0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points><Cells>\
+               <DataArray type='Int32' Name='connectivity' format='binary'>\
+               EAAAAA==AAAAAAEAAAACAAAAAwAAAA==</DataArray>\
+               <DataArray type='Int32' Name='offsets'>4</DataArray>\
+               <DataArray type='UInt8' Name='types' format='ascii'>10</DataArray>\
+               </Cells></Piece></UnstructuredGrid></VTKFile>";
+    assert_eq!(sniff(xml.as_bytes(), None), Some(Vtu));
+    let imported = good(xml.as_bytes(), Vtu);
+    assert_eq!(
+        imported.document.templates[0].tets[0].vertices,
+        [0, 1, 2, 3]
+    );
+}
+
+#[test]
+fn faults_are_located() {
+    let fault = |from: &str, to: &str| refused(ASCII.replacen(from, to, 1).as_bytes(), Vtk);
+    assert_eq!(
+        fault("4 0 1 2 3", "4 0 1 2 5"),
+        "vtk: cell 0 names point 5, and there are 5"
+    );
+    assert!(fault("4 0 1 2 3", "4 0 1 2 2").contains("cell 0 of type 10 names a point twice"));
+    assert!(fault("4 0 1 2 3", "3 0 1 2 3").contains("vtk"));
+    assert!(fault("0 0 1 0 0 -1", "0 0 1 0 nan -1").contains("point 4 is (0, NaN, -1)"));
+    assert!(fault("10 10 1", "10 12 1").contains("cell 1 has the type 12"));
+    assert!(fault("CELL_TYPES 3\n10 10 1", "CELL_TYPES 2\n10 10").contains("3 cells have 2 types"));
+    assert!(fault("POINTS 5", "POINTS 5000000000").contains("and"));
+    assert!(fault("UNSTRUCTURED_GRID", "STRUCTURED_POINTS").contains("only UNSTRUCTURED_GRID"));
+    assert!(fault("3 4 0", "-1 4 0").contains("cell 0 is a tetrahedron with region -1"));
+    let binary = written(&two_tets(), Vtk);
+    let cut = refused(&binary[..binary.len() / 2], Vtk);
+    assert!(cut.contains("bytes, and"), "{cut}");
+}
