@@ -24,14 +24,12 @@ pub fn looks_binary(head: &[u8]) -> bool {
         .chunks_exact(FACET)
         .take(facets.min(count).min(64))
         .all(|facet| {
-            let [normal, corners @ ..] = vectors(facet);
-            // Most writers give unit normals, some none, a few ones of another length.
-            let size = |v: DVec3| v.abs().max_element();
-            normal.is_finite()
-                && size(normal) < 1e6
-                && corners.iter().all(|c| {
-                    c.is_finite() && (size(*c) == 0.0 || (1e-30..1e30).contains(&size(*c)))
-                })
+            // Normals may be anything, and some writers leave them undefined.
+            let [_, corners @ ..] = vectors(facet);
+            corners.iter().all(|c| {
+                let size = c.abs().max_element();
+                c.is_finite() && (size == 0.0 || (1e-30..1e30).contains(&size))
+            })
         })
 }
 
