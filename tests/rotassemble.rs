@@ -17,6 +17,7 @@ fn wedge() -> Structured {
         mirror: true,
         flip: false,
         bore: 0.0,
+        radius: 2.0,
         cells: [3, 2, 2],
     }
 }

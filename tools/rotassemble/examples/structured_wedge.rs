@@ -19,6 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         mirror: domain == "mirror",
         flip: false,
         bore: bore.parse()?,
+        radius: 2.0,
         cells: [radial.parse()?, angular.parse()?, height.parse()?],
     };
     let document = wedge.document();

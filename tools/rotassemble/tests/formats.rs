@@ -15,6 +15,7 @@ fn document() -> Document {
         mirror: true,
         flip: false,
         bore: 0.0,
+        radius: 2.0,
         cells: [4, 2, 2],
     };
     let mut document = wedge.document();

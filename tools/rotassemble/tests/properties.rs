@@ -7,7 +7,7 @@ use common::{Mesh, gather};
 use glam::DVec3;
 use interchange::Plain;
 use rotassemble::Assembled;
-use tmesh::{Document, Frame, Isometry};
+use tmesh::{Document, Frame, HubWall, Instance, Isometry, Wall};
 
 fn wedges() -> Vec<Structured> {
     let mut all = Vec::new();
@@ -22,6 +22,7 @@ fn wedges() -> Vec<Structured> {
                         mirror,
                         flip,
                         bore,
+                        radius: 2.0,
                         cells: [3, angular, 2],
                     });
                 }
@@ -130,6 +131,7 @@ fn regions_that_instances_exchange_become_interfaces() {
             mirror,
             flip: false,
             bore: 0.5,
+            radius: 2.0,
             cells: [4, 2, 1],
         };
         let mut document = wedge.document();
@@ -166,5 +168,90 @@ fn a_single_instance_stays_as_it_is() {
                 document.templates[0].triangles.len()
             );
         }
+    }
+}
+
+/// A ring of order `order` around a hub of order `hub`, a divisor; `mirror` is possible where they
+/// are equal.
+fn with_hub(order: u32, hub: u32, mirror: bool) -> Document {
+    let parts = order / hub;
+    let ring = Structured {
+        order,
+        mirror,
+        flip: false,
+        bore: 0.5,
+        radius: 2.0,
+        cells: [3, 2, 2],
+    };
+    let column = Structured {
+        order: hub,
+        bore: 0.0,
+        radius: 0.5,
+        cells: [2, 2 * parts, 2],
+        ..ring
+    };
+    let mut document = ring.document();
+    let mut other = column.document();
+    let faces = |template: &tmesh::Template, marker: u32| -> Vec<u32> {
+        let all = (0..).zip(&template.triangles);
+        all.filter(|(_, t)| t.marker == marker)
+            .map(|(i, _)| i)
+            .collect()
+    };
+    let inner = faces(&document.templates[0], 4);
+    let outer = faces(&other.templates[0], 3);
+    for (part, outer) in (0..parts).zip(outer.chunks(inner.len())) {
+        let grid = (0..=2).flat_map(|j| (0..=2).map(move |k| (j, k)));
+        let mut vertex_pairs: Vec<[u32; 2]> = grid
+            .map(|(j, k)| [column.vertex([2, 2 * part + j, k]), ring.vertex([0, j, k])])
+            .collect();
+        vertex_pairs.sort_unstable();
+        other.templates[0].walls.push(Wall::Hub(HubWall {
+            name: format!("hub-{part}"),
+            other: 0,
+            placement: Isometry::rotation(i64::from(part), order),
+            vertex_pairs,
+            triangle_pairs: outer.iter().zip(&inner).map(|(&a, &b)| [a, b]).collect(),
+        }));
+    }
+    document.templates.append(&mut other.templates);
+    document.instances.extend(
+        other
+            .instances
+            .iter()
+            .map(|i| Instance { template: 1, ..*i }),
+    );
+    document
+}
+
+#[test]
+fn rings_and_hubs_of_other_orders_become_one() {
+    let cases = [
+        (4, 4, true),
+        (7, 7, false),
+        (12, 4, false),
+        (12, 3, false),
+        (9, 1, false),
+    ];
+    for (order, hub, mirror) in cases {
+        let mut document = with_hub(order, hub, mirror);
+        placed(&mut document);
+        let assembled = Assembled::new(&document).unwrap();
+        assert_eq!(
+            (assembled.promise().order, assembled.promise().mirror),
+            (hub, mirror)
+        );
+        let mesh = gather(&assembled);
+        mesh.assert_conforming();
+        mesh.assert_closed();
+        assert!(mesh.smallest() > 0.0);
+        assert_eq!(mesh.closest_pair(1e-4), None);
+        let frame = document.frame;
+        let turn = Isometry::rotation(1, hub);
+        let map = |p| frame.to_world(turn.apply(frame.to_canonical(p)));
+        mesh.assert_symmetric(map, 1e-13);
+        // Of copies with a common corner, exactly one point each.
+        let sides = if mirror { 2 * order } else { order };
+        assert_eq!(mesh.tets.len() as u32, sides * (3 * 2 * 2 * 6 + 2 * 2 * 9));
     }
 }

@@ -19,6 +19,8 @@ pub struct Structured {
     pub flip: bool,
     /// Radius of the bore; 0 for material on the axis.
     pub bore: f64,
+    /// Outer radius.
+    pub radius: f64,
     /// Cells in radius, angle and height.
     pub cells: [u32; 3],
 }
@@ -27,8 +29,6 @@ pub struct Structured {
 pub const INNER: u32 = 4;
 /// Region outside of it.
 pub const OUTER: u32 = 9;
-/// Outer radius.
-pub const RADIUS: f64 = 2.0;
 /// Height of the wedge.
 pub const HEIGHT: f64 = 0.5;
 
@@ -64,7 +64,7 @@ impl Structured {
                 volume: None,
             })
             .to_vec();
-        document.markers = (0..5)
+        document.markers = (0..6)
             .map(|id| Marker {
                 id,
                 name: format!("face-{id}"),
@@ -75,7 +75,7 @@ impl Structured {
     }
 
     /// Vertex of a grid point; points on the axis are the same for every angle.
-    fn vertex(&self, [i, j, k]: [u32; 3]) -> u32 {
+    pub fn vertex(&self, [i, j, k]: [u32; 3]) -> u32 {
         let [nr, na, nz] = self.cells;
         let layer = nz + 1;
         if self.bore > 0.0 {
@@ -101,7 +101,7 @@ impl Structured {
             .collect();
         let mut points = Vec::new();
         for i in 0..=nr {
-            let r = self.bore + (RADIUS - self.bore) * f64::from(i) / f64::from(nr);
+            let r = self.bore + (self.radius - self.bore) * f64::from(i) / f64::from(nr);
             for j in 0..=na {
                 for k in 0..=nz {
                     let z = HEIGHT * f64::from(k) / f64::from(nz);
@@ -238,7 +238,7 @@ impl Structured {
             for (vertices, _) in self.face(0, middle) {
                 template.triangles.push(Triangle {
                     vertices,
-                    marker: 4,
+                    marker: 5,
                     front: OUTER,
                     back: INNER,
                 });
