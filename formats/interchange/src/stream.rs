@@ -22,11 +22,11 @@ pub struct TetRegionBlock<'a> {
     pub instance: u32,
 }
 
-/// Some surface triangles of one instance. All slices have the same length.
+/// Some surface triangles of one instance. All slices have the same length, but for the corners.
 pub struct TriangleBlock<'a> {
     /// Three point ids each, counter-clockwise seen from the front region.
     pub vertices: &'a [[u32; 3]],
-    /// World coordinates of the three points.
+    /// World coordinates of the three points; only given by [`MeshStream::facets`], else empty.
     pub corners: &'a [[DVec3; 3]],
     /// Marker id of each.
     pub markers: &'a [u32],
@@ -74,6 +74,8 @@ pub trait MeshStream {
     /// Gives the regions of all tetrahedra, in the same order as [`MeshStream::tets`]; faster when
     /// only they are wanted.
     fn tet_regions(&self, sink: &mut TetRegionSink<'_>) -> io::Result<()>;
-    /// Gives all surface triangles.
+    /// Gives all surface triangles, without corners.
     fn triangles(&self, sink: &mut TriangleSink<'_>) -> io::Result<()>;
+    /// Gives all surface triangles with their corners, in the same order.
+    fn facets(&self, sink: &mut TriangleSink<'_>) -> io::Result<()>;
 }

@@ -165,6 +165,58 @@ impl<'a> Assembled<'a> {
             self.world(place.isometry)(p)
         }
     }
+
+    fn give_triangles<const CORNERS: bool>(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
+        let mut ids = Vec::new();
+        let mut block = Block::default();
+        for (i, instance) in self.document.instances.iter().enumerate() {
+            let triangles = &self.document.templates[instance.template as usize].triangles;
+            if triangles.is_empty() {
+                continue;
+            }
+            self.numbering.ids(i, &mut ids);
+            let reversed = instance.isometry.reverses_orientation();
+            let world = self.world(instance.isometry);
+            let mut add = |block: &mut Block, t: u32, sides: Option<[u32; 2]>| {
+                let triangle = &triangles[t as usize];
+                let [a, b, c] = triangle.vertices;
+                let turned = if reversed { [a, c, b] } else { [a, b, c] };
+                let stored = [triangle.front, triangle.back];
+                let placed = stored.map(|region| self.document.placed_region(instance, region));
+                block.vertices.push(turned.map(|v| ids[v as usize]));
+                if CORNERS {
+                    let corners = turned.map(|v| self.position(i, v, &world));
+                    block.corners.push(corners);
+                }
+                block.markers.push(triangle.marker);
+                let [front, back] = sides.unwrap_or(placed);
+                block.front.push(front);
+                block.back.push(back);
+                if block.vertices.len() == BLOCK {
+                    block.give(i, sink)
+                } else {
+                    Ok(())
+                }
+            };
+            for &t in &self.kept[instance.template as usize] {
+                add(&mut block, t, None)?;
+            }
+            let mut interfaces = Vec::new();
+            self.interfaces(i, &mut |t, inner, outer| {
+                interfaces.push((t, inner, outer));
+            });
+            for (t, inner, outer) in interfaces {
+                let sides = if triangles[t as usize].back == OUTSIDE {
+                    [inner, outer]
+                } else {
+                    [outer, inner]
+                };
+                add(&mut block, t, Some(sides))?;
+            }
+            block.give(i, sink)?;
+        }
+        Ok(())
+    }
 }
 
 /// The region on the inner side of a wall triangle, whichever way it is wound.
@@ -273,52 +325,11 @@ impl MeshStream for Assembled<'_> {
     }
 
     fn triangles(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
-        let mut ids = Vec::new();
-        let mut block = Block::default();
-        for (i, instance) in self.document.instances.iter().enumerate() {
-            let triangles = &self.document.templates[instance.template as usize].triangles;
-            if triangles.is_empty() {
-                continue;
-            }
-            self.numbering.ids(i, &mut ids);
-            let reversed = instance.isometry.reverses_orientation();
-            let world = self.world(instance.isometry);
-            let mut add = |block: &mut Block, t: u32, sides: Option<[u32; 2]>| {
-                let triangle = &triangles[t as usize];
-                let [a, b, c] = triangle.vertices;
-                let turned = if reversed { [a, c, b] } else { [a, b, c] };
-                let stored = [triangle.front, triangle.back];
-                let placed = stored.map(|region| self.document.placed_region(instance, region));
-                block.vertices.push(turned.map(|v| ids[v as usize]));
-                block
-                    .corners
-                    .push(turned.map(|v| self.position(i, v, &world)));
-                block.markers.push(triangle.marker);
-                let [front, back] = sides.unwrap_or(placed);
-                block.front.push(front);
-                block.back.push(back);
-                if block.vertices.len() == BLOCK {
-                    block.give(i, sink)
-                } else {
-                    Ok(())
-                }
-            };
-            for &t in &self.kept[instance.template as usize] {
-                add(&mut block, t, None)?;
-            }
-            let mut interfaces = Vec::new();
-            self.interfaces(i, &mut |t, inner, outer| interfaces.push((t, inner, outer)));
-            for (t, inner, outer) in interfaces {
-                let sides = if triangles[t as usize].back == OUTSIDE {
-                    [inner, outer]
-                } else {
-                    [outer, inner]
-                };
-                add(&mut block, t, Some(sides))?;
-            }
-            block.give(i, sink)?;
-        }
-        Ok(())
+        self.give_triangles::<false>(sink)
+    }
+
+    fn facets(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
+        self.give_triangles::<true>(sink)
     }
 }
 

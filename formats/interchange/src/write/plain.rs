@@ -76,6 +76,49 @@ impl<'a> Plain<'a> {
         let frame = self.document.frame;
         move |p| frame.to_world(placed.apply(p))
     }
+
+    fn give_triangles<const CORNERS: bool>(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
+        let (mut vertices, mut corners) = (Vec::new(), Vec::new());
+        let (mut markers, mut front, mut back) = (Vec::new(), Vec::new(), Vec::new());
+        for (t, template) in self.document.templates.iter().enumerate() {
+            let (instance, index) = self.shown[t];
+            let reversed = instance.isometry.reverses_orientation();
+            let (first, world) = (self.first[t], self.world(t));
+            let placed = |region| self.document.placed_region(&instance, region);
+            let parts = template
+                .triangles
+                .chunks(BLOCK)
+                .zip(self.walls[t].chunks(BLOCK));
+            for (part, walls) in parts {
+                vertices.clear();
+                corners.clear();
+                for triangle in part {
+                    let [a, b, c] = triangle.vertices;
+                    let turned = if reversed { [a, c, b] } else { [a, b, c] };
+                    vertices.push(turned.map(|v| first + v));
+                    if CORNERS {
+                        corners.push(turned.map(|v| world(template.vertices[v as usize])));
+                    }
+                }
+                markers.clear();
+                markers.extend(part.iter().map(|t| t.marker));
+                front.clear();
+                front.extend(part.iter().map(|t| placed(t.front)));
+                back.clear();
+                back.extend(part.iter().map(|t| placed(t.back)));
+                sink(&TriangleBlock {
+                    vertices: &vertices,
+                    corners: &corners,
+                    markers: &markers,
+                    front: &front,
+                    back: &back,
+                    walls,
+                    instance: index,
+                })?;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Names of all walls, the two faces of a seam apart, and the wall of each triangle.
@@ -205,43 +248,10 @@ impl MeshStream for Plain<'_> {
     }
 
     fn triangles(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
-        let (mut vertices, mut corners) = (Vec::new(), Vec::new());
-        let (mut markers, mut front, mut back) = (Vec::new(), Vec::new(), Vec::new());
-        for (t, template) in self.document.templates.iter().enumerate() {
-            let (instance, index) = self.shown[t];
-            let reversed = instance.isometry.reverses_orientation();
-            let (first, world) = (self.first[t], self.world(t));
-            let placed = |region| self.document.placed_region(&instance, region);
-            let parts = template
-                .triangles
-                .chunks(BLOCK)
-                .zip(self.walls[t].chunks(BLOCK));
-            for (part, walls) in parts {
-                vertices.clear();
-                corners.clear();
-                for triangle in part {
-                    let [a, b, c] = triangle.vertices;
-                    let turned = if reversed { [a, c, b] } else { [a, b, c] };
-                    vertices.push(turned.map(|v| first + v));
-                    corners.push(turned.map(|v| world(template.vertices[v as usize])));
-                }
-                markers.clear();
-                markers.extend(part.iter().map(|t| t.marker));
-                front.clear();
-                front.extend(part.iter().map(|t| placed(t.front)));
-                back.clear();
-                back.extend(part.iter().map(|t| placed(t.back)));
-                sink(&TriangleBlock {
-                    vertices: &vertices,
-                    corners: &corners,
-                    markers: &markers,
-                    front: &front,
-                    back: &back,
-                    walls,
-                    instance: index,
-                })?;
-            }
-        }
-        Ok(())
+        self.give_triangles::<false>(sink)
+    }
+
+    fn facets(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
+        self.give_triangles::<true>(sink)
     }
 }

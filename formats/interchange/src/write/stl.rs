@@ -52,7 +52,7 @@ pub fn write(
     header[..text.len()].copy_from_slice(text);
     sink.bytes(&header)?;
     sink.bytes(&(count as u32).to_le_bytes())?;
-    mesh.triangles(&mut |block| {
+    mesh.facets(&mut |block| {
         for (i, &[a, b, c]) in block.corners.iter().enumerate() {
             match turned(surface, block.front[i], block.back[i]) {
                 None => {}

@@ -233,8 +233,11 @@ fn list_template_regions(template: &Template, document: &Document, text: &mut St
     if !markers.is_empty() {
         let mut table = Table::new(&["marker", "name", "triangles"]);
         for (id, count) in markers {
-            let marker = document.markers.iter().find(|m| m.id == id);
-            let name = marker.map_or_else(|| "not listed".to_owned(), |m| m.name.clone());
+            let name = match document.markers.iter().find(|m| m.id == id) {
+                Some(marker) => marker.name.clone(),
+                None if id == OUTSIDE => "none".to_owned(),
+                None => "not listed".to_owned(),
+            };
             table.row(vec![id.to_string(), name, count.to_string()]);
         }
         table.print(text);

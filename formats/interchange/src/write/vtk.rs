@@ -231,6 +231,9 @@ mod tests {
         fn triangles(&self, _: &mut crate::TriangleSink<'_>) -> std::io::Result<()> {
             unreachable!("refused before")
         }
+        fn facets(&self, _: &mut crate::TriangleSink<'_>) -> std::io::Result<()> {
+            unreachable!("refused before")
+        }
     }
 
     #[test]

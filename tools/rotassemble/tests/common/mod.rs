@@ -45,7 +45,6 @@ pub fn gather(stream: &dyn MeshStream) -> Mesh {
         .triangles(&mut |block| {
             for i in 0..block.vertices.len() {
                 let vertices = block.vertices[i];
-                assert_eq!(block.corners[i], vertices.map(|v| mesh.points[v as usize]));
                 mesh.triangles.push(Triangle {
                     vertices,
                     marker: block.markers[i],
@@ -56,6 +55,18 @@ pub fn gather(stream: &dyn MeshStream) -> Mesh {
             Ok(())
         })
         .unwrap();
+    let mut next = 0;
+    stream
+        .facets(&mut |block| {
+            for (vertices, corners) in block.vertices.iter().zip(block.corners) {
+                assert_eq!(*vertices, mesh.triangles[next].vertices);
+                assert_eq!(*corners, vertices.map(|v| mesh.points[v as usize]));
+                next += 1;
+            }
+            Ok(())
+        })
+        .unwrap();
+    assert_eq!(next, mesh.triangles.len());
     assert_eq!(stream.point_count(), mesh.points.len() as u64);
     assert_eq!(stream.tet_count(), mesh.tets.len() as u64);
     assert_eq!(stream.triangle_count(), mesh.triangles.len() as u64);
