@@ -2,9 +2,9 @@
 
 use crate::CommonArgs;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::sync::OnceLock;
 use std::ffi::OsString;
 use std::io::IsTerminal;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 use tmesh::{ChunkInfo, HistoryEntry};
 
