@@ -89,10 +89,8 @@ impl Sample {
             .sum::<f64>()
             / total as f64;
         let counts = self.counts(&edges);
-        let ranks = [0.01, 0.5, 0.99].map(|share: f64| {
-            // One-based rank of the percentile.
-            ((share * total as f64).ceil() as u64).clamp(1, total)
-        });
+        // One-based ranks, in whole numbers: a share of a count has no exact product.
+        let ranks = [1, 50, 99].map(|percent: u64| (total * percent).div_ceil(100));
         let (min, max, [p01, p50, p99]) = self.ranked(ranks);
         Some(Statistics {
             min,

@@ -1,5 +1,6 @@
 //! Collects what is wrong: a count and the first place of each kind.
 
+use crate::text::number;
 use glam::DVec3;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -110,5 +111,6 @@ pub fn at(document: &Document, template: usize, vertices: &[u32]) -> String {
     } else {
         String::new()
     };
-    format!("near ({:.6}, {:.6}, {:.6}){of}", p.x, p.y, p.z)
+    let [x, y, z] = p.to_array().map(number);
+    format!("near ({x}, {y}, {z}){of}")
 }

@@ -15,9 +15,10 @@ const EXACT: f64 = 1e-6;
 /// Compares volumes and boundary area with the input's, where they are known.
 ///
 /// A mesh of one sector's copies is exactly symmetric; the input is so only within its residual. Its
-/// boundary, and the interfaces, may therefore differ by the residual times the radius, and by what
-/// the input's number format rounds away. With `d` twice the sum of these, a volume may differ by
-/// `d` times the area around it, and the area of a triangle by `d` times half its perimeter.
+/// boundary, and the interfaces, may therefore differ by the residual times the radius, and by the
+/// error of the input's coordinates. With `d` four times the sum of these (points near the cuts are
+/// snapped to them, which adds to both), a volume may differ by `d` times the area around it, and the
+/// area of a triangle by `d` times half its perimeter.
 pub fn check(
     document: &Document,
     measured: &Measured,
@@ -32,7 +33,7 @@ pub fn check(
         .symmetry
         .as_ref()
         .map_or(0.0, |s| s.residual * s.radius);
-    let shift = 2.0 * (residual + source.precision);
+    let shift = 4.0 * (residual + source.precision);
     let copies = Copies::of(document);
 
     let mut boundary = 0.0;
