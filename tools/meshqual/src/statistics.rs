@@ -3,6 +3,9 @@
 use crate::{Metric, Statistic};
 use serde::Serialize;
 
+/// Share of a bin's width that is taken for rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Values of one metric: parts of equal weight, one per template, weighted by its instances.
 #[derive(Clone, Debug, Default)]
 pub struct Sample {
@@ -32,7 +35,9 @@ pub struct Statistics {
 /// Counts of values between boundaries.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Histogram {
-    /// Boundaries, one more than counts; a bin includes its lower one, the last bin both.
+    /// Boundaries, one more than counts; a bin includes its lower one, the last bin both. Values 1e-9
+    /// of a bin's width below a boundary count as on it: right angles are common, and rounding must
+    /// not strew them over two bins.
     pub edges: Vec<f64>,
     /// Values in each bin. Values beyond the ends (infinite ones) count in the outermost bins.
     pub counts: Vec<u64>,
@@ -104,7 +109,11 @@ impl Sample {
     }
 
     fn counts(&self, edges: &[f64]) -> Vec<u64> {
-        let inner = &edges[1..edges.len() - 1];
+        let inner: Vec<f64> = edges
+            .windows(2)
+            .skip(1)
+            .map(|e| e[0] - ROUNDING * (e[1] - e[0]))
+            .collect();
         let mut counts = vec![0; edges.len() - 1];
         for (values, weight) in &self.parts {
             for x in values {
@@ -214,6 +223,14 @@ mod tests {
                 .unwrap();
             assert_eq!(weighted, expanded);
         }
+    }
+
+    #[test]
+    fn rounding_does_not_change_the_bin() {
+        let below = 90.0_f64.next_down();
+        let s = sample(&[(&[60.0, 89.9, below, 90.0, below.next_down()], 1)]);
+        let s = s.statistics(vec![60.0, 90.0, 120.0]).unwrap();
+        assert_eq!(s.histogram.counts, [2, 3]);
     }
 
     #[test]
