@@ -66,7 +66,39 @@ struct Link {
     vertex: u32,
 }
 
-type Place = (u32, Isometry, u32);
+/// A vertex of a placed template: template, placement, vertex.
+pub type Place = (u32, Isometry, u32);
+
+/// The links that walls make between vertices.
+pub struct Links(Vec<FxHashMap<u32, Vec<Link>>>);
+
+impl Links {
+    /// Collects the links of a document.
+    pub fn of(document: &Document) -> Self {
+        Self(links(document))
+    }
+
+    /// Whether the walls make two placed vertices one, given that all neighbours exist.
+    pub fn join(&self, a: Place, b: Place) -> bool {
+        let mut seen = FxHashSet::from_iter([a]);
+        let mut stack = vec![a];
+        while let Some(place) = stack.pop() {
+            if place == b {
+                return true;
+            }
+            stack.extend(neighbours(place, &self.0).filter(|next| seen.insert(*next)));
+        }
+        false
+    }
+}
+
+fn neighbours(
+    (t, isometry, v): Place,
+    links: &[FxHashMap<u32, Vec<Link>>],
+) -> impl Iterator<Item = Place> {
+    let own = links[t as usize].get(&v).into_iter().flatten();
+    own.map(move |l| (l.template, isometry.compose(l.step), l.vertex))
+}
 
 /// Number of vertices of the assembled mesh.
 ///
@@ -192,9 +224,8 @@ fn names(
     let mut seen = FxHashSet::from_iter([start]);
     let mut stack = vec![start];
     let mut one_template = true;
-    while let Some((t, isometry, v)) = stack.pop() {
-        for link in links[t as usize].get(&v).into_iter().flatten() {
-            let next = (link.template, isometry.compose(link.step), link.vertex);
+    while let Some(place) = stack.pop() {
+        for next in neighbours(place, links) {
             if placed.contains(&(next.0, next.1)) && seen.insert(next) {
                 one_template &= next.0 == start.0;
                 stack.push(next);

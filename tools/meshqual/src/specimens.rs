@@ -17,6 +17,9 @@ const LAYERS: usize = 2;
 /// 2) around it, as one wedge with mirror walls or with a seam, and all its instances.
 pub fn wedge(n: u32, mirror: bool) -> Document {
     let turn = Isometry::rotation(1, if mirror { 2 * n } else { n });
+    // The middle of a half turn's chord is the axis: a corner instead.
+    let half_turn = n == 2 && !mirror;
+    let turn_of = |n: u32| Isometry::rotation(1, n);
     let mut vertices = Vec::new();
     let per_layer = 1 + RINGS * (SECTORS + 1);
     for k in 0..=LAYERS {
@@ -26,7 +29,10 @@ pub fn wedge(n: u32, mirror: bool) -> Document {
             let low = DVec3::new(i as f64, 0.0, z);
             let high = turn.apply(low);
             vertices.push(low);
-            vertices.push(low.midpoint(high));
+            vertices.push(match half_turn {
+                true => turn_of(4).apply(low),
+                false => low.midpoint(high),
+            });
             vertices.push(high);
         }
     }
@@ -178,10 +184,15 @@ pub fn wedge(n: u32, mirror: bool) -> Document {
     });
     // Area of a regular polygon with 2n corners for mirror wedges (the far corners of two halves are
     // at the same distance), n corners for seams.
-    let (corners, (_, s)) = (if mirror { 2 * n } else { n }, turn.cos_sin());
+    let (corners, far) = match (mirror, half_turn) {
+        (true, _) => (2 * n, SECTORS),
+        (_, true) => (4, 1),
+        _ => (n, SECTORS),
+    };
+    let (_, s) = turn_of(corners).cos_sin();
     let polygon = |r: f64| f64::from(corners) * 0.5 * r * r * s;
     let height = LAYERS as f64;
-    let side = vertices_distance(&document, at(RINGS, 0), at(RINGS, SECTORS));
+    let side = vertices_distance(&document, at(RINGS, 0), at(RINGS, far));
     document.regions = vec![
         region(1, "core", polygon(1.0) * height),
         region(2, "shell", (polygon(3.0) - polygon(1.0)) * height),

@@ -52,7 +52,15 @@ fn seam(document: &mut Document) -> &mut tmesh::Seam {
 
 #[test]
 fn sound_meshes_pass_instanced_and_assembled_alike() {
-    for (n, with_mirror) in [(3, true), (5, true), (16, true), (3, false), (12, false)] {
+    for (n, with_mirror) in [
+        (3, true),
+        (5, true),
+        (16, true),
+        (2, true),
+        (2, false),
+        (3, false),
+        (12, false),
+    ] {
         let instanced = wedge(n, with_mirror);
         let a = sound(&instanced);
         let b = sound(&assembled(&instanced));

@@ -3,6 +3,7 @@
 use super::COINCIDENCE;
 use super::conformity::Skin;
 use super::findings::{Findings, Kind, at};
+use crate::instances::Links;
 use crate::nearby::Nearby;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -207,15 +208,25 @@ impl Across<'_> {
     ) {
         let grid = Nearby::all(&there.vertices, COINCIDENCE * size);
         let placed = self.placement.placed();
+        let mut links = None;
         let mut budget = u64::MAX;
         for (v, &p) in here.vertices.iter().enumerate() {
             let image = placed.apply(p);
             let Some((w, distance)) = grid.nearest(image, &mut budget) else {
                 continue;
             };
-            let known = partner(v as u32).is_some_and(|q| {
+            let paired = partner(v as u32).is_some_and(|q| {
                 q == w || there.vertices[q as usize] == there.vertices[w as usize]
             });
+            // About the axis, and across both faces of a half turn's seam, vertices are joined by
+            // way of others.
+            let known = paired || {
+                let own = (self.there as u32, Isometry::IDENTITY, w);
+                let other = (self.here as u32, self.placement, v as u32);
+                links
+                    .get_or_insert_with(|| Links::of(document))
+                    .join(own, other)
+            };
             if !known {
                 findings.add(Kind::UnpairedVertex, || {
                     format!(
