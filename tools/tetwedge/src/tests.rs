@@ -456,7 +456,7 @@ fn overhead() {
     for (name, document, max_volume) in [
         ("prism, order 3", prism(3), 2e-6),
         ("ring, order 16, coating 5e-3", coated_ring(16, 5e-3), 1e-2),
-        ("ring, order 16, coating 2e-4", coated_ring(16, 2e-4), 1e-2),
+        ("ring, order 64, coating 5e-3", coated_ring(64, 5e-3), 1e-2),
         ("with hub, order 6", with_hub(6), 1e-6),
     ] {
         let params = sized(max_volume);
