@@ -505,3 +505,82 @@ fn overhead() {
         }
     }
 }
+
+#[test]
+#[ignore = "temporary"]
+fn optimization() {
+    use std::time::Instant;
+    for path in std::env::var("BODIES").unwrap().split(':') {
+        let file = std::fs::File::open(path).unwrap();
+        let document = tmesh::read(file).unwrap();
+        for extra in std::env::var("SWITCHES").unwrap().split(':') {
+            let (angle, extra) = extra.split_once(',').unwrap();
+            let params = Params {
+                optimize: angle.parse().ok(),
+                switches: extra.to_owned(),
+                ..sized(std::env::var("VOLUME").unwrap().parse().unwrap())
+            };
+            let mut time = f64::MAX;
+            let mut done = None;
+            for _ in 0..std::env::var("RUNS").unwrap().parse().unwrap() {
+                let begun = Instant::now();
+                match tetrahedralize(document.clone(), &params, &|_| ()) {
+                    Ok(m) => done = Some(m.document),
+                    Err(e) => println!("{e}"),
+                }
+                time = time.min(begun.elapsed().as_secs_f64());
+            }
+            let Some(done) = done else { continue };
+            let mut angles = Vec::new();
+            let mut bad = 0;
+            let mut biggest: f64 = 0.0;
+            for (t, tets) in done.templates.iter().map(|t| (t, &t.tets)) {
+                for tet in tets {
+                    let p = tet.vertices.map(|v| t.vertices[v as usize]);
+                    let [a, b, c, d] = p;
+                    biggest = biggest.max(tet_volume(a, b, c, d));
+                    let mut least: f64 = 180.0;
+                    let mut most: f64 = 0.0;
+                    let mut edge = f64::MAX;
+                    for i in 0..4 {
+                        for j in i + 1..4 {
+                            let (k, l) = match (i, j) {
+                                (0, 1) => (2, 3),
+                                (0, 2) => (1, 3),
+                                (0, 3) => (1, 2),
+                                (1, 2) => (0, 3),
+                                (1, 3) => (0, 2),
+                                _ => (0, 1),
+                            };
+                            let e = p[j] - p[i];
+                            edge = edge.min(e.length());
+                            let m = e.cross(p[k] - p[i]).normalize();
+                            let n = e.cross(p[l] - p[i]).normalize();
+                            let angle = m.dot(n).clamp(-1.0, 1.0).acos().to_degrees();
+                            least = least.min(angle);
+                            most = most.max(angle);
+                        }
+                    }
+                    angles.push(least);
+                    let (u, v, w) = (b - a, c - a, d - a);
+                    let centre = (v.cross(w) * u.length_squared()
+                        + w.cross(u) * v.length_squared()
+                        + u.cross(v) * w.length_squared())
+                        / (2.0 * u.dot(v.cross(w)));
+                    if centre.length() / edge > 1.4 {
+                        bad += 1;
+                    }
+                }
+            }
+            angles.sort_by(f64::total_cmp);
+            println!(
+                "{path} {angle:>4} {extra}: {time:.3} s, {} tets, min {:.2} p01 {:.2}, radius-edge > 1.4: {:.2} %, largest {:.3e}",
+                angles.len(),
+                angles[0],
+                angles[angles.len() / 100],
+                100.0 * bad as f64 / angles.len() as f64,
+                biggest,
+            );
+        }
+    }
+}
