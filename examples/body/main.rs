@@ -89,7 +89,7 @@ struct Cli {
     #[arg(long, value_name = "R")]
     bore: Option<f64>,
 
-    /// Radius of a via's core or hole [default: tsv 0.2, practical-tsv 0.5]
+    /// Radius of a via's core or hole [default: tsv 0.2; practical-tsv 0.05, or what ten films fill]
     #[arg(long, value_name = "R")]
     core: Option<f64>,
 
@@ -227,7 +227,8 @@ impl Cli {
             }
             Kind::PracticalTsv => {
                 let thickness = self.thickness.unwrap_or(7e-4);
-                let hole = within("--core", self.core.unwrap_or(0.5), 0.0, radius)?;
+                let core = self.core.unwrap_or((10.0 * thickness).clamp(0.05, 0.5));
+                let hole = within("--core", core, 0.0, radius)?;
                 let films = thickness * f64::from(self.layers);
                 within("the films' thickness", films, 0.0, height.min(hole * flat))?;
                 PracticalTsv {
