@@ -9,6 +9,11 @@ use geom::edges::Edges;
 use glam::DVec3;
 use tmesh::{Frame, Isometry, MirrorWall, Plane, Seam, Template, Triangle, Wall};
 
+/// A body that is its own wedge.
+pub fn whole(surface: Surface, frame: &Frame) -> Result<Template, CutError> {
+    Ok(compact(surface, frame)?.into_parts().0)
+}
+
 /// A wedge between mirror walls; `caps` in the order of the sides.
 pub fn mirror_wedge(
     mut surface: Surface,

@@ -86,12 +86,8 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         tolerances.plane,
         tolerances.equal,
     )];
-    if plan.is_whole() {
-        document.templates = vec![template];
-    } else {
-        let wedge = cut_wedge(template, &plan, &tolerances, &document.frame, &mut notes)?;
-        document.templates = vec![wedge];
-    }
+    let wedge = cut_wedge(template, &plan, &tolerances, &document.frame, &mut notes)?;
+    document.templates = vec![wedge];
     document.instances = plan.instances;
     document.region_maps = plan.region_maps;
     let copies = document.instances.len();
@@ -221,24 +217,24 @@ fn cut_wedge(
     frame: &Frame,
     notes: &mut Vec<String>,
 ) -> Result<Template, CutError> {
+    if plan.is_whole() {
+        let mut surface =
+            Surface::new(template.vertices, template.triangles, None, tolerances.flat);
+        collapse(&mut surface, tolerances, notes);
+        return finish::whole(surface, frame);
+    }
     let opening = Opening::new(plan.opening, tolerances.plane);
     let mut surface = Surface::new(
         template.vertices,
         template.triangles,
-        &opening,
+        Some(&opening),
         tolerances.flat,
     );
     let split_at_axis = plan.is_half() && !plan.mirror;
     for &side in opening.sides() {
         clip::clip(&mut surface, &opening, side, split_at_axis);
     }
-    if tolerances.detail > 0.0 {
-        let collapsed = clean::collapse_short_edges(&mut surface, tolerances.detail);
-        notes.push(format!(
-            "edges below {:.1e} collapsed: {} points and {} faces fewer",
-            tolerances.detail, collapsed.points, collapsed.faces
-        ));
-    }
+    collapse(&mut surface, tolerances, notes);
     let far = if plan.is_half() {
         Extent::FarHalf
     } else {
@@ -276,6 +272,16 @@ fn cut_wedge(
     ));
     let cap = low.cap(&surface, &opening, frame)?;
     finish::rotation_wedge(surface, cap, matched, plan, frame)
+}
+
+fn collapse(surface: &mut Surface, tolerances: &Tolerances, notes: &mut Vec<String>) {
+    if tolerances.detail > 0.0 {
+        let collapsed = clean::collapse_short_edges(surface, tolerances.detail);
+        notes.push(format!(
+            "edges below {:.1e} collapsed: {} points and {} faces fewer",
+            tolerances.detail, collapsed.points, collapsed.faces
+        ));
+    }
 }
 
 fn total_volume(template: &Template) -> f64 {

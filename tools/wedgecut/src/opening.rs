@@ -29,6 +29,8 @@ pub struct Class {
 impl Class {
     /// On the axis.
     pub const AXIS: Self = Self { a: 0, b: 0 };
+    /// Between the planes.
+    pub const INSIDE: Self = Self { a: 1, b: 1 };
 
     /// The class for one side.
     pub fn of(self, side: Side) -> i8 {

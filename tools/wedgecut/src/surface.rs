@@ -20,14 +20,19 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Classifies points against the opening, joins points that have become one, drops faces that
-    /// have lost their area with them, and finds flat patches.
-    pub fn new(points: Vec<DVec3>, faces: Vec<Triangle>, opening: &Opening, flatness: f64) -> Self {
+    /// Classifies points against the opening (without one, all are inside), joins points that have
+    /// become one, drops faces that have lost their area with them, and finds flat patches.
+    pub fn new(
+        points: Vec<DVec3>,
+        faces: Vec<Triangle>,
+        opening: Option<&Opening>,
+        flatness: f64,
+    ) -> Self {
         let mut surface = Self::default();
         let mut at: FxHashMap<[u64; 3], u32> = FxHashMap::default();
         let mut renumbered = Vec::with_capacity(points.len());
         for p in points {
-            let (p, class) = opening.classify(p);
+            let (p, class) = opening.map_or((p, Class::INSIDE), |o| o.classify(p));
             let key = (p + DVec3::ZERO).to_array().map(f64::to_bits);
             renumbered.push(*at.entry(key).or_insert_with(|| surface.add(p, class)));
         }

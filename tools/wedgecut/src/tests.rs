@@ -234,7 +234,8 @@ fn check_to(body: &Document, params: &Params, copies: usize, accuracy: f64) -> D
         .map(|p| p.x.hypot(p.y))
         .fold(0.0, f64::max);
     for p in &wedge.templates[0].vertices {
-        assert!(p.y >= -1e-12 * extent, "{p} is outside of the wedge");
+        let inside = copies == 1 || p.y >= -1e-12 * extent;
+        assert!(inside, "{p} is outside of the wedge");
     }
     wedge
 }
@@ -417,4 +418,15 @@ fn sections_with_different_points_are_reconciled() {
             ));
         }
     }
+}
+
+#[test]
+fn a_body_without_symmetry_passes_whole() {
+    let body = single_precision(Body::ratchet(5, true).document((1, false), Some(2), 1.0));
+    let whole = check_to(&body, &DEFAULT, 1, 1e-4);
+    assert!(whole.templates[0].walls.is_empty());
+    assert_eq!(
+        whole.templates[0].triangles.len(),
+        body.templates[0].triangles.len()
+    );
 }
