@@ -22,19 +22,19 @@ pub struct Cli {
     common: CommonArgs,
 
     /// Largest ratio of circumradius to shortest edge of a tetrahedron
-    #[arg(long, value_name = "R", default_value = "1.4", value_parser = radius_edge)]
+    #[arg(long, value_name = "R", default_value = "1.4", allow_negative_numbers = true, value_parser = radius_edge)]
     radius_edge: f64,
 
     /// Smallest dihedral angle, degrees
-    #[arg(long, value_name = "DEG", default_value = "10", value_parser = min_dihedral)]
+    #[arg(long, value_name = "DEG", default_value = "10", allow_negative_numbers = true, value_parser = min_dihedral)]
     min_dihedral: f64,
 
     /// Largest tetrahedron volume, model units cubed
-    #[arg(long, value_name = "V", value_parser = positive, conflicts_with = "edge_length")]
+    #[arg(long, value_name = "V", allow_negative_numbers = true, value_parser = positive, conflicts_with = "edge_length")]
     max_volume: Option<f64>,
 
     /// Largest tetrahedron volume, as that of the regular tetrahedron with this edge
-    #[arg(long, value_name = "H", value_parser = positive)]
+    #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = positive)]
     edge_length: Option<f64>,
 
     /// Largest tetrahedron volume in one region, by its name or id; repeatable
@@ -55,7 +55,7 @@ pub struct Cli {
     switches: String,
 
     /// Time limit for the mesher, per template [default: none]
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     timeout: Option<f64>,
 
     /// Templates meshed at the same time [default: processors]
