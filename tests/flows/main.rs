@@ -6,4 +6,6 @@ mod generator;
 
 mod bodies;
 mod failures;
+mod pipe;
+mod referee;
 mod support;
