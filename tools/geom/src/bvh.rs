@@ -1,39 +1,47 @@
 //! Nearest triangle and box queries on a triangle set.
 //!
-//! A binary bounding-volume hierarchy, split by the surface-area heuristic over twelve bins of
-//! centroids (Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007). Boxes
-//! are single precision, rounded outwards, about the centre of the set, so that a set far from the
-//! origin keeps its resolution.
+//! A bounding-volume hierarchy with four children per node and single triangles as leaves, split by
+//! the surface-area heuristic over bins of centroids (Wald, "On fast construction of SAH-based
+//! bounding volume hierarchies", 2007). Boxes are in single precision, about the centre of the set
+//! and in units of its size; distances to them are taken a margin too small, so that no rounding can
+//! hide a triangle. Distances to triangles are in double precision.
 
 use glam::DVec3;
 
-/// Triangles per leaf at most, unless their centroids coincide.
-const LEAF: usize = 4;
+/// Children of a node.
+const WIDTH: usize = 4;
 /// Bins per split.
 const BINS: usize = 12;
 /// Depth from which ranges are halved, so that the depth stays bounded.
 const HALVING_DEPTH: usize = 40;
-/// Entries of a traversal stack: one per level.
-const STACK: usize = 96;
+/// Entries of a traversal stack: three for each level.
+const STACK: usize = 256;
+/// Marks a child that is a triangle.
+const LEAF: u32 = 1 << 31;
+/// Bound on the rounding of a single-precision coordinate and of a difference of two, relative to
+/// the largest coordinate.
+const ROUNDING: f32 = 4e-7;
 
 /// A bounding-volume hierarchy over triangles; owns a copy of their corners.
 pub struct Bvh {
     nodes: Vec<Node>,
-    /// Corners in leaf order, relative to `centre`.
+    /// Corners in leaf order, in units of `unit` about `centre`.
     corners: Vec<[DVec3; 3]>,
     /// Index of each triangle in the caller's order.
     index: Vec<u32>,
     centre: DVec3,
+    /// A power of two.
+    unit: f64,
 }
 
-/// Leaf: `count` triangles from `next`. Inner node (`count` 0): the children follow directly and at
-/// `next`.
+/// Boxes of the children, coordinate by coordinate; an empty slot has an inverted box.
 #[derive(Clone, Copy)]
+#[repr(align(64))]
 struct Node {
-    low: [f32; 3],
-    next: u32,
-    high: [f32; 3],
-    count: u32,
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
+    /// Index of a node, or of a triangle with [`LEAF`] set.
+    child: [u32; WIDTH],
 }
 
 /// Answer to a nearest-triangle query.
@@ -48,21 +56,28 @@ pub struct Nearest {
 }
 
 impl Bvh {
-    /// Builds the hierarchy over triangles given by their corners; degenerate ones are welcome,
-    /// coordinates must be finite. Time n log n.
+    /// Builds the hierarchy over fewer than 2^31 triangles given by their corners; degenerate ones
+    /// are welcome, coordinates must be finite. Time n log n.
     pub fn new(triangles: impl IntoIterator<Item = [DVec3; 3]>) -> Self {
         let mut triangles: Vec<[DVec3; 3]> = triangles.into_iter().collect();
         let bounds = triangles
             .iter()
             .flatten()
             .fold(Bounds::EMPTY, |b, &p| b.with(p));
-        let centre = if triangles.is_empty() {
-            DVec3::ZERO
+        let (centre, extent) = if triangles.is_empty() {
+            (DVec3::ZERO, 0.0)
         } else {
-            0.5 * (bounds.low + bounds.high)
+            // Halved before adding: the sum of two large coordinates may overflow.
+            let half = 0.5 * bounds.high - 0.5 * bounds.low;
+            (0.5 * bounds.low + 0.5 * bounds.high, half.max_element())
+        };
+        let unit = if extent.is_normal() {
+            2.0_f64.powi(extent.log2().ceil().clamp(-1000.0, 1000.0) as i32)
+        } else {
+            1.0
         };
         for p in triangles.iter_mut().flatten() {
-            *p -= centre;
+            *p = (*p - centre) / unit;
         }
         let mut items: Vec<Item> = triangles
             .iter()
@@ -76,15 +91,13 @@ impl Bvh {
                 }
             })
             .collect();
-        let mut nodes = Vec::with_capacity(items.len());
-        if !items.is_empty() {
-            build(&mut items, &mut nodes);
-        }
+        let nodes = build(&mut items);
         Self {
             nodes,
             corners: items.iter().map(|i| triangles[i.index as usize]).collect(),
             index: items.iter().map(|i| i.index).collect(),
             centre,
+            unit,
         }
     }
 
@@ -100,107 +113,131 @@ impl Bvh {
 
     /// The triangle nearest to `point`, if one is nearer than `within` (which may be infinite).
     pub fn nearest(&self, point: DVec3, within: f64) -> Option<Nearest> {
-        let p = point - self.centre;
+        let p = (point - self.centre) / self.unit;
+        let single = p.as_vec3();
+        let margin = ROUNDING * single.abs().max_element().max(1.0);
+        let within = within / self.unit;
         let mut best = within * within;
+        let mut bound = rounded_up(best);
         let mut found: Option<(u32, DVec3)> = None;
-        if self.nodes.is_empty() || self.nodes[0].distance_squared(p) >= best {
-            return None;
-        }
-        let mut stack = [(0_u32, 0.0_f64); STACK];
-        let mut depth = 0;
-        let mut at = 0_usize;
-        loop {
-            let node = &self.nodes[at];
-            if node.count > 0 {
-                let first = node.next as usize;
-                for i in first..first + node.count as usize {
-                    let q = closest_point(p, &self.corners[i]);
-                    let d = (p - q).length_squared();
-                    if d < best {
-                        best = d;
-                        found = Some((self.index[i], q));
-                    }
+        let mut stack = [(0_u32, 0.0_f32); STACK];
+        let mut depth = usize::from(!self.nodes.is_empty());
+        while depth > 0 {
+            depth -= 1;
+            let (at, d) = stack[depth];
+            if d >= bound {
+                continue;
+            }
+            if at & LEAF != 0 {
+                let i = (at & !LEAF) as usize;
+                let q = closest_point(p, &self.corners[i]);
+                let d = (p - q).length_squared();
+                if d < best {
+                    best = d;
+                    bound = rounded_up(best);
+                    found = Some((i as u32, q));
                 }
-            } else {
-                let (a, b) = (at + 1, node.next as usize);
-                let da = self.nodes[a].distance_squared(p);
-                let db = self.nodes[b].distance_squared(p);
-                let ((near, dn), (far, df)) = if da <= db {
-                    ((a, da), (b, db))
-                } else {
-                    ((b, db), (a, da))
-                };
-                if df < best {
-                    stack[depth] = (far as u32, df);
+                continue;
+            }
+            let node = &self.nodes[at as usize];
+            let distances = node.distances_squared(single.to_array(), margin);
+            // The nearest child ends on top.
+            let first = depth;
+            for (d, child) in distances.into_iter().zip(node.child) {
+                if d < bound {
+                    let mut slot = depth;
+                    while slot > first && stack[slot - 1].1 < d {
+                        stack[slot] = stack[slot - 1];
+                        slot -= 1;
+                    }
+                    stack[slot] = (child, d);
                     depth += 1;
                 }
-                if dn < best {
-                    at = near;
-                    continue;
-                }
-            }
-            loop {
-                if depth == 0 {
-                    return found.map(|(triangle, q)| Nearest {
-                        triangle,
-                        point: q + self.centre,
-                        distance: best.sqrt(),
-                    });
-                }
-                depth -= 1;
-                let (next, d) = stack[depth];
-                if d < best {
-                    at = next as usize;
-                    break;
-                }
             }
         }
+        found.map(|(i, q)| Nearest {
+            triangle: self.index[i as usize],
+            point: q * self.unit + self.centre,
+            distance: best.sqrt() * self.unit,
+        })
     }
 
-    /// Calls `visit` with every triangle whose bounding box (single precision, so a little larger)
-    /// meets the box from `low` to `high`, in a fixed order.
+    /// Calls `visit` with every triangle whose bounding box meets the box from `low` to `high`, in a
+    /// fixed order.
     pub fn for_each_in_box(&self, low: DVec3, high: DVec3, mut visit: impl FnMut(u32)) {
-        if self.nodes.is_empty() {
-            return;
+        let low = (low - self.centre) / self.unit;
+        let high = (high - self.centre) / self.unit;
+        let mut stack = Vec::new();
+        if !self.nodes.is_empty() {
+            stack.push(0_u32);
         }
-        let (low, high) = (low - self.centre, high - self.centre);
-        let mut stack = vec![0_u32];
         while let Some(at) = stack.pop() {
-            let node = &self.nodes[at as usize];
-            if !node.meets(low, high) {
-                continue;
-            }
-            if node.count == 0 {
-                stack.push(node.next);
-                stack.push(at + 1);
-                continue;
-            }
-            let first = node.next as usize;
-            for i in first..first + node.count as usize {
+            if at & LEAF != 0 {
+                let i = (at & !LEAF) as usize;
                 let t = &self.corners[i];
                 let (l, h) = (t[0].min(t[1]).min(t[2]), t[0].max(t[1]).max(t[2]));
                 if l.cmple(high).all() && h.cmpge(low).all() {
                     visit(self.index[i]);
+                }
+                continue;
+            }
+            let node = &self.nodes[at as usize];
+            for i in (0..WIDTH).rev() {
+                let meets = (0..3).all(|k| {
+                    f64::from(node.low[k][i]) <= high[k] && f64::from(node.high[k][i]) >= low[k]
+                });
+                if meets {
+                    stack.push(node.child[i]);
                 }
             }
         }
     }
 }
 
+/// A single-precision number that is not smaller, with room for the rounding of a sum of squares.
+#[inline]
+fn rounded_up(x: f64) -> f32 {
+    ((x * 1.000_002) as f32).next_up()
+}
+
 impl Node {
+    const EMPTY: Self = Self {
+        low: [[f32::INFINITY; WIDTH]; 3],
+        high: [[f32::NEG_INFINITY; WIDTH]; 3],
+        child: [0; WIDTH],
+    };
+
+    /// Squared distances of a point from the boxes; each coordinate's gap is shortened by `margin`.
     #[inline]
-    fn distance_squared(&self, p: DVec3) -> f64 {
-        let gap = |axis: usize, x: f64| {
-            (f64::from(self.low[axis]) - x)
-                .max(x - f64::from(self.high[axis]))
-                .max(0.0)
-        };
-        let (x, y, z) = (gap(0, p.x), gap(1, p.y), gap(2, p.z));
-        x * x + y * y + z * z
+    fn distances_squared(&self, p: [f32; 3], margin: f32) -> [f32; WIDTH] {
+        let mut sum = [0.0_f32; WIDTH];
+        for ((low, high), p) in self.low.iter().zip(&self.high).zip(p) {
+            for ((s, low), high) in sum.iter_mut().zip(low).zip(high) {
+                let (below, above) = (low - p, p - high);
+                // Plain comparisons become single instructions, which `max` with its care for NaN
+                // does not.
+                let gap = if below > above { below } else { above } - margin;
+                let gap = if gap > 0.0 { gap } else { 0.0 };
+                *s += gap * gap;
+            }
+        }
+        sum
     }
 
-    fn meets(&self, low: DVec3, high: DVec3) -> bool {
-        (0..3).all(|i| f64::from(self.low[i]) <= high[i] && f64::from(self.high[i]) >= low[i])
+    fn set(&mut self, slot: usize, bounds: &Bounds, child: u32) {
+        let down = |x: f64| {
+            let y = x as f32;
+            if f64::from(y) > x { y.next_down() } else { y }
+        };
+        let up = |x: f64| {
+            let y = x as f32;
+            if f64::from(y) < x { y.next_up() } else { y }
+        };
+        for k in 0..3 {
+            self.low[k][slot] = down(bounds.low[k]);
+            self.high[k][slot] = up(bounds.high[k]);
+        }
+        self.child[slot] = child;
     }
 }
 
@@ -296,23 +333,6 @@ impl Bounds {
         let e = (self.high - self.low).max(DVec3::ZERO);
         e.x * e.y + e.y * e.z + e.z * e.x
     }
-
-    fn node(&self, next: u32, count: u32) -> Node {
-        let down = |x: f64| {
-            let y = x as f32;
-            if f64::from(y) > x { y.next_down() } else { y }
-        };
-        let up = |x: f64| {
-            let y = x as f32;
-            if f64::from(y) < x { y.next_up() } else { y }
-        };
-        Node {
-            low: self.low.to_array().map(down),
-            high: self.high.to_array().map(up),
-            next,
-            count,
-        }
-    }
 }
 
 #[derive(Clone, Copy)]
@@ -322,41 +342,87 @@ struct Item {
     index: u32,
 }
 
-/// Orders `items` by leaf and appends the nodes, a left child directly after its parent.
-fn build(items: &mut [Item], nodes: &mut Vec<Node>) {
-    // (first item, count, depth, parent whose right child this is)
-    let mut work = vec![(0_usize, items.len(), 0_usize, None::<usize>)];
-    while let Some((first, count, depth, parent)) = work.pop() {
-        let range = &mut items[first..first + count];
-        let bounds = range.iter().fold(Bounds::EMPTY, |b, i| b.union(i.bounds));
-        if let Some(parent) = parent {
-            nodes[parent].next = nodes.len() as u32;
-        }
-        let split = if count <= LEAF {
-            None
-        } else {
-            split(range, depth)
-        };
-        let at = nodes.len();
-        match split {
-            None => nodes.push(bounds.node(first as u32, count as u32)),
-            Some(left) => {
-                nodes.push(bounds.node(0, 0));
-                work.push((first + left, count - left, depth + 1, Some(at)));
-                work.push((first, left, depth + 1, None));
-            }
+/// A run of items, with its box and its depth in halvings.
+#[derive(Clone, Copy)]
+struct Range {
+    first: usize,
+    count: usize,
+    depth: usize,
+    bounds: Bounds,
+}
+
+impl Range {
+    fn new(items: &[Item], first: usize, count: usize, depth: usize) -> Self {
+        let bounds = items[first..first + count]
+            .iter()
+            .fold(Bounds::EMPTY, |b, i| b.union(i.bounds));
+        Self {
+            first,
+            count,
+            depth,
+            bounds,
         }
     }
 }
 
-/// Partitions a range; returns the size of its left part, or `None` when it cannot be divided.
-fn split(range: &mut [Item], depth: usize) -> Option<usize> {
+/// Orders `items` by leaf and returns the nodes, the root first.
+fn build(items: &mut [Item]) -> Vec<Node> {
+    let mut nodes: Vec<Node> = Vec::with_capacity(items.len() / 2);
+    if items.is_empty() {
+        return nodes;
+    }
+    let all = Range::new(items, 0, items.len(), 0);
+    // (range, where to note the index of its node)
+    let mut work = vec![(all, None::<(usize, usize)>)];
+    while let Some((range, parent)) = work.pop() {
+        let at = nodes.len();
+        if let Some((node, slot)) = parent {
+            nodes[node].child[slot] = at as u32;
+        }
+        let mut parts = vec![range];
+        while parts.len() < WIDTH {
+            let widest = (0..parts.len())
+                .filter(|&i| parts[i].count > 1)
+                .max_by(|&i, &j| {
+                    let area = |i: usize| parts[i].bounds.half_area();
+                    area(i).total_cmp(&area(j)).then(j.cmp(&i))
+                });
+            let Some(widest) = widest else { break };
+            let Range {
+                first,
+                count,
+                depth,
+                ..
+            } = parts[widest];
+            let left = split(&mut items[first..first + count], depth);
+            parts[widest] = Range::new(items, first, left, depth + 1);
+            parts.insert(
+                widest + 1,
+                Range::new(items, first + left, count - left, depth + 1),
+            );
+        }
+        let mut node = Node::EMPTY;
+        for (slot, part) in parts.iter().enumerate() {
+            if part.count == 1 {
+                node.set(slot, &part.bounds, LEAF | part.first as u32);
+            } else {
+                node.set(slot, &part.bounds, 0);
+                work.push((*part, Some((at, slot))));
+            }
+        }
+        nodes.push(node);
+    }
+    nodes
+}
+
+/// Partitions a range of two or more; returns the size of its left part, neither zero nor all.
+fn split(range: &mut [Item], depth: usize) -> usize {
     let middles = range.iter().fold(Bounds::EMPTY, |b, i| b.with(i.middle));
     let extent = middles.high - middles.low;
     let axis = (0..3).fold(0, |m, i| if extent[i] > extent[m] { i } else { m });
     let half = range.len() / 2;
     if extent[axis] <= 0.0 {
-        return (range.len() > 64 * LEAF).then_some(half);
+        return half;
     }
     let halve = |range: &mut [Item]| {
         range.select_nth_unstable_by(half, |a, b| {
@@ -364,7 +430,7 @@ fn split(range: &mut [Item], depth: usize) -> Option<usize> {
                 .total_cmp(&b.middle[axis])
                 .then(a.index.cmp(&b.index))
         });
-        Some(half)
+        half
     };
     if depth >= HALVING_DEPTH {
         return halve(range);
@@ -403,7 +469,7 @@ fn split(range: &mut [Item], depth: usize) -> Option<usize> {
             left += 1;
         }
     }
-    Some(left)
+    left
 }
 
 #[cfg(test)]

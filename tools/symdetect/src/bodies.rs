@@ -1,6 +1,7 @@
 //! Bodies for tests.
 
-use glam::DVec3;
+use crate::samples::Random;
+use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::TAU;
 use tmesh::{Document, OUTSIDE, Region, Template, Triangle};
 
@@ -39,8 +40,8 @@ pub fn region(id: u32) -> Region {
     }
 }
 
-/// The solid swept by an open profile (r, z) around the z axis, closed by fans over the polygons at
-/// its two ends; `shape` moves each point, given its angle.
+/// The solid swept by an open profile (r, z) around the z axis, closed by fans over the planar
+/// polygons at its two ends; `shape` moves each point, given its angle.
 pub fn profile(
     n: usize,
     points: &[(f64, f64)],
@@ -64,13 +65,156 @@ pub fn profile(
                 id(row + 1, i + 1),
                 id(row + 1, i),
             );
-            triangles.extend([[a, b, c], [a, c, d]]);
+            // Four triangles around the middle: diagonals would lean to one side.
+            let middle = vertices.len() as u32;
+            let sum: DVec3 = [a, b, c, d].iter().map(|&v| vertices[v as usize]).sum();
+            vertices.push(0.25 * sum);
+            triangles.extend([
+                [a, b, middle],
+                [b, c, middle],
+                [c, d, middle],
+                [d, a, middle],
+            ]);
         }
     }
-    let last = points.len() - 1;
-    for i in 1..n - 1 {
-        triangles.push([id(0, 0), id(0, i + 1), id(0, i)]);
-        triangles.push([id(last, 0), id(last, i), id(last, i + 1)]);
+    // Fans over the ends from points off the axis: a tessellation without symmetry.
+    for (row, up) in [(0, false), (points.len() - 1, true)] {
+        let middle = vertices.len() as u32;
+        let ring = &vertices[row * n..(row + 1) * n];
+        let z = ring.iter().map(|p| p.z).sum::<f64>() / n as f64;
+        vertices.push(DVec3::new(0.012, 0.007, z));
+        for i in 0..n {
+            let (a, b) = (id(row, i), id(row, i + 1));
+            triangles.push(if up { [middle, a, b] } else { [middle, b, a] });
+        }
     }
     document(vertices, triangles)
+}
+
+/// Lobed, toothed or twisted bodies, one for each kind of axial group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// C_n: a leaning saw blade, tapered.
+    Cn,
+    /// C_nv: lobes, tapered.
+    Cnv,
+    /// C_nh: a leaning saw blade.
+    Cnh,
+    /// D_n: twisted lobes.
+    Dn,
+    /// D_nd: lobes that change sign half-way up.
+    Dnd,
+    /// D_nh: straight lobes.
+    Dnh,
+    /// S_2n: as D_nd, but leaning.
+    S2n,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Cn,
+        Self::Cnv,
+        Self::Cnh,
+        Self::Dn,
+        Self::Dnd,
+        Self::Dnh,
+        Self::S2n,
+    ];
+
+    /// The symbol expected.
+    pub fn symbol(self, n: u32) -> String {
+        match self {
+            Self::Cn => format!("C{n}"),
+            Self::Cnv => format!("C{n}v"),
+            Self::Cnh => format!("C{n}h"),
+            Self::Dn => format!("D{n}"),
+            Self::Dnd => format!("D{n}d"),
+            Self::Dnh => format!("D{n}h"),
+            Self::S2n => format!("S{}", 2 * n),
+        }
+    }
+
+    /// A body of radius about 1 and height 0.8, with lobes of the given depth and `per_lobe` facets
+    /// around each.
+    pub fn body(self, n: u32, per_lobe: usize, depth: f64) -> Document {
+        let layers = 8;
+        let points: Vec<(f64, f64)> = (0..=layers)
+            .map(|i| (1.0, 0.8 * f64::from(i) / f64::from(layers) - 0.4))
+            .collect();
+        let n_f = f64::from(n);
+        let saw = |t: f64| {
+            let x = (t / TAU).rem_euclid(1.0);
+            if x < 0.75 { x / 0.75 } else { (1.0 - x) / 0.25 }
+        };
+        profile(n as usize * per_lobe, &points, |a, _, z| {
+            let u = z / 0.4;
+            let (wave, taper) = match self {
+                Self::Cn => (saw(n_f * a), 1.0 - 0.2 * u),
+                Self::Cnv => ((n_f * a).cos(), 1.0 - 0.2 * u),
+                Self::Cnh => (saw(n_f * a), 1.0),
+                Self::Dn => ((n_f * a + 0.8 * u).cos(), 1.0),
+                Self::Dnd => (u * (n_f * a).cos(), 1.0),
+                Self::Dnh => ((n_f * a).cos(), 1.0),
+                Self::S2n => (u * (n_f * a).cos() + u * u * u * (n_f * a).sin(), 1.0),
+            };
+            ((1.0 - depth + depth * wave) * taper, z)
+        })
+    }
+}
+
+/// Puts a body somewhere, at some scale, with noise of the given share of the size on every
+/// coordinate, rounded to single precision.
+pub fn place(document: &Document, random: &mut Random, scale: f64, noise: f64) -> Document {
+    let mut placed = document.clone();
+    let q = DQuat::from_xyzw(
+        random.unit() - 0.5,
+        random.unit() - 0.5,
+        random.unit() - 0.5,
+        random.unit() - 0.5,
+    );
+    let rotation = DMat3::from_quat(q.normalize());
+    let shift = 4.0 * random_vector(random);
+    let mut largest = 0.0_f64;
+    for p in &mut placed.templates[0].vertices {
+        let moved = rotation * *p + shift + noise * random_vector(random);
+        *p = (moved * scale).as_vec3().as_dvec3();
+        largest = largest.max(p.abs().max_element());
+    }
+    placed.source = Some(tmesh::Source {
+        format: "stl".to_owned(),
+        triangles: placed.templates[0].triangles.len() as u64,
+        volume: 0.0,
+        boundary_area: 0.0,
+        precision: largest * f64::from(f32::EPSILON) / 2.0,
+    });
+    placed
+}
+
+/// Uniform in the cube from -1 to 1.
+pub fn random_vector(random: &mut Random) -> DVec3 {
+    let mut x = || 2.0 * random.unit() - 1.0;
+    DVec3::new(x(), x(), x())
+}
+
+/// Splits random triangles at a random inner point, which leaves the shape as it is.
+pub fn split_faces(document: &Document, random: &mut Random, share: f64) -> Document {
+    let mut split = document.clone();
+    let template = &mut split.templates[0];
+    for i in 0..template.triangles.len() {
+        if random.unit() >= share {
+            continue;
+        }
+        let t = template.triangles[i];
+        let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
+        let (u, v) = (0.2 + 0.3 * random.unit(), 0.2 + 0.3 * random.unit());
+        let new = template.vertices.len() as u32;
+        template.vertices.push(a + (b - a) * u + (c - a) * v);
+        let [p, q, r] = t.vertices;
+        template.triangles[i].vertices = [p, q, new];
+        for vertices in [[q, r, new], [r, p, new]] {
+            template.triangles.push(Triangle { vertices, ..t });
+        }
+    }
+    split
 }

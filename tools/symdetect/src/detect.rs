@@ -80,6 +80,8 @@ struct Job<'a> {
 /// A frame, the group in it, and how well it holds.
 struct Found {
     frame: Frame,
+    /// The frame before it was adjusted to all operations and rounded.
+    rough: Frame,
     radius: f64,
     group: Group,
     verified: Verified,
@@ -103,19 +105,33 @@ impl Job<'_> {
         };
         let mut candidates = rotations.clone();
         while let Some(best) = self.take_best(&mut candidates) {
-            let Some(rotation) = self.confirm(&best) else {
-                continue;
-            };
-            if rotation.order < best.order && !candidates.is_empty() {
-                candidates.push(rotation);
+            log(&format!(
+                "order {} about {} by a quick test",
+                best.order,
+                At(best.frame.rotation.z_axis)
+            ));
+            let mut found = self.complete(best.clone());
+            // Among half-turn axes the main one is that with the most operations beside it.
+            if best.order == 2 {
+                for other in candidates.iter().filter(|c| c.order == 2 && c.distinct) {
+                    let other = self.complete(other.clone());
+                    if other.group.rank() > found.group.rank() {
+                        found = other;
+                    }
+                }
+            }
+            log(&format!("group {} by a quick test", found.group.symbol()));
+            if !self.certify(&mut found) {
+                let z = found.frame.rotation.z_axis;
+                let (s, o, l) = (self.shape, self.orders(), self.limits);
+                candidates.retain(|c| c.frame.rotation.z_axis.cross(z).length() > 2e-3);
+                let lower = find_rotation(s, found.frame.origin, z, false, o, l, Depth::Full)
+                    .filter(|r| r.order < found.group.order);
+                candidates.extend(lower);
+                log("some operation does not hold everywhere");
                 continue;
             }
-            log(&format!(
-                "order {} about {}",
-                rotation.order,
-                At(rotation.frame.rotation.z_axis)
-            ));
-            let found = self.complete(rotation, log);
+            log(&format!("group {} verified in full", found.group.symbol()));
             return Ok(self.report(found, &rotations, log));
         }
         if let Some(n) = self.params.order.filter(|&n| n > 1) {
@@ -265,38 +281,13 @@ impl Job<'_> {
         (!candidates.is_empty()).then(|| candidates.swap_remove(best))
     }
 
-    /// Repeats a quick find with full depth; the order may turn out lower.
-    fn confirm(&self, quick: &Rotation) -> Option<Rotation> {
-        let limit = self.limits.tolerance * quick.radius;
-        let full = self
-            .shape
-            .verify_rotation(&quick.frame, quick.order, limit, Depth::Full);
-        match full {
-            Ok((deviation, permutation)) => Some(Rotation {
-                deviation,
-                permutation,
-                ..quick.clone()
-            }),
-            Err(_) => find_rotation(
-                self.shape,
-                quick.frame.origin,
-                quick.frame.rotation.z_axis,
-                false,
-                self.orders(),
-                self.limits,
-                Depth::Full,
-            ),
-        }
-    }
-
     /// Mirrors and flips beside a rotation, all adjusted together.
-    fn complete(&self, rotation: Rotation, log: &mut dyn FnMut(&str)) -> Found {
+    fn complete(&self, rotation: Rotation) -> Found {
         let (shape, limits) = (self.shape, self.limits);
         let radius = rotation.radius;
         let limit = limits.tolerance * radius;
         let fixed = self.params.axis.is_some() && rotation.deviation.value <= self.noise(radius);
         let mut rotation = self.directed(rotation);
-        let base = rotation.clone();
         let mut group = Group {
             order: rotation.order,
             mirror: false,
@@ -349,47 +340,55 @@ impl Job<'_> {
             let frames = [found.frame, turned_to(&rotation.frame, &found.frame)];
             extend(&mut group, &mut rotation, wider, &frames);
         }
-        log(&format!("group {} by a quick test", group.symbol()));
         let mut found = Found {
             frame: rotation.frame,
+            rough: rotation.frame,
             radius,
             group,
             verified: state,
             axisymmetric: rotation.axisymmetric,
             distinct: rotation.distinct,
         };
-        let rough = found.frame;
         if !fixed {
             self.polish(&mut found);
         }
         self.settle(&mut found);
-        self.certify(&mut found, &rough, &base);
         found
     }
 
-    /// Verifies the whole group in full; what does not hold in any of the frames at hand is dropped.
-    fn certify(&self, found: &mut Found, rough: &Frame, base: &Rotation) {
+    /// Verifies the whole group in full; mirrors and flips that do not hold are dropped. Returns
+    /// whether the rotation holds.
+    fn certify(&self, found: &mut Found) -> bool {
         let limit = self.limits.tolerance * found.radius;
-        loop {
-            for frame in [found.frame, *rough] {
-                if let Ok(verified) = found.group.verify(self.shape, &frame, limit, Depth::Full) {
-                    found.frame = frame;
-                    found.verified = verified;
-                    return;
+        let whole = found.group;
+        let parts = [
+            whole,
+            Group {
+                flip: Flip::None,
+                ..whole
+            },
+            Group {
+                mirror: false,
+                ..whole
+            },
+            Group {
+                mirror: false,
+                flip: Flip::None,
+                ..whole
+            },
+        ];
+        for (i, group) in parts.iter().enumerate() {
+            if parts[..i].contains(group) {
+                continue;
+            }
+            for frame in [found.frame, found.rough] {
+                if let Ok(verified) = group.verify(self.shape, &frame, limit, Depth::Full) {
+                    (found.frame, found.group, found.verified) = (frame, *group, verified);
+                    return true;
                 }
             }
-            if found.group.flip != Flip::None {
-                found.group.flip = Flip::None;
-            } else if found.group.mirror {
-                found.group.mirror = false;
-            } else {
-                break;
-            }
         }
-        // The rotation alone was verified in full before.
-        found.frame = base.frame;
-        found.verified.deviation = base.deviation;
-        found.verified.rotation = base.permutation.clone();
+        false
     }
 
     /// Points the axis along its largest component, or as the user pointed it.
@@ -519,6 +518,7 @@ impl Job<'_> {
         let identity = Permutation::identity(shape.regions.len());
         let mut found = Found {
             frame: mirror.frame,
+            rough: mirror.frame,
             radius,
             group: Group {
                 order: 1,
@@ -827,7 +827,7 @@ impl Job<'_> {
         let most = self.params.max_order.max(n).min((4 * n).max(48)).min(768);
         let most_off = FAR_OFF * found.radius;
         let measured: Vec<RejectedOrder> = (2..=most)
-            .filter(|m| n % m != 0)
+            .filter(|m| !n.is_multiple_of(*m))
             .map(|m| RejectedOrder {
                 order: m,
                 residual: deviation_measured(self.shape, &found.frame, m, 80, most_off).value

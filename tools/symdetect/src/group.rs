@@ -61,6 +61,11 @@ impl Group {
         }
     }
 
+    /// How much there is beside the rotation: mirrors count most.
+    pub fn rank(&self) -> u32 {
+        2 * u32::from(self.mirror) + u32::from(self.flip != Flip::None)
+    }
+
     /// Matrix of the flip in the frame.
     pub fn flip_matrix(&self) -> Option<DMat3> {
         match self.flip {

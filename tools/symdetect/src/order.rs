@@ -92,7 +92,12 @@ pub fn find_rotation(
         return None;
     }
     let loose = limits.loose * radius;
-    let candidates = search.scan(&start, loose, OUTLIERS);
+    let revolution = shape.deviation_from_revolution(&start, loose).value <= loose;
+    let candidates = if revolution && search.orders.end() > search.orders.start() {
+        search.orders.clone().collect()
+    } else {
+        search.scan(&start, loose, OUTLIERS)
+    };
     let largest = *candidates.last()?;
     let mut best: Option<Rotation> = None;
     let keep = |best: &mut Option<Rotation>, found: Option<Rotation>| {
@@ -215,8 +220,6 @@ impl Search<'_> {
     fn in_frame(&self, frame: &Frame) -> Option<Rotation> {
         let radius = self.shape.radius(frame);
         let limit = self.limits.tolerance * radius;
-        let survivors = self.scan(frame, limit, 0.0);
-        let most = *survivors.last()?;
         let found = |order: u32, permutation, deviation, axisymmetric, distinct| {
             Some(Rotation {
                 frame: *frame,
@@ -230,12 +233,8 @@ impl Search<'_> {
         };
         let verify = |n| self.shape.verify_rotation(frame, n, limit, self.depth);
         let full_range = self.orders.end() > self.orders.start();
-        let revolution = if most > 2 || !full_range {
-            let d = self.shape.deviation_from_revolution(frame, 3.0 * limit);
-            (d.value <= 3.0 * limit).then_some(d)
-        } else {
-            None
-        };
+        let revolution = Some(self.shape.deviation_from_revolution(frame, 3.0 * limit))
+            .filter(|d| d.value <= 3.0 * limit);
         let axisymmetric = revolution.is_some_and(|d| d.value <= limit);
         if full_range && revolution.is_some() {
             if let Some(n) = self.facet_count(frame, limit)
@@ -252,7 +251,7 @@ impl Search<'_> {
                 return found(n, p, deviation, true, false);
             }
         }
-        for &n in survivors.iter().rev() {
+        for n in self.scan(frame, limit, 0.0).into_iter().rev() {
             if let Ok((deviation, permutation)) = verify(n) {
                 return found(n, permutation, deviation, axisymmetric, true);
             }

@@ -43,7 +43,7 @@ pub fn refine(
         if step.mean_square >= best_error {
             break;
         }
-        let gain = step.mean_square < 0.98 * best_error;
+        let gain = step.mean_square < 0.9 * best_error;
         best_error = step.mean_square;
         best = frame;
         if !gain || step.mean_square == 0.0 {

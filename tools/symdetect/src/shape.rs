@@ -31,6 +31,8 @@ pub struct Shape {
     pub precision: f64,
     /// Moments, in this frame.
     pub moments: Moments,
+    /// Threads that tests may use.
+    pub threads: usize,
     /// Test points.
     pub samples: Samples,
     all: Bvh,
@@ -162,6 +164,7 @@ impl Shape {
             scale,
             precision,
             moments,
+            threads: std::thread::available_parallelism().map_or(1, |n| n.get().min(16)),
             samples,
             all,
             by_class,

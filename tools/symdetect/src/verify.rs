@@ -57,7 +57,7 @@ const BLOCK: usize = 1 << 15;
 /// Tests below which threads do not pay.
 const PARALLEL: usize = 1 << 12;
 /// Tests spread over all operations: quick and full.
-const SHARED: [usize; 2] = [3_000, 100_000];
+const SHARED: [usize; 2] = [3_000, 60_000];
 
 impl Shape {
     /// Deviation of one test: sample, operation. Beyond `limit`, the distance to any triangle that
@@ -103,7 +103,7 @@ impl Shape {
             }
             worst
         };
-        let threads = thread::available_parallelism().map_or(1, |n| n.get().min(16));
+        let threads = self.threads;
         let mut worst = Deviation::NONE;
         let mut first = 0;
         // Small blocks to begin with: what fails mostly fails early.
