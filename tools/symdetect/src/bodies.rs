@@ -218,3 +218,81 @@ pub fn split_faces(document: &Document, random: &mut Random, share: f64) -> Docu
     }
     split
 }
+
+/// Unit cubes on a grid of `size`, each of the region that `region` gives it; faces between different
+/// regions only.
+pub fn cubes(size: [i32; 3], region: impl Fn([i32; 3]) -> u32) -> Document {
+    let inside = |c: [i32; 3]| (0..3).all(|k| (0..size[k]).contains(&c[k]));
+    let region_at = |c: [i32; 3]| if inside(c) { region(c) } else { OUTSIDE };
+    let id = |c: [i32; 3]| (c[0] + (size[0] + 1) * (c[1] + (size[1] + 1) * c[2])) as u32;
+    let mut vertices = Vec::new();
+    for z in 0..=size[2] {
+        for y in 0..=size[1] {
+            for x in 0..=size[0] {
+                vertices.push(DVec3::new(x.into(), y.into(), z.into()));
+            }
+        }
+    }
+    let mut triangles = Vec::new();
+    let mut regions = std::collections::BTreeSet::new();
+    for z in 0..=size[2] {
+        for y in 0..=size[1] {
+            for x in 0..=size[0] {
+                let here = [x, y, z];
+                for k in 0..3 {
+                    let mut below = here;
+                    below[k] -= 1;
+                    let (front, back) = (region_at(here), region_at(below));
+                    if front == back {
+                        continue;
+                    }
+                    regions.extend([front, back]);
+                    let (mut u, mut v, mut w) = (here, here, here);
+                    u[(k + 1) % 3] += 1;
+                    v[(k + 1) % 3] += 1;
+                    v[(k + 2) % 3] += 1;
+                    w[(k + 2) % 3] += 1;
+                    for vertices in [[here, u, v], [here, v, w]] {
+                        triangles.push(Triangle {
+                            vertices: vertices.map(id),
+                            marker: 0,
+                            front,
+                            back,
+                        });
+                    }
+                }
+            }
+        }
+    }
+    regions.remove(&OUTSIDE);
+    let mut document = Document::single(Template {
+        vertices,
+        triangles,
+        ..Template::default()
+    });
+    document.regions = regions.into_iter().map(self::region).collect();
+    document
+}
+
+/// The convex hull of a few points: every plane through three of them with all others on one side.
+pub fn hull(points: &[DVec3]) -> Document {
+    let n = points.len();
+    let mut triangles = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            for k in 0..n {
+                if i >= j || i >= k || j == k {
+                    continue;
+                }
+                let normal = (points[j] - points[i]).cross(points[k] - points[i]);
+                let below = |p: &DVec3| normal.dot(*p - points[i]) < 1e-9;
+                let on = |p: &&DVec3| normal.dot(**p - points[i]).abs() < 1e-9;
+                if normal.length() > 1e-9 && points.iter().all(below) {
+                    assert_eq!(points.iter().filter(on).count(), 3, "faces are triangles");
+                    triangles.push([i as u32, j as u32, k as u32]);
+                }
+            }
+        }
+    }
+    document(points.to_vec(), triangles)
+}

@@ -11,7 +11,7 @@ use crate::order::{Limits, Rotation, deviation_measured, find_rotation, powers};
 use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::shape::{Motion, Shape, Target};
-use crate::verify::{Depth, Deviation, Operation};
+use crate::verify::{Bound, Depth, Deviation, Operation};
 use crate::{Params, placement};
 use glam::{DMat3, DVec3};
 use std::ops::RangeInclusive;
@@ -65,7 +65,7 @@ pub fn detect(
         shape: &shape,
         params,
         limits: Limits::new(params.tolerance),
-        centre: params.center.map_or(DVec3::ZERO, |c| shape.from_world(c)),
+        centre: params.center.map_or(DVec3::ZERO, |c| shape.of_world(c)),
     };
     job.run(log)
 }
@@ -97,12 +97,23 @@ impl Job<'_> {
         }
     }
 
-    fn run(&self, log: &mut dyn FnMut(&str)) -> Result<Detection, Error> {
-        let (directions, rotations) = if self.params.order == Some(1) {
+    fn run(mut self, log: &mut dyn FnMut(&str)) -> Result<Detection, Error> {
+        let (directions, mut rotations) = if self.params.order == Some(1) {
             (self.directions(log), Vec::new())
         } else {
             self.rotations(log)
         };
+        if self.params.order != Some(1) && self.facets_may_hide(&directions, &rotations) {
+            self.limits.facets = true;
+            let best = |all: &[Rotation]| all.iter().map(Rotation::rank).max();
+            let (_, wider) = self.rotations(log);
+            if best(&wider) > best(&rotations) {
+                log("facets of smooth surfaces allowed for");
+                rotations = wider;
+            } else {
+                self.limits.facets = false;
+            }
+        }
         let mut candidates = rotations.clone();
         while let Some(best) = self.take_best(&mut candidates) {
             log(&format!(
@@ -137,9 +148,12 @@ impl Job<'_> {
         if let Some(n) = self.params.order.filter(|&n| n > 1) {
             return Err(self.order_fails(n, &directions));
         }
-        if let Some(found) = self.mirror_only(&directions) {
-            log("a single mirror plane");
-            return Ok(self.report(found, &[], log));
+        for facets in [false, true] {
+            self.limits.facets = facets;
+            if let Some(found) = self.mirror_only(&directions) {
+                log("a single mirror plane");
+                return Ok(self.report(found, &[], log));
+            }
         }
         let closest = self.closest(&directions);
         let error = Error::Asymmetric {
@@ -151,6 +165,22 @@ impl Job<'_> {
         } else {
             Err(error)
         }
+    }
+
+    /// Whether a higher order would hold with twice the tolerance, and differences between facets may
+    /// be the reason why it does not hold with the tolerance itself.
+    fn facets_may_hide(&self, directions: &[DVec3], rotations: &[Rotation]) -> bool {
+        let best = rotations.iter().max_by_key(|r| r.rank());
+        if best.is_some_and(|b| b.axisymmetric || b.deviation.value <= 10.0 * self.noise(b.radius))
+        {
+            return false;
+        }
+        let limits = Limits::new(2.0 * self.limits.tolerance);
+        directions.iter().take(12).any(|&d| {
+            let (shape, orders) = (self.shape, self.orders());
+            find_rotation(shape, self.centre, d, false, orders, limits, Depth::Quick)
+                .is_some_and(|r| best.is_none_or(|b| r.rank() > b.rank()))
+        })
     }
 
     fn directions(&self, log: &mut dyn FnMut(&str)) -> Vec<DVec3> {
@@ -183,12 +213,8 @@ impl Job<'_> {
             directions.len(),
             found.len()
         ));
-        let highest = found
-            .iter()
-            .filter(|r| r.distinct)
-            .map(|r| r.order)
-            .max()
-            .unwrap_or(1);
+        let distinct_orders = found.iter().filter(|r| r.distinct).map(|r| r.order);
+        let highest = distinct_orders.max().unwrap_or(1);
         if principal.isotropic || (principal.degenerate && highest < 3) {
             let tried = directions.len();
             directions.extend(candidates::higher(self.shape));
@@ -202,6 +228,7 @@ impl Job<'_> {
                 found.len()
             ));
         }
+        found.retain(|r| self.passes_centre(&r.frame, r.frame.rotation.z_axis, r.radius));
         let mut kept: Vec<Rotation> = Vec::new();
         for r in found {
             let z = r.frame.rotation.z_axis;
@@ -238,15 +265,20 @@ impl Job<'_> {
         }
         let adjusted = find(false).filter(|a| {
             let z = a.frame.rotation.z_axis;
-            let off = a.frame.origin - self.centre;
-            let off = (off - z * off.dot(z)).length();
-            z.cross(axis).length() <= OVERRIDE_ANGLE
-                && (self.params.center.is_none() || off <= 4.0 * limits.tolerance * a.radius)
+            z.cross(axis).length() <= OVERRIDE_ANGLE && self.passes_centre(&a.frame, z, a.radius)
         });
         match (given, adjusted) {
             (Some(g), Some(a)) if g.order > a.order => Some(g),
             (g, a) => a.or(g),
         }
+    }
+
+    /// Whether the line along `free` (or, with `free` zero, the point) through the frame's origin
+    /// passes the centre that the user gave; an adjustment may move it by a few tolerances.
+    fn passes_centre(&self, frame: &Frame, free: DVec3, radius: f64) -> bool {
+        let off = frame.origin - self.centre;
+        let off = (off - free * off.dot(free)).length();
+        self.params.center.is_none() || off <= 4.0 * self.limits.tolerance * radius
     }
 
     /// Deviation that the input's precision explains, in the units of the shape.
@@ -260,10 +292,9 @@ impl Job<'_> {
         let mut best = 0;
         for i in 1..candidates.len() {
             let (a, b) = (&candidates[i], &candidates[best]);
-            let key = |r: &Rotation| (r.distinct, r.order);
             let residual = |r: &Rotation| r.deviation.value.max(self.noise(r.radius)) / r.radius;
-            let better = if key(a) != key(b) {
-                key(a) > key(b)
+            let better = if a.rank() != b.rank() {
+                a.rank() > b.rank()
             } else if residual(a) < 0.5 * residual(b) || residual(b) < 0.5 * residual(a) {
                 residual(a) < residual(b)
             } else {
@@ -285,7 +316,7 @@ impl Job<'_> {
     fn complete(&self, rotation: Rotation) -> Found {
         let (shape, limits) = (self.shape, self.limits);
         let radius = rotation.radius;
-        let limit = limits.tolerance * radius;
+        let bound = limits.bound(radius);
         let fixed = self.params.axis.is_some() && rotation.deviation.value <= self.noise(radius);
         let mut rotation = self.directed(rotation);
         let mut group = Group {
@@ -303,7 +334,7 @@ impl Job<'_> {
         let mut extend =
             |group: &mut Group, rotation: &mut Rotation, wider: Group, frames: &[Frame]| {
                 for frame in frames {
-                    if let Ok(v) = wider.verify(shape, frame, limit, Depth::Quick) {
+                    if let Ok(v) = wider.verify(shape, frame, bound, Depth::Quick) {
                         (*group, rotation.frame, state) = (wider, *frame, v);
                         return true;
                     }
@@ -359,7 +390,7 @@ impl Job<'_> {
     /// Verifies the whole group in full; mirrors and flips that do not hold are dropped. Returns
     /// whether the rotation holds.
     fn certify(&self, found: &mut Found) -> bool {
-        let limit = self.limits.tolerance * found.radius;
+        let bound = self.limits.bound(found.radius);
         let whole = found.group;
         let parts = [
             whole,
@@ -382,7 +413,7 @@ impl Job<'_> {
                 continue;
             }
             for frame in [found.frame, found.rough] {
-                if let Ok(verified) = group.verify(self.shape, &frame, limit, Depth::Full) {
+                if let Ok(verified) = group.verify(self.shape, &frame, bound, Depth::Full) {
                     (found.frame, found.group, found.verified) = (frame, *group, verified);
                     return true;
                 }
@@ -450,8 +481,13 @@ impl Job<'_> {
     /// Takes a frame if the group holds in it with at most `factor` times the deviation.
     fn adopt(&self, found: &mut Found, frame: Frame, factor: f64) {
         let limit = (found.verified.deviation.value * factor).max(self.shape.precision);
-        let limit = limit.min(self.limits.tolerance * found.radius);
-        if let Ok(verified) = found.group.verify(self.shape, &frame, limit, Depth::Quick) {
+        let bound = self.limits.bound(found.radius);
+        let bound = if limit < bound.limit {
+            Bound::plain(limit)
+        } else {
+            bound
+        };
+        if let Ok(verified) = found.group.verify(self.shape, &frame, bound, Depth::Quick) {
             found.frame = frame;
             found.verified = verified;
         }
@@ -469,8 +505,8 @@ impl Job<'_> {
         let frame = Frame::from_axis(found.frame.origin, found.frame.rotation.z_axis, x);
         if let Some(frame) = frame {
             // The same group in an equivalent frame: only rounding and region maps can differ.
-            let limit = self.limits.tolerance * found.radius;
-            if let Ok(verified) = found.group.verify(self.shape, &frame, limit, Depth::Quick) {
+            let bound = self.limits.bound(found.radius);
+            if let Ok(verified) = found.group.verify(self.shape, &frame, bound, Depth::Quick) {
                 found.frame = frame;
                 found.verified = verified;
             }
@@ -506,6 +542,10 @@ impl Job<'_> {
             else {
                 continue;
             };
+            // The origin was adjusted along the normal only: it must still be where it was.
+            if !self.passes_centre(&found.frame, DVec3::ZERO, radius) {
+                continue;
+            }
             let value = |f: &MirrorFound, r: f64| f.deviation.value.max(self.noise(r));
             if best
                 .as_ref()
@@ -535,8 +575,8 @@ impl Job<'_> {
             distinct: true,
         };
         self.settle(&mut found);
-        let limit = limits.tolerance * radius;
-        match found.group.verify(shape, &found.frame, limit, Depth::Full) {
+        let bound = limits.bound(radius);
+        match found.group.verify(shape, &found.frame, bound, Depth::Full) {
             Ok(verified) => found.verified = verified,
             Err(_) => found.frame = mirror.frame,
         }
@@ -554,9 +594,12 @@ impl Job<'_> {
                 motion: Motion::new(frame, HORIZONTAL),
                 target: target.clone(),
             };
-            shape.worst(count.min(samples.len()), f64::INFINITY, |i| {
-                (&samples[i], &operation)
-            })
+            let open = Bound::plain(f64::MAX);
+            shape
+                .worst(count.min(samples.len()), open, |i| {
+                    (&samples[i], &operation)
+                })
+                .unwrap_or_else(|beyond| beyond)
         };
         for &d in directions.iter().take(16) {
             let Some(frame) = Frame::from_axis(self.centre, d, d.any_orthogonal_vector()) else {
@@ -681,6 +724,12 @@ impl Job<'_> {
         };
         log(&format!("{} orders rejected are listed", rejected.len()));
         let mut notes = Vec::new();
+        if residual > self.params.tolerance {
+            notes.push(format!(
+                "beyond the tolerance of {:e} only as far as the facets of smooth surfaces explain",
+                self.params.tolerance
+            ));
+        }
         if found.axisymmetric && !found.distinct {
             notes.push(format!(
                 "a body of revolution whose facets have no common order; order {} stands for any",
@@ -804,11 +853,11 @@ impl Job<'_> {
             5 => "I",
             _ => return None,
         };
-        let limit = self.limits.tolerance * found.radius;
+        let bound = self.limits.bound(found.radius);
         let inversion = Motion::new(&found.frame, -DMat3::IDENTITY);
         let suffix = if self
             .shape
-            .verify_one(inversion, limit, Depth::Quick)
+            .verify_one(inversion, bound, Depth::Quick)
             .is_ok()
         {
             "h"
@@ -830,7 +879,7 @@ impl Job<'_> {
             .filter(|m| !n.is_multiple_of(*m))
             .map(|m| RejectedOrder {
                 order: m,
-                residual: deviation_measured(self.shape, &found.frame, m, 80, most_off).value
+                residual: deviation_measured(self.shape, &found.frame, m, 400, most_off).value
                     / found.radius,
             })
             .filter(|r| r.residual > self.params.tolerance)

@@ -57,11 +57,9 @@ fn rotate<const N: usize>(a: &mut [[f64; N]; N], v: &mut [[f64; N]; N], p: usize
         row[p] = c * x - s * y;
         row[q] = s * x + c * y;
     }
-    for k in 0..N {
-        let (x, y) = (a[p][k], a[q][k]);
-        a[p][k] = c * x - s * y;
-        a[q][k] = s * x + c * y;
-    }
+    let (rp, rq) = (a[p], a[q]);
+    a[p] = std::array::from_fn(|k| c * rp[k] - s * rq[k]);
+    a[q] = std::array::from_fn(|k| s * rp[k] + c * rq[k]);
     for row in v.iter_mut() {
         let (x, y) = (row[p], row[q]);
         row[p] = c * x - s * y;

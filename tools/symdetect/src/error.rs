@@ -19,7 +19,7 @@ impl fmt::Display for At {
 pub fn short(x: f64) -> String {
     let text = format!("{x:.5e}");
     match text.parse::<f64>() {
-        Ok(y) if y == 0.0 => "0".to_owned(),
+        Ok(0.0) => "0".to_owned(),
         Ok(y) if (1e-4..1e7).contains(&y.abs()) => format!("{y}"),
         Ok(y) => format!("{y:e}"),
         Err(_) => text,

@@ -3,7 +3,7 @@
 use crate::mirror::{HALF_TURN, HORIZONTAL, VERTICAL};
 use crate::permutation::Permutation;
 use crate::shape::{Motion, Shape};
-use crate::verify::{Depth, Deviation, Operation};
+use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DMat3;
 use tmesh::{Frame, Isometry};
 
@@ -76,12 +76,12 @@ impl Group {
         }
     }
 
-    /// Verifies all operations in a frame, within `limit` (units of the shape).
+    /// Verifies all operations in a frame, within the bound.
     pub fn verify(
         &self,
         shape: &Shape,
         frame: &Frame,
-        limit: f64,
+        bound: Bound,
         depth: Depth,
     ) -> Result<Verified, Deviation> {
         let identity = Permutation::identity(shape.regions.len());
@@ -89,18 +89,18 @@ impl Group {
         let mut rotation = identity.clone();
         if self.order > 1 {
             let (deviation, permutation) =
-                shape.verify_rotation(frame, self.order, limit, depth)?;
+                shape.verify_rotation(frame, self.order, bound, depth)?;
             worst = worst.max(deviation);
             rotation = permutation;
         }
         let (mut mirror, mut flip) = (identity.clone(), identity);
         if self.mirror {
-            let found = self.verify_coset(shape, frame, VERTICAL, &rotation, limit, depth)?;
+            let found = self.verify_coset(shape, frame, VERTICAL, &rotation, bound, depth)?;
             worst = worst.max(found.0);
             mirror = found.1;
         }
         if let Some(matrix) = self.flip_matrix() {
-            let found = self.verify_coset(shape, frame, matrix, &rotation, limit, depth)?;
+            let found = self.verify_coset(shape, frame, matrix, &rotation, bound, depth)?;
             worst = worst.max(found.0);
             flip = found.1;
         }
@@ -119,10 +119,10 @@ impl Group {
         frame: &Frame,
         matrix: DMat3,
         rotation: &Permutation,
-        limit: f64,
+        bound: Bound,
         depth: Depth,
     ) -> Result<(Deviation, Permutation), Deviation> {
-        let (first, permutation) = shape.verify_one(Motion::new(frame, matrix), limit, depth)?;
+        let (first, permutation) = shape.verify_one(Motion::new(frame, matrix), bound, depth)?;
         if self.order == 1 {
             return Ok((first, permutation));
         }
@@ -136,10 +136,7 @@ impl Group {
                 }
             })
             .collect();
-        let others = shape.verify_family(&operations, limit, Depth::Quick);
-        if others.value > limit {
-            return Err(others);
-        }
+        let others = shape.verify_family(&operations, bound, Depth::Quick)?;
         Ok((first.max(others), permutation))
     }
 }

@@ -85,7 +85,7 @@ pub fn find_turned(
     candidates.sort_by(|&i, &j| scores[i].total_cmp(&scores[j]).then(i.cmp(&j)));
     candidates.truncate(CLOSE);
 
-    let limit = limits.tolerance * radius;
+    let bound = limits.bound(*radius);
     let mut best: Option<Found> = None;
     for i in candidates {
         let (s, c) = libm::sincos(angle(i));
@@ -103,7 +103,7 @@ pub fn find_turned(
             refine(shape, turned, &operations, 5_000, loose)
         };
         let motion = Motion::new(&adjusted, kind);
-        if let Ok((deviation, permutation)) = shape.verify_one(motion, limit, Depth::Quick) {
+        if let Ok((deviation, permutation)) = shape.verify_one(motion, bound, Depth::Quick) {
             let better = best
                 .as_ref()
                 .is_none_or(|b| deviation.value < 0.5 * b.deviation.value);
@@ -155,11 +155,11 @@ pub fn find_flip(
         origin: frame.origin + along,
         ..*frame
     };
-    let limit = limits.tolerance * rotation.radius;
+    let bound = limits.bound(rotation.radius);
     let mut best: Option<Found> = None;
     for frame in [slid, *frame] {
         if let Ok((deviation, permutation)) =
-            shape.verify_one(Motion::new(&frame, matrix), limit, Depth::Quick)
+            shape.verify_one(Motion::new(&frame, matrix), bound, Depth::Quick)
             && best
                 .as_ref()
                 .is_none_or(|b| deviation.value < 0.5 * b.deviation.value)
@@ -202,8 +202,8 @@ pub fn find_mirror_plane(
     let frame = frame_of(adjusted.origin, adjusted.rotation.y_axis)?;
     let radius = shape.radius(&frame);
     let motion = Motion::new(&frame, VERTICAL);
-    let limit = limits.tolerance * radius;
-    let (deviation, permutation) = shape.verify_one(motion, limit, depth).ok()?;
+    let bound = limits.bound(radius);
+    let (deviation, permutation) = shape.verify_one(motion, bound, depth).ok()?;
     let found = Found {
         frame,
         deviation,

@@ -4,7 +4,7 @@ use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::samples::{Random, Sample};
 use crate::shape::{Motion, Shape, Target};
-use crate::verify::{Depth, Deviation, Operation, golden_rotations};
+use crate::verify::{Bound, Depth, Deviation, Operation, golden_rotations};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 use tmesh::{Frame, Isometry};
@@ -16,6 +16,9 @@ pub struct Limits {
     pub tolerance: f64,
     /// What candidates keep to before axis and centre are adjusted.
     pub loose: f64,
+    /// Whether up to the tolerance is allowed on top where facets that stand for a smooth surface
+    /// explain it.
+    pub facets: bool,
 }
 
 impl Limits {
@@ -24,6 +27,16 @@ impl Limits {
         Self {
             tolerance,
             loose: (8.0 * tolerance).clamp(8e-3, 0.2),
+            facets: false,
+        }
+    }
+
+    /// The bound on deviations of verified operations for a radius.
+    pub fn bound(&self, radius: f64) -> Bound {
+        let limit = self.tolerance * radius;
+        Bound {
+            limit,
+            facets: if self.facets { limit } else { 0.0 },
         }
     }
 }
@@ -48,11 +61,15 @@ pub struct Rotation {
 }
 
 impl Rotation {
+    /// Orders that stand out come before those that do not, high before low.
+    pub fn rank(&self) -> (bool, u32) {
+        (self.distinct, self.order)
+    }
+
     /// Whether this is the better find. `noise` is the deviation that is not worth a distinction.
     fn beats(&self, other: &Self, noise: f64) -> bool {
-        let key = |r: &Self| (r.distinct, r.order);
-        if key(self) != key(other) {
-            return key(self) > key(other);
+        if self.rank() != other.rank() {
+            return self.rank() > other.rank();
         }
         self.deviation.value.max(noise) < other.deviation.value.max(noise)
     }
@@ -64,6 +81,8 @@ const SCAN: usize = 96;
 const OUTLIERS: f64 = 0.12;
 /// Factor by which the deviations of all other orders exceed those of the facet count's divisors.
 const SEPARATION: f64 = 3.0;
+/// Places remembered where orders failed.
+const OBSTACLES: usize = 24;
 /// Orders with many divisors, for bodies of revolution without a facet count.
 const COMPOSITE: [u32; 14] = [2, 4, 6, 12, 24, 36, 48, 60, 120, 180, 240, 360, 720, 840];
 
@@ -92,8 +111,8 @@ pub fn find_rotation(
         return None;
     }
     let loose = limits.loose * radius;
-    let revolution = shape.deviation_from_revolution(&start, loose).value <= loose;
-    let candidates = if revolution && search.orders.end() > search.orders.start() {
+    let revolution = shape.deviation_from_revolution(&start, loose);
+    let candidates = if revolution.is_some() && search.orders.end() > search.orders.start() {
         search.orders.clone().collect()
     } else {
         search.scan(&start, loose, OUTLIERS)
@@ -219,7 +238,8 @@ impl Search<'_> {
     /// The highest order that holds with the frame as it is.
     fn in_frame(&self, frame: &Frame) -> Option<Rotation> {
         let radius = self.shape.radius(frame);
-        let limit = self.limits.tolerance * radius;
+        let bound = self.limits.bound(radius);
+        let limit = bound.limit;
         let found = |order: u32, permutation, deviation, axisymmetric, distinct| {
             Some(Rotation {
                 frame: *frame,
@@ -231,16 +251,18 @@ impl Search<'_> {
                 distinct,
             })
         };
-        let verify = |n| self.shape.verify_rotation(frame, n, limit, self.depth);
+        let verify = |n| self.shape.verify_rotation(frame, n, bound, self.depth);
         let full_range = self.orders.end() > self.orders.start();
-        let revolution = Some(self.shape.deviation_from_revolution(frame, 3.0 * limit))
-            .filter(|d| d.value <= 3.0 * limit);
+        let revolution = self.shape.deviation_from_revolution(frame, 3.0 * limit);
         let axisymmetric = revolution.is_some_and(|d| d.value <= limit);
         if full_range && revolution.is_some() {
             if let Some(n) = self.facet_count(frame, limit)
                 && let Ok((deviation, permutation)) = verify(n)
             {
-                return found(n, permutation, deviation, axisymmetric, true);
+                // The sagitta of the facets: a polygon of that many sides deviates just so much.
+                let sagitta = radius * (1.0 - libm::cos(std::f64::consts::PI / f64::from(n)));
+                let facetted = revolution.is_some_and(|d| d.value <= 1.05 * sagitta);
+                return found(n, permutation, deviation, axisymmetric || facetted, true);
             }
             if let (true, Some(deviation)) = (axisymmetric, revolution) {
                 let n = (COMPOSITE.iter().rev())
@@ -251,12 +273,37 @@ impl Search<'_> {
                 return found(n, p, deviation, true, false);
             }
         }
-        for n in self.scan(frame, limit, 0.0).into_iter().rev() {
-            if let Ok((deviation, permutation)) = verify(n) {
-                return found(n, permutation, deviation, axisymmetric, true);
+        // Near a body of revolution many orders fail at the same few places.
+        let mut obstacles: Vec<DVec3> = Vec::new();
+        for n in self.scan(frame, bound.most(), 0.0).into_iter().rev() {
+            if obstacles
+                .iter()
+                .any(|p| self.stumbles(frame, n, *p, bound.most()))
+            {
+                continue;
+            }
+            match verify(n) {
+                Ok((deviation, permutation)) => {
+                    return found(n, permutation, deviation, axisymmetric, true);
+                }
+                Err(deviation) if obstacles.len() < OBSTACLES => obstacles.push(deviation.at),
+                Err(_) => {}
             }
         }
         None
+    }
+
+    /// Whether one of a few powers of the rotation of order `n` maps a point off the surface.
+    fn stumbles(&self, frame: &Frame, n: u32, point: DVec3, limit: f64) -> bool {
+        let sample = Sample { point, triangle: 0 };
+        let mut random = Random(u64::from(n));
+        (0..4).any(|i| {
+            let k = match i {
+                0 => 1,
+                _ => 1 + random.below(n as usize - 1) as i64,
+            };
+            distance(self.shape, frame, Isometry::rotation(k, n), &sample, limit).is_none()
+        })
     }
 
     /// The order whose divisors, and only they, hold distinctly better than all other orders; the
@@ -340,9 +387,11 @@ pub fn deviation_measured(
         })
         .collect();
     let samples = &shape.samples.mixed;
-    shape.worst(count.min(samples.len()), most, |i| {
+    let count = count.min(samples.len());
+    let measured = shape.worst(count, Bound::plain(most), |i| {
         (&samples[i], &operations[(i * 7) % operations.len()])
-    })
+    });
+    measured.unwrap_or_else(|beyond| beyond)
 }
 
 /// Greatest common divisor.

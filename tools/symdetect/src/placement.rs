@@ -67,7 +67,7 @@ pub fn rounded(shape: &Shape, frame: &Frame) -> Frame {
         .to_world(frame.origin)
         .to_array()
         .map(|c| round_at(c, shape.scale * 1e-6));
-    Frame::from_axis(shape.from_world(DVec3::from_array(origin)), z, x).unwrap_or(*frame)
+    Frame::from_axis(shape.of_world(DVec3::from_array(origin)), z, x).unwrap_or(*frame)
 }
 
 /// The decimal number nearest to `x` on a grid of a power of ten near `step`.

@@ -4,7 +4,9 @@ use crate::moments::Moments;
 use crate::permutation::Permutation;
 use crate::samples::Samples;
 use geom::bvh::{Bvh, Nearest};
+use geom::edges::{Edges, apex_of};
 use glam::{DMat3, DVec3};
+use std::sync::OnceLock;
 use tmesh::{Frame, OUTSIDE, Template};
 
 /// A surface in coordinates where its centre is the origin and its farthest point is at distance 1.
@@ -36,7 +38,15 @@ pub struct Shape {
     /// Test points.
     pub samples: Samples,
     all: Bvh,
-    by_class: Vec<Bvh>,
+    by_class: Vec<ClassSurface>,
+    chords: OnceLock<Vec<f32>>,
+}
+
+/// The triangles of one class.
+struct ClassSurface {
+    bvh: Bvh,
+    /// Index of each of them in the whole surface.
+    triangles: Vec<u32>,
 }
 
 /// A rigid or improper motion that fixes a point.
@@ -72,6 +82,9 @@ pub enum Target {
     /// Triangles of the class that the list gives for each class; [`NO_CLASS`] where there is none.
     Classes(Vec<u32>),
 }
+
+/// Cosine of the angle up to which two facets may belong to one smooth surface: 30 degrees.
+const SMOOTH: f64 = 0.866;
 
 /// No interface separates the two regions.
 pub const NO_CLASS: u32 = u32::MAX;
@@ -151,11 +164,17 @@ impl Shape {
         let corners = |t: &[u32; 3]| t.map(|v| vertices[v as usize]);
         let all = Bvh::new(triangles.iter().map(corners));
         let by_class = if classes.len() > 1 {
-            let mut members: Vec<Vec<[DVec3; 3]>> = vec![Vec::new(); classes.len()];
-            for (t, &c) in triangles.iter().zip(&class) {
-                members[c as usize].push(corners(t));
+            let mut members: Vec<Vec<u32>> = vec![Vec::new(); classes.len()];
+            for (t, &c) in class.iter().enumerate() {
+                members[c as usize].push(t as u32);
             }
-            members.into_iter().map(Bvh::new).collect()
+            members
+                .into_iter()
+                .map(|members| ClassSurface {
+                    bvh: Bvh::new(members.iter().map(|&t| corners(&triangles[t as usize]))),
+                    triangles: members,
+                })
+                .collect()
         } else {
             Vec::new()
         };
@@ -168,6 +187,7 @@ impl Shape {
             samples,
             all,
             by_class,
+            chords: OnceLock::new(),
             vertices,
             triangles,
             normals,
@@ -200,8 +220,7 @@ impl Shape {
             .sqrt()
     }
 
-    /// The nearest point of the surface to the image of a sample, if nearer than `within`. The
-    /// triangle is only meaningful for [`Target::Any`].
+    /// The nearest point of the surface to the image of a sample, if nearer than `within`.
     #[inline]
     pub fn nearest(
         &self,
@@ -213,10 +232,51 @@ impl Shape {
         match target {
             Target::Classes(map) if !self.by_class.is_empty() => {
                 let class = map[self.class[triangle as usize] as usize];
-                self.by_class.get(class as usize)?.nearest(image, within)
+                let surface = self.by_class.get(class as usize)?;
+                let mut hit = surface.bvh.nearest(image, within)?;
+                hit.triangle = surface.triangles[hit.triangle as usize];
+                Some(hit)
             }
             _ => self.all.nearest(image, within),
         }
+    }
+
+    /// How far the smooth surface that a triangle may stand for can be from it, estimated from the
+    /// angles with its neighbours: for a strip of width `w` that turns by `a` at its edges, the
+    /// sagitta of the arc is `w a / 8`, and a twisted quadrangle is off its diagonal by `w a / 4`. The
+    /// largest such value of the triangles around its corners.
+    pub fn chord(&self, triangle: u32) -> f64 {
+        let chords = self.chords.get_or_init(|| self.estimate_chords());
+        f64::from(chords[triangle as usize])
+    }
+
+    fn estimate_chords(&self) -> Vec<f32> {
+        // Noted at vertices: the flat end of a round bore shares the error of the bore's edge.
+        let mut at_vertex = vec![0.0_f32; self.vertices.len()];
+        let edges = Edges::new(&self.triangles);
+        for edge in 0..edges.len() {
+            let [u, v] = edges.around(edge) else { continue };
+            let (t, s) = (u.triangle as usize, v.triangle as usize);
+            let cosine = self.normals[t].dot(self.normals[s]);
+            if cosine < SMOOTH {
+                continue;
+            }
+            let angle = libm::acos(cosine.min(1.0));
+            let [a, b] = edges.ends[edge].map(|v| self.vertices[v as usize]);
+            for (t, corner) in [(t, u.corner), (s, v.corner)] {
+                let apex = self.vertices[apex_of(&self.triangles[t], corner) as usize];
+                let height = (apex - a).cross(b - a).length() / (b - a).length();
+                let chord = (0.25 * angle * height) as f32;
+                for &v in &self.triangles[t] {
+                    let most = &mut at_vertex[v as usize];
+                    *most = most.max(chord);
+                }
+            }
+        }
+        let of_triangle = |t: &[u32; 3]| t.map(|v| at_vertex[v as usize]);
+        (self.triangles.iter().map(of_triangle))
+            .map(|c| c[0].max(c[1]).max(c[2]))
+            .collect()
     }
 
     /// The target that a permutation of regions asks for.
@@ -240,7 +300,7 @@ impl Shape {
     }
 
     /// Position of a world point in this frame.
-    pub fn from_world(&self, p: DVec3) -> DVec3 {
+    pub fn of_world(&self, p: DVec3) -> DVec3 {
         (p - self.origin) / self.scale
     }
 }

@@ -44,6 +44,28 @@ pub enum Depth {
     Full,
 }
 
+/// What deviations are allowed, in the units of the shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Bound {
+    /// Anywhere.
+    pub limit: f64,
+    /// As much again at most where facets that stand for a smooth surface explain it
+    /// ([`Shape::chord`]).
+    pub facets: f64,
+}
+
+impl Bound {
+    /// The same everywhere.
+    pub fn plain(limit: f64) -> Self {
+        Self { limit, facets: 0.0 }
+    }
+
+    /// The largest deviation that may pass.
+    pub fn most(&self) -> f64 {
+        self.limit + self.facets
+    }
+}
+
 /// An operation and what images may land on.
 pub struct Operation {
     /// The motion.
@@ -60,60 +82,66 @@ const PARALLEL: usize = 1 << 12;
 const SHARED: [usize; 2] = [3_000, 60_000];
 
 impl Shape {
-    /// Deviation of one test: sample, operation. Beyond `limit`, the distance to any triangle that
-    /// would do, or 1 when there is none.
-    fn test(&self, sample: &Sample, operation: &Operation, limit: f64) -> f64 {
+    /// Deviation of one test, and whether it passes. Beyond the bound, the distance to any triangle
+    /// that would do, or 1 when there is none.
+    fn test(&self, sample: &Sample, operation: &Operation, bound: Bound) -> (f64, bool) {
         let image = operation.motion.apply(sample.point);
         let find = |within| self.nearest(image, sample.triangle, &operation.target, within);
-        // A little beyond the limit, so that what is found within it is found exactly.
-        if let Some(n) = find(1.01 * limit) {
-            return n.distance;
+        // A little beyond the bound, so that what is found within it is found exactly.
+        if let Some(n) = find(1.01 * bound.most()) {
+            let excess = n.distance - bound.limit;
+            let passes = excess <= 0.0
+                || (excess <= bound.facets
+                    && excess <= self.chord(sample.triangle) + self.chord(n.triangle));
+            return (n.distance, passes);
         }
         // Where many triangles are about equally far, an open search would visit them all.
-        let mut within = 4.0 * limit;
+        let mut within = 4.0 * bound.most();
         while within < 2.0 {
             if let Some(n) = find(within) {
-                return n.distance;
+                return (n.distance, false);
             }
             within *= 4.0;
         }
-        find(f64::INFINITY).map_or(1.0, |n| n.distance)
+        (find(f64::INFINITY).map_or(1.0, |n| n.distance), false)
     }
 
     /// Runs tests 0 to `count - 1`; `job` names sample and operation of each. Returns the largest
-    /// deviation, or the first one beyond `limit`. Does not depend on the number of threads.
+    /// deviation, or as an error the first one that does not pass. Does not depend on the number of
+    /// threads.
     pub fn worst<'a>(
         &self,
         count: usize,
-        limit: f64,
+        bound: Bound,
         job: impl Fn(usize) -> (&'a Sample, &'a Operation) + Sync,
-    ) -> Deviation {
+    ) -> Result<Deviation, Deviation> {
         let run = |range: std::ops::Range<usize>| {
             let mut worst = Deviation::NONE;
             for i in range {
                 let (sample, operation) = job(i);
-                let value = self.test(sample, operation, limit);
-                if value > worst.value {
-                    let at = sample.point;
-                    worst = Deviation { value, at };
-                    if value > limit {
-                        break;
-                    }
+                let (value, passes) = self.test(sample, operation, bound);
+                let at = sample.point;
+                if !passes {
+                    return Err(Deviation { value, at });
                 }
+                worst = worst.max(Deviation { value, at });
             }
-            worst
+            Ok(worst)
         };
-        let threads = self.threads;
         let mut worst = Deviation::NONE;
         let mut first = 0;
         // Small blocks to begin with: what fails mostly fails early.
         let mut block = PARALLEL / 2;
         while first < count {
             let end = (first + block).min(count);
-            let parts = if end - first < PARALLEL { 1 } else { threads };
+            let parts = if end - first < PARALLEL {
+                1
+            } else {
+                self.threads
+            };
             let step = (end - first).div_ceil(parts);
             let range = |p: usize| (first + p * step).min(end)..(first + (p + 1) * step).min(end);
-            let results: Vec<Deviation> = if parts == 1 {
+            let results: Vec<Result<Deviation, Deviation>> = if parts == 1 {
                 vec![run(first..end)]
             } else {
                 thread::scope(|scope| {
@@ -135,15 +163,12 @@ impl Shape {
                 })
             };
             for result in results {
-                worst = worst.max(result);
-                if result.value > limit {
-                    return result;
-                }
+                worst = worst.max(result?);
             }
             first = end;
             block = BLOCK;
         }
-        worst
+        Ok(worst)
     }
 
     /// The permutation of regions an operation makes, by votes of the triangles that images land on;
@@ -184,41 +209,41 @@ impl Shape {
     pub fn verify_one(
         &self,
         motion: Motion,
-        limit: f64,
+        bound: Bound,
         depth: Depth,
     ) -> Result<(Deviation, Permutation), Deviation> {
-        self.with_permutation(motion, limit, |permutation| {
+        self.with_permutation(motion, bound, |permutation| {
             let operation = Operation {
                 motion,
                 target: self.target(permutation),
             };
             let (mixed, sorted) = (&self.samples.mixed, &self.samples.sorted);
             let first = mixed.len().min(SHARED[0]);
-            let worst = self.worst(first, limit, |i| (&mixed[i], &operation));
-            if depth == Depth::Quick || worst.value > limit {
-                return worst;
+            let worst = self.worst(first, bound, |i| (&mixed[i], &operation))?;
+            if depth == Depth::Quick {
+                return Ok(worst);
             }
-            self.worst(sorted.len(), limit, |i| (&sorted[i], &operation))
+            self.worst(sorted.len(), bound, |i| (&sorted[i], &operation))
         })
     }
 
     /// Verifies that the rotation by every multiple of a turn over `n` about the frame's z axis maps
-    /// the surface onto itself within `limit`.
+    /// the surface onto itself.
     pub fn verify_rotation(
         &self,
         frame: &Frame,
         n: u32,
-        limit: f64,
+        bound: Bound,
         depth: Depth,
     ) -> Result<(Deviation, Permutation), Deviation> {
         let step = Motion::new(frame, Isometry::rotation(1, n).matrix());
-        self.with_permutation(step, limit, |permutation| {
+        self.with_permutation(step, bound, |permutation| {
             let powers = permutation.powers(n);
             if !powers[n as usize - 1].after(permutation).is_identity() {
-                return Deviation {
+                return Err(Deviation {
                     value: 1.0,
                     at: DVec3::ZERO,
-                };
+                });
             }
             let operations: Vec<Operation> = (1..n)
                 .map(|k| Operation {
@@ -226,13 +251,18 @@ impl Shape {
                     target: self.target(&powers[k as usize]),
                 })
                 .collect();
-            self.verify_family(&operations, limit, depth)
+            self.verify_family(&operations, bound, depth)
         })
     }
 
     /// Verifies many operations: a share of the samples for each, and with [`Depth::Full`] all of
     /// them for the first.
-    pub fn verify_family(&self, operations: &[Operation], limit: f64, depth: Depth) -> Deviation {
+    pub fn verify_family(
+        &self,
+        operations: &[Operation],
+        bound: Bound,
+        depth: Depth,
+    ) -> Result<Deviation, Deviation> {
         let (samples, sorted) = (&self.samples.mixed, &self.samples.sorted);
         let others = operations.len();
         // Each sample with an operation drawn at random, before anything systematic.
@@ -240,29 +270,24 @@ impl Shape {
         let draws: Vec<u32> = (0..samples.len().min(1_500))
             .map(|_| random.below(others) as u32)
             .collect();
-        let mut worst = self.worst(draws.len(), limit, |i| {
+        let mut worst = self.worst(draws.len(), bound, |i| {
             (&samples[i], &operations[draws[i] as usize])
-        });
-        if worst.value > limit {
-            return worst;
-        }
+        })?;
         if depth == Depth::Full {
-            worst = worst.max(self.worst(sorted.len(), limit, |i| (&sorted[i], &operations[0])));
-            if worst.value > limit {
-                return worst;
-            }
+            worst = worst.max(self.worst(sorted.len(), bound, |i| (&sorted[i], &operations[0]))?);
         }
         let shared = SHARED[usize::from(depth == Depth::Full)];
         let each = (shared / others).clamp(24, sorted.len().max(24));
         let stride = (sorted.len() / each).max(1);
-        worst.max(self.worst(each * others, limit, |i| {
+        let rest = self.worst(each * others, bound, |i| {
             let (which, i) = (i / each, i % each);
             // Spread over the whole surface, and other samples for the next operation.
             (
                 &sorted[(i * stride + which) % sorted.len()],
                 &operations[which],
             )
-        }))
+        })?;
+        Ok(worst.max(rest))
     }
 
     /// Runs `check` with regions in place; should that fail while the bare geometry passes, with the
@@ -270,35 +295,34 @@ impl Shape {
     fn with_permutation(
         &self,
         motion: Motion,
-        limit: f64,
-        check: impl Fn(&Permutation) -> Deviation,
+        bound: Bound,
+        check: impl Fn(&Permutation) -> Result<Deviation, Deviation>,
     ) -> Result<(Deviation, Permutation), Deviation> {
         let identity = Permutation::identity(self.regions.len());
-        let deviation = check(&identity);
-        if deviation.value <= limit {
-            return Ok((deviation, identity));
-        }
+        let failed = match check(&identity) {
+            Ok(deviation) => return Ok((deviation, identity)),
+            Err(failed) => failed,
+        };
         if self.regions.len() > 2
-            && let Some(permutation) = self.vote(&motion, limit)
+            && let Some(permutation) = self.vote(&motion, bound.most())
             && !permutation.is_identity()
+            && let Ok(deviation) = check(&permutation)
         {
-            let permuted = check(&permutation);
-            if permuted.value <= limit {
-                return Ok((permuted, permutation));
-            }
+            return Ok((deviation, permutation));
         }
-        Err(deviation)
+        Err(failed)
     }
 
     /// Largest deviation under rotations by angles spread over the whole turn, each sample by an
-    /// angle of its own: small for a body of revolution. Stops beyond `limit`.
-    pub fn deviation_from_revolution(&self, frame: &Frame, limit: f64) -> Deviation {
+    /// angle of its own: small for a body of revolution. `None` beyond `limit`.
+    pub fn deviation_from_revolution(&self, frame: &Frame, limit: f64) -> Option<Deviation> {
         let operations = golden_rotations(frame, 233, self.target_in_place());
         let samples = &self.samples.mixed;
         let count = samples.len().min(20_000);
-        self.worst(count, limit, |i| {
+        self.worst(count, Bound::plain(limit), |i| {
             (&samples[i], &operations[i % operations.len()])
         })
+        .ok()
     }
 
     /// Every region stays where it is.
