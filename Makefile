@@ -27,7 +27,7 @@ build: setup ## build the tools, release profile, into target/release
 demo: build ## mesh a through-silicon via of three materials, stage by stage, and report its quality
 	$(CARGO) build --release --example body
 	mkdir -p $(TARGET)/demo
-	$(MAKE) -C $(TARGET)/demo -f $(CURDIR)/examples/flows/tsv.mk --always-make BIN=$(TARGET)/release/
+	$(MAKE) --no-print-directory -C $(TARGET)/demo -f $(CURDIR)/examples/flows/tsv.mk --always-make BIN=$(TARGET)/release/
 	@echo "The mesh is in $(TARGET)/demo/tsv.vtk, the stages beside it."
 
 test: setup ## run every test

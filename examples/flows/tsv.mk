@@ -10,7 +10,7 @@ include $(dir $(lastword $(MAKEFILE_LIST)))rules.mk
 ORDER ?= 16
 THICKNESS ?= 5e-3
 
-TETWEDGE_FLAGS = --max-volume 0.01 --region liner:max-volume=1e-4
+TETWEDGE_FLAGS = --max-volume 0.01 --region copper:max-volume=1e-4
 
 # Anywhere in space: the pipe finds the axis by itself.
 tsv.stl:
