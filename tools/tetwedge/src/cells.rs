@@ -10,8 +10,8 @@ use tmesh::{OUTSIDE, Triangle};
 pub struct Surface {
     /// Triangle in the mesh's numbering of vertices, oriented, with all attributes.
     pub triangle: Triangle,
-    /// Wall face; see [`crate::walls`].
-    pub face: u32,
+    /// Facet; see [`crate::facets`].
+    pub facet: usize,
 }
 
 /// The mesh with its regions.
@@ -100,7 +100,8 @@ pub fn label(plc: &Plc, mesh: &Mesh) -> Result<Cells, Contradiction> {
 
     let mut surface = Vec::with_capacity(pieces.len());
     for (corners, facet, sides) in pieces {
-        let facet = &plc.facets.facets[facet];
+        let id = facet;
+        let facet = &plc.facets.facets[id];
         let of_side =
             |side: Option<usize>| side.map_or(OUTSIDE, |t| region_of_cell[cell[t] as usize]);
         let found = sides.map(of_side);
@@ -146,7 +147,7 @@ pub fn label(plc: &Plc, mesh: &Mesh) -> Result<Cells, Contradiction> {
                 front: facet.attributes.front,
                 back: facet.attributes.back,
             },
-            face: facet.attributes.face,
+            facet: id,
         });
     }
     let region = cell.iter().map(|&c| region_of_cell[c as usize]).collect();

@@ -54,20 +54,26 @@ impl<'a> Chatter<'a> {
     }
 }
 
-/// The error to report, with place and advice.
+/// The error to report, with advice, and with the place when `locate` is set.
 pub fn failure(
     source: MesherError,
     chatter: &Chatter<'_>,
     plc: &Plc,
     timeout: Option<Duration>,
+    locate: bool,
 ) -> Error {
+    // A later attempt gets what is left of the time; the user gave the whole.
+    let source = match (source, timeout) {
+        (MesherError::TimedOut(_), Some(whole)) => MesherError::TimedOut(whole),
+        (other, _) => other,
+    };
     let during = if chatter.step.is_empty() || matches!(source, MesherError::System { .. }) {
         String::new()
     } else {
         format!(" in its step '{}'", chatter.step)
     };
     let pairs = match source {
-        MesherError::Crashed { .. } | MesherError::Failed(_) => {
+        MesherError::Crashed { .. } | MesherError::Failed(_) if locate => {
             intersections(plc, timeout.map_or(DIAGNOSIS, |t| t.min(DIAGNOSIS)))
         }
         _ => Intersections::default(),

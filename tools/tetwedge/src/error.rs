@@ -132,6 +132,24 @@ impl Error {
     }
 }
 
+impl Error {
+    /// Whether another description of the same surface may go through.
+    pub(crate) fn is_bad_luck(&self) -> bool {
+        use tetgen_sys::Failure as Thrown;
+        match self {
+            Self::Mesher { source, .. } => match source {
+                tetgen_sys::Error::Crashed { .. } => true,
+                tetgen_sys::Error::Failed(failure) => {
+                    !matches!(failure, Thrown::OutOfMemory | Thrown::BadInput)
+                }
+                _ => false,
+            },
+            Self::Unusable { .. } => true,
+            _ => false,
+        }
+    }
+}
+
 /// A region id in a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RegionName(pub u32);

@@ -28,6 +28,8 @@ pub struct Facet {
     pub attributes: Attributes,
     /// Unit normal of its largest triangle; zero when that has no area.
     pub normal: DVec3,
+    /// Middle of its largest triangle.
+    pub origin: DVec3,
     /// Sum of its triangles' areas, model units squared.
     pub area: f64,
     /// Largest distance of a vertex from the plane of the largest triangle, model units.
@@ -81,15 +83,15 @@ impl Facets {
                 continue;
             }
             let id = facets.len() as u32;
+            let triangle = &template.triangles[seed];
+            let [a, b, c] = triangle.vertices.map(|v| template.vertices[v as usize]);
             let mut facet = Facet {
                 attributes: attributes(seed),
                 normal: area_vectors[seed].try_normalize().unwrap_or_default(),
+                origin: (a + b + c) / 3.0,
                 area: 0.0,
                 deviation: 0.0,
             };
-            let triangle = &template.triangles[seed];
-            let [a, b, c] = triangle.vertices.map(|v| template.vertices[v as usize]);
-            let origin = (a + b + c) / 3.0;
             of_triangle[seed] = id;
             queue.push(seed);
             while let Some(t) = queue.pop() {
@@ -108,7 +110,7 @@ impl Facets {
                         .vertices
                         .iter()
                         .map(|&v| {
-                            (template.vertices[v as usize] - origin)
+                            (template.vertices[v as usize] - facet.origin)
                                 .dot(facet.normal)
                                 .abs()
                         })

@@ -15,6 +15,9 @@ use tmesh::{Document, Template, Tet, Triangle, Wall};
 /// coordinate: rounding of what TetGen computes.
 const ROUNDING: f64 = 1e-11;
 
+/// Rounds of projection onto the planes of facets.
+const ROUNDS: usize = 4;
+
 /// No counterpart.
 pub const NONE: u32 = u32::MAX;
 
@@ -71,7 +74,11 @@ pub fn fill(document: &Document, index: usize, plc: &Plc, mesh: &Mesh) -> Result
             ..s.triangle
         })
         .collect();
-    let faces: Vec<u32> = surface.iter().map(|s| s.face).collect();
+    let facets: Vec<usize> = surface.iter().map(|s| s.facet).collect();
+    let faces: Vec<u32> = facets
+        .iter()
+        .map(|&f| plc.facets.facets[f].attributes.face)
+        .collect();
     let tets: Vec<Tet> = mesh
         .tetrahedra()
         .iter()
@@ -102,7 +109,8 @@ pub fn fill(document: &Document, index: usize, plc: &Plc, mesh: &Mesh) -> Result
     // Old vertices come first, in their order.
     let first_new = filled.vertices.iter().filter(|&&v| v != NONE).count();
     restore_preserved(input, plc, &faces, &mut filled).map_err(&unusable)?;
-    restore_walls(input, plc, &faces, first_new, &mut filled).map_err(&unusable)?;
+    let shifted = on_shifted_facets(plc, &facets, first_new, &filled.template);
+    restore_walls(input, plc, &faces, first_new, shifted, &mut filled).map_err(&unusable)?;
     orientations(&filled.template, first_new).map_err(&unusable)?;
     check::measures(document, index, plc, &faces, &filled.template).map_err(&unusable)?;
     Ok(filled)
@@ -176,15 +184,46 @@ fn restore_preserved(
     Ok(())
 }
 
+/// New vertices on facets that were shifted for the mesher, with the planes to put them back onto.
+fn on_shifted_facets(
+    plc: &Plc,
+    facets: &[usize],
+    first_new: usize,
+    template: &Template,
+) -> Vec<(u32, Projection)> {
+    let mut found: Vec<(u32, usize)> = Vec::new();
+    for (t, &facet) in template.triangles.iter().zip(facets) {
+        // Facets more uneven than the shift have no plane to be put back onto.
+        if plc.shifted[facet] && plc.facets.facets[facet].deviation <= plc.shift {
+            let new = t.vertices.iter().filter(|&&v| v as usize >= first_new);
+            found.extend(new.map(|&v| (v, facet)));
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    let plane = |facet: usize| {
+        let facet = &plc.facets.facets[facet];
+        Projection::Facet {
+            normal: facet.normal,
+            origin: facet.origin,
+        }
+    };
+    found.into_iter().map(|(v, f)| (v, plane(f))).collect()
+}
+
 /// Rebuilds walls and axis, and puts new vertices on them exactly where they belong.
 fn restore_walls(
     input: &Template,
     plc: &Plc,
     faces: &[u32],
     first_new: usize,
+    mut projections: Vec<(u32, Projection)>,
     filled: &mut Filled,
 ) -> Result<(), String> {
-    let tolerance = ROUNDING * plc.extent;
+    // A single projection meets a single plane; where planes of facets meet that of a wall, each
+    // leaves the other a little, and a few rounds meet all.
+    let rounds = if projections.is_empty() { 1 } else { ROUNDS };
+    let tolerance = ROUNDING * plc.extent + 2.0 * plc.shift;
     let on_surface = {
         let mut on = vec![false; filled.template.vertices.len()];
         for &v in filled.template.triangles.iter().flat_map(|t| &t.vertices) {
@@ -193,8 +232,6 @@ fn restore_walls(
         on
     };
     let mut walls = Vec::with_capacity(input.walls.len());
-    // Of each vertex: mirror walls it is on, as planes to project onto.
-    let mut projections: Vec<(u32, Projection)> = Vec::new();
     for (w, wall) in input.walls.iter().enumerate() {
         let mut wall = wall.clone();
         match &mut wall {
@@ -258,15 +295,9 @@ fn restore_walls(
         .collect();
     let along_axis = axis_intervals(input);
     if !along_axis.is_empty() {
-        let new = filled
-            .template
-            .vertices
-            .iter_mut()
-            .enumerate()
-            .skip(first_new);
-        for (v, p) in new {
+        let all = filled.template.vertices.iter().enumerate();
+        for (v, p) in all.skip(first_new) {
             if on_surface[v] && p.x.hypot(p.y) <= tolerance && within(&along_axis, p.z) {
-                *p = DVec3::new(0.0, 0.0, p.z);
                 axis.push(v as u32);
             }
         }
@@ -274,17 +305,24 @@ fn restore_walls(
     axis.sort_unstable();
     axis.dedup();
 
-    for (v, projection) in projections {
-        let p = &mut filled.template.vertices[v as usize];
-        let image = projection.apply(*p);
-        let distance = (image - *p).length();
-        if distance > tolerance {
-            return Err(format!(
-                "a vertex on a mirror wall is {distance:.3e} off its plane near {}",
-                Place(*p)
-            ));
+    for _ in 0..rounds {
+        for &(v, projection) in &projections {
+            let p = &mut filled.template.vertices[v as usize];
+            let image = projection.apply(*p);
+            let distance = (image - *p).length();
+            if distance > tolerance {
+                return Err(format!(
+                    "a vertex is {distance:.3e} off the wall or facet it belongs to near {}",
+                    Place(*p)
+                ));
+            }
+            *p = image;
         }
-        *p = image;
+    }
+    let new_on_axis = axis.iter().filter(|&&v| v as usize >= first_new);
+    for &v in new_on_axis {
+        let p = &mut filled.template.vertices[v as usize];
+        *p = DVec3::new(0.0, 0.0, p.z);
     }
     filled.template.walls = walls;
     filled.template.axis = axis;

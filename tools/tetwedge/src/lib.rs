@@ -12,6 +12,7 @@ mod diagnose;
 mod error;
 mod facets;
 mod fill;
+mod flat;
 mod mesher;
 mod params;
 mod plc;

@@ -3,7 +3,7 @@
 use crate::diagnose::{Chatter, failure};
 use crate::fill::{Filled, NONE, fill};
 use crate::params::switches;
-use crate::plc::Plc;
+use crate::plc::{DESCRIPTIONS, Plc};
 use crate::{Error, Params, Sizes};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -72,12 +72,19 @@ pub fn tetrahedralize(
     let refined = document.history.iter().any(|h| h.tool == "periodic-surf");
     if !refined && done.iter().any(|d| d.preserved) {
         advice.push(
-            "the surface was preserved for the sake of its seams; periodic-surf before tetwedge \
+            "the surface was preserved for the sake of the faces it shares with its copies; periodic-surf before tetwedge \
              gives better elements"
                 .to_owned(),
         );
     }
     for (index, d) in done.iter().enumerate() {
+        if d.failed > 0 {
+            facts.push(format!(
+                "template {index}: TetGen failed on {} equivalent description(s) of the surface \
+                 before this one",
+                d.failed
+            ));
+        }
         facts.push(format!(
             "template {index}: {} tetrahedra, {} vertices, {} surface triangles (TetGen switches {})",
             d.filled.template.tets.len(),
@@ -122,6 +129,8 @@ struct Done {
     filled: Filled,
     switches: String,
     preserved: bool,
+    /// Descriptions that failed before.
+    failed: usize,
 }
 
 fn template(
@@ -131,9 +140,36 @@ fn template(
     sizes: &Sizes,
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Done, Error> {
-    let begun = Instant::now();
-    let plc = Plc::new(document, index, sizes)?;
     check_count(document, index, sizes)?;
+    let deadline = params.timeout.and_then(|t| Instant::now().checked_add(t));
+    let mut failed = 0;
+    loop {
+        let result = attempt(document, index, params, sizes, failed, deadline, log);
+        match result {
+            Err(error) if error.is_bad_luck() && failed + 1 < DESCRIPTIONS.len() => {
+                log(&format!(
+                    "template {index}: {error}; trying an equivalent description of the surface"
+                ));
+                failed += 1;
+            }
+            Ok(done) => return Ok(Done { failed, ..done }),
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Meshes a template by one of the descriptions.
+fn attempt(
+    document: &Document,
+    index: usize,
+    params: &Params,
+    sizes: &Sizes,
+    number: usize,
+    deadline: Option<Instant>,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<Done, Error> {
+    let begun = Instant::now();
+    let plc = Plc::new(document, index, sizes, DESCRIPTIONS[number])?;
     let preserved = plc.faces.preserve();
     let switches = switches(params, plc.max_volume, plc.per_region, preserved);
     log(&format!(
@@ -145,13 +181,17 @@ fn template(
     ));
     let prepared = Instant::now();
     let limits = Limits {
-        timeout: params.timeout,
+        timeout: deadline.map(|d| d.saturating_duration_since(prepared)),
     };
     let mut chatter = Chatter::new(log);
     let mesh = tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |bytes| {
         chatter.take(bytes);
     })
-    .map_err(|error| failure(error, &chatter, &plc, params.timeout))?;
+    .map_err(|error| {
+        // Looking for the place takes time, and makes sense once there is nothing left to try.
+        let last = number + 1 == DESCRIPTIONS.len();
+        failure(error, &chatter, &plc, params.timeout, last)
+    })?;
     let meshed = Instant::now();
     let filled = fill(document, index, &plc, &mesh)?;
     log(&format!(
@@ -172,6 +212,7 @@ fn template(
         filled,
         switches,
         preserved,
+        failed: 0,
     })
 }
 

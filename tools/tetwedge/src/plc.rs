@@ -1,8 +1,9 @@
 //! The piecewise linear complex that TetGen is given for a template.
 
 use crate::facets::Facets;
+use crate::flat::flatten;
 use crate::seeds::seeds;
-use crate::walls::Faces;
+use crate::walls::{Faces, NO_FACE, vertical_planes};
 use crate::{Error, Sizes};
 use geom::edges::Edges;
 use glam::DVec3;
@@ -14,6 +15,51 @@ use tmesh::{Document, OUTSIDE};
 const FLATNESS: f64 = 1e-9;
 const PRECISIONS: f64 = 4.0;
 
+/// Order in which TetGen is given the triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// That of the template.
+    AsGiven,
+    /// Back to front.
+    Reversed,
+    /// Second half first.
+    FromTheMiddle,
+}
+
+/// One of the equivalent descriptions of a template.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Description {
+    /// Order of triangles.
+    pub order: Order,
+    /// Whether walls are made exactly coplanar; see [`crate::flat`].
+    pub flat: bool,
+}
+
+/// Descriptions in the order in which they are tried.
+///
+/// Where layers are thin, TetGen's own points on segments are coplanar up to rounding only, and some
+/// of its assertions fail by bad luck. Another description of the same surface is another draw: of
+/// 32 open vias with films of 1e-4 to 7e-4 at orders 7 to 64, turned at random, the first failed for
+/// 2, the second for none, the third for 5, and with walls as they are 4 to 9 failed.
+pub const DESCRIPTIONS: [Description; 4] = [
+    Description {
+        order: Order::AsGiven,
+        flat: true,
+    },
+    Description {
+        order: Order::Reversed,
+        flat: true,
+    },
+    Description {
+        order: Order::FromTheMiddle,
+        flat: true,
+    },
+    Description {
+        order: Order::AsGiven,
+        flat: false,
+    },
+];
+
 /// A template in TetGen's terms. Lengths are scaled by a power of two, so that coordinates are near
 /// one (models come in metres and in nanometres) and no bit of them changes.
 pub struct Plc {
@@ -21,8 +67,12 @@ pub struct Plc {
     pub scale: f64,
     /// Template vertex of each point.
     pub vertex_of_point: Vec<u32>,
-    /// Scaled positions.
+    /// Scaled positions; those on walls are exactly coplanar (see [`crate::flat`]).
     pub points: Vec<[f64; 3]>,
+    /// How far positions differ from the template's, at most; model units.
+    pub shift: f64,
+    /// Facets, not on walls, with vertices that were shifted.
+    pub shifted: Vec<bool>,
     triangles: Vec<[i32; 3]>,
     markers: Vec<i32>,
     holes: Vec<[f64; 3]>,
@@ -44,7 +94,12 @@ impl Plc {
     ///
     /// # Errors
     /// [`Error::NoSurface`], and what [`seeds`] says about surfaces that bound nothing.
-    pub fn new(document: &Document, index: usize, sizes: &Sizes) -> Result<Self, Error> {
+    pub fn new(
+        document: &Document,
+        index: usize,
+        sizes: &Sizes,
+        description: Description,
+    ) -> Result<Self, Error> {
         let template = &document.templates[index];
         let corners: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
         if corners.len() < 4 {
@@ -68,6 +123,42 @@ impl Plc {
         let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
         let tolerance = (FLATNESS * diagonal).max(PRECISIONS * precision);
         let facets = Facets::new(template, &edges, &faces.of_triangle, tolerance);
+
+        let mut points: Vec<[f64; 3]> = vertex_of_point
+            .iter()
+            .map(|v| (position(v) * scale).to_array())
+            .collect();
+        let place =
+            |v: u32| Some(point_of_vertex[v as usize] as usize).filter(|&p| p < points.len());
+        let planes: Vec<([f64; 2], Vec<usize>)> = vertical_planes(template)
+            .into_iter()
+            .map(|(angle, list)| (angle, list.into_iter().filter_map(place).collect()))
+            .collect();
+        let mut shift = 0.0_f64;
+        for ([cos, sin], list) in planes.iter().filter(|_| description.flat) {
+            // Seams are paired exactly only where they are walls: a vertex elsewhere may be listed.
+            let on: Vec<usize> = list
+                .iter()
+                .copied()
+                .filter(|&p| {
+                    let [x, y, _] = points[p];
+                    (y * cos - x * sin).abs() <= FLATNESS
+                })
+                .collect();
+            shift = shift.max(flatten(&mut points, &on, *cos, *sin));
+        }
+        let mut shifted = vec![false; facets.facets.len()];
+        for (t, &facet) in corners.iter().zip(&facets.of_triangle) {
+            let moved = |v: &u32| {
+                let now = points[point_of_vertex[*v as usize] as usize];
+                now != (position(v) * scale).to_array()
+            };
+            shifted[facet as usize] |= t.iter().any(moved);
+        }
+        for (shifted, facet) in shifted.iter_mut().zip(&facets.facets) {
+            *shifted &= facet.attributes.face == NO_FACE && facet.normal != DVec3::ZERO;
+        }
+        let shift = shift / scale;
 
         let region_index = |id: u32| document.regions.binary_search_by_key(&id, |r| r.id).ok();
         let mut present: Vec<usize> = seeds
@@ -95,18 +186,27 @@ impl Plc {
             .filter(|s| s.region == OUTSIDE)
             .map(|s| (s.point * scale).to_array())
             .collect();
+        let mut order: Vec<usize> = (0..corners.len()).collect();
+        match description.order {
+            Order::AsGiven => {}
+            Order::Reversed => order.reverse(),
+            Order::FromTheMiddle => order.rotate_left(corners.len() / 2),
+        }
         Ok(Self {
             scale,
-            points: vertex_of_point
-                .iter()
-                .map(|v| (position(v) * scale).to_array())
-                .collect(),
+            points,
+            shift,
+            shifted,
             vertex_of_point,
-            triangles: corners
+            triangles: order
                 .iter()
+                .map(|&t| corners[t])
                 .map(|t| t.map(|v| point_of_vertex[v as usize] as i32))
                 .collect(),
-            markers: facets.of_triangle.iter().map(|&f| f as i32 + 1).collect(),
+            markers: order
+                .iter()
+                .map(|&t| facets.of_triangle[t] as i32 + 1)
+                .collect(),
             holes,
             regions,
             facets,
@@ -134,7 +234,7 @@ impl Plc {
         DVec3::from_array(p) / self.scale
     }
 
-    /// Middle of a triangle, model units.
+    /// Middle of a triangle given to TetGen, model units.
     pub fn middle(&self, triangle: usize) -> DVec3 {
         let corners = self.triangles[triangle].map(|v| self.to_model(self.points[v as usize]));
         corners.iter().sum::<DVec3>() / 3.0

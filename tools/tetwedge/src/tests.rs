@@ -450,7 +450,7 @@ fn switches_that_change_the_contract_are_errors() {
 #[ignore = "a measurement, and needs the tetgen program"]
 fn overhead() {
     use crate::params::{Sizes, switches};
-    use crate::plc::Plc;
+    use crate::plc::{DESCRIPTIONS, Plc};
     use std::fmt::Write;
     use std::time::Instant;
     for (name, document, max_volume) in [
@@ -464,7 +464,7 @@ fn overhead() {
         let folder = tempfile::tempdir().unwrap();
         let mut theirs = 0.0;
         for index in 0..document.templates.len() {
-            let plc = Plc::new(&document, index, &sizes).unwrap();
+            let plc = Plc::new(&document, index, &sizes, DESCRIPTIONS[0]).unwrap();
             let complex = plc.complex();
             let mut text = format!("{} 3 0 0\n", complex.points.len());
             for (i, [x, y, z]) in complex.points.iter().enumerate() {
@@ -507,80 +507,26 @@ fn overhead() {
 }
 
 #[test]
-#[ignore = "temporary"]
-fn optimization() {
-    use std::time::Instant;
-    for path in std::env::var("BODIES").unwrap().split(':') {
-        let file = std::fs::File::open(path).unwrap();
-        let document = tmesh::read(file).unwrap();
-        for extra in std::env::var("SWITCHES").unwrap().split(':') {
-            let (angle, extra) = extra.split_once(',').unwrap();
-            let params = Params {
-                optimize: angle.parse().ok(),
-                switches: extra.to_owned(),
-                ..sized(std::env::var("VOLUME").unwrap().parse().unwrap())
+fn equivalent_descriptions_give_equivalent_meshes() {
+    use crate::fill::fill;
+    use crate::params::{Sizes, switches};
+    use crate::plc::{DESCRIPTIONS, Plc};
+    for document in [coated_ring(7, 5e-3), ratchet(7)] {
+        let params = sized(1e-3);
+        let sizes = Sizes::new(&document, &params).unwrap();
+        for description in DESCRIPTIONS {
+            let plc = Plc::new(&document, 0, &sizes, description).unwrap();
+            assert_eq!(plc.shift > 0.0, description.flat);
+            let switches = switches(&params, plc.max_volume, false, plc.faces.preserve());
+            let limits = tetgen_sys::Limits {
+                timeout: params.timeout,
             };
-            let mut time = f64::MAX;
-            let mut done = None;
-            for _ in 0..std::env::var("RUNS").unwrap().parse().unwrap() {
-                let begun = Instant::now();
-                match tetrahedralize(document.clone(), &params, &|_| ()) {
-                    Ok(m) => done = Some(m.document),
-                    Err(e) => println!("{e}"),
-                }
-                time = time.min(begun.elapsed().as_secs_f64());
-            }
-            let Some(done) = done else { continue };
-            let mut angles = Vec::new();
-            let mut bad = 0;
-            let mut biggest: f64 = 0.0;
-            for (t, tets) in done.templates.iter().map(|t| (t, &t.tets)) {
-                for tet in tets {
-                    let p = tet.vertices.map(|v| t.vertices[v as usize]);
-                    let [a, b, c, d] = p;
-                    biggest = biggest.max(tet_volume(a, b, c, d));
-                    let mut least: f64 = 180.0;
-                    let mut most: f64 = 0.0;
-                    let mut edge = f64::MAX;
-                    for i in 0..4 {
-                        for j in i + 1..4 {
-                            let (k, l) = match (i, j) {
-                                (0, 1) => (2, 3),
-                                (0, 2) => (1, 3),
-                                (0, 3) => (1, 2),
-                                (1, 2) => (0, 3),
-                                (1, 3) => (0, 2),
-                                _ => (0, 1),
-                            };
-                            let e = p[j] - p[i];
-                            edge = edge.min(e.length());
-                            let m = e.cross(p[k] - p[i]).normalize();
-                            let n = e.cross(p[l] - p[i]).normalize();
-                            let angle = m.dot(n).clamp(-1.0, 1.0).acos().to_degrees();
-                            least = least.min(angle);
-                            most = most.max(angle);
-                        }
-                    }
-                    angles.push(least);
-                    let (u, v, w) = (b - a, c - a, d - a);
-                    let centre = (v.cross(w) * u.length_squared()
-                        + w.cross(u) * v.length_squared()
-                        + u.cross(v) * w.length_squared())
-                        / (2.0 * u.dot(v.cross(w)));
-                    if centre.length() / edge > 1.4 {
-                        bad += 1;
-                    }
-                }
-            }
-            angles.sort_by(f64::total_cmp);
-            println!(
-                "{path} {angle:>4} {extra}: {time:.3} s, {} tets, min {:.2} p01 {:.2}, radius-edge > 1.4: {:.2} %, largest {:.3e}",
-                angles.len(),
-                angles[0],
-                angles[angles.len() / 100],
-                100.0 * bad as f64 / angles.len() as f64,
-                biggest,
-            );
+            let mesh =
+                tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |_| ()).unwrap();
+            let filled = fill(&document, 0, &plc, &mesh).unwrap();
+            let mut done = document.clone();
+            done.templates[0] = filled.template;
+            check(&document, &done);
         }
     }
 }

@@ -81,7 +81,7 @@ impl Faces {
     }
 }
 
-/// Exact projection onto a mirror plane.
+/// Projection onto a plane that new vertices belong to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// The plane through the axis at the angle with this cosine and sine.
@@ -93,10 +93,17 @@ pub enum Projection {
     },
     /// The plane z = 0.
     Horizontal,
+    /// Any plane, of a facet.
+    Facet {
+        /// Unit normal.
+        normal: DVec3,
+        /// A point of the plane.
+        origin: DVec3,
+    },
 }
 
 impl Projection {
-    /// The projection onto a wall's plane.
+    /// The projection onto a mirror wall's plane.
     pub fn of(wall: &MirrorWall) -> Self {
         let reflection = wall.reflection;
         if reflection.flipped() {
@@ -116,7 +123,7 @@ impl Projection {
         }
     }
 
-    /// The nearest point of the plane; exactly y = 0 for the plane at angle 0.
+    /// The nearest point of the plane; exactly y = 0 for the vertical plane at angle 0.
     pub fn apply(self, p: DVec3) -> DVec3 {
         match self {
             Self::Vertical { cos, sin } => {
@@ -125,8 +132,32 @@ impl Projection {
                 DVec3::new(r * cos + 0.0, r * sin + 0.0, p.z)
             }
             Self::Horizontal => DVec3::new(p.x, p.y, 0.0),
+            Self::Facet { normal, origin } => p - normal * (p - origin).dot(normal),
         }
     }
+}
+
+/// Planes through the axis that contain faces of a template's walls, as cosine and sine, each with
+/// its vertices.
+pub fn vertical_planes(template: &Template) -> Vec<([f64; 2], Vec<u32>)> {
+    let mut planes = Vec::new();
+    for wall in &template.walls {
+        match wall {
+            Wall::Mirror(mirror) => {
+                if let Projection::Vertical { cos, sin } = Projection::of(mirror) {
+                    planes.push(([cos, sin], mirror.vertices.clone()));
+                }
+            }
+            // The low face of a seam is at angle 0 in the canonical frame.
+            Wall::Seam(seam) => {
+                let (cos, sin) = seam.rotation.cos_sin();
+                let high = seam.vertex_pairs.iter().map(|p| p[1]);
+                planes.push(([cos, sin], high.collect()));
+            }
+            Wall::Hub(_) => {}
+        }
+    }
+    planes
 }
 
 /// Edges of the surface that lie on a wall or on the axis, though no triangle of the wall has them:
