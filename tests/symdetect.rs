@@ -1,0 +1,262 @@
+//! `symdetect` as a process: exit codes, messages, the report, what it writes.
+
+use glam::DVec3;
+use serde_json::Value;
+use std::f64::consts::TAU;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use tmesh::{Document, OUTSIDE, Region, Template, Triangle};
+
+/// A toothed wheel with `n` teeth of four facets each, tapered so that it has no horizontal mirror;
+/// `lean` makes the teeth lean to one side.
+fn wheel(n: usize, lean: bool) -> Document {
+    let radii = if lean {
+        [1.0, 1.06, 1.12, 1.18]
+    } else {
+        [1.0, 1.1, 1.2, 1.1]
+    };
+    let count = 4 * n;
+    let mut vertices = Vec::new();
+    for (z, scale) in [(0.0, 1.0), (0.5, 0.8)] {
+        for i in 0..count {
+            let a = TAU * i as f64 / count as f64;
+            let r = scale * radii[i % 4];
+            vertices.push(DVec3::new(r * a.cos(), r * a.sin(), z));
+        }
+    }
+    vertices.extend([DVec3::ZERO, DVec3::new(0.0, 0.0, 0.5)]);
+    let middle = 2 * count as u32;
+    let mut triangles = Vec::new();
+    for i in 0..count {
+        let (a, b) = (i as u32, ((i + 1) % count) as u32);
+        let (c, d) = (b + count as u32, a + count as u32);
+        triangles.extend([[a, b, c], [a, c, d], [middle, b, a], [middle + 1, d, c]]);
+    }
+    let triangles = triangles
+        .into_iter()
+        .map(|vertices| Triangle {
+            vertices,
+            marker: 0,
+            front: OUTSIDE,
+            back: 3,
+        })
+        .collect();
+    let mut document = Document::single(Template {
+        vertices,
+        triangles,
+        ..Template::default()
+    });
+    document.regions = vec![Region {
+        id: 3,
+        name: "steel".to_owned(),
+        max_volume: None,
+        volume: None,
+    }];
+    document
+}
+
+/// The wheel with one vertex pulled out of line, so that nothing is left of its symmetry.
+fn dented() -> Document {
+    let mut document = wheel(7, true);
+    document.templates[0].vertices[5] += DVec3::new(0.05, 0.03, -0.02);
+    document
+}
+
+fn write(document: &Document, path: &Path) {
+    let mut bytes = Vec::new();
+    tmesh::write(document, &mut bytes).unwrap();
+    std::fs::write(path, bytes).unwrap();
+}
+
+fn symdetect(arguments: &[&str], folder: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_symdetect"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap()
+}
+
+#[track_caller]
+fn fails(arguments: &[&str], folder: &Path, code: i32, words: &[&str]) {
+    let output = symdetect(arguments, folder);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(code), "{message}");
+    assert!(output.stdout.is_empty());
+    for word in words {
+        assert!(message.contains(word), "'{word}' is not in: {message}");
+    }
+}
+
+#[test]
+fn writes_the_document_with_its_symmetry() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = wheel(7, false);
+    write(&body, &folder.path().join("wheel.tmesh"));
+    let output = symdetect(&["wheel.tmesh"], folder.path());
+    assert!(output.status.success());
+    let found = tmesh::read(output.stdout.as_slice()).unwrap();
+    let symmetry = found.symmetry.unwrap();
+    assert_eq!(symmetry.group, "C7v");
+    assert!(symmetry.residual < 1e-12);
+    assert_eq!(found.templates, body.templates);
+    assert_eq!(found.regions, body.regions);
+    assert_eq!(found.history.len(), 1);
+    assert_eq!(found.history[0].tool, "symdetect");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(message.contains("C7v about (0, 0, 1)"), "{message}");
+    assert!(
+        symdetect(&["-q", "wheel.tmesh"], folder.path())
+            .stderr
+            .is_empty()
+    );
+}
+
+#[test]
+fn the_report_has_the_keys_of_the_contract() {
+    let folder = tempfile::tempdir().unwrap();
+    write(&wheel(7, true), &folder.path().join("wheel.tmesh"));
+    let run = symdetect(
+        &["wheel.tmesh", "--report", "report.json", "-o", "out.tmesh"],
+        folder.path(),
+    );
+    assert!(run.status.success() && run.stdout.is_empty());
+    let text = std::fs::read_to_string(folder.path().join("report.json")).unwrap();
+    let report: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(report["group"], "C7");
+    assert_eq!(report["order"], 7);
+    assert_eq!(report["mirror"], false);
+    assert_eq!(report["horizontal_mirror"], false);
+    assert_eq!(report["axisymmetric"], false);
+    assert_eq!(report["tolerance"], 1e-3);
+    assert!(report["residual"].as_f64().unwrap() < 1e-12);
+    assert_eq!(
+        report["axis"]["direction"],
+        serde_json::json!([0.0, 0.0, 1.0])
+    );
+    assert_eq!(report["axis"]["point"].as_array().unwrap().len(), 3);
+    assert_eq!(report["mirror_direction"].as_array().unwrap().len(), 3);
+    assert_eq!(report["other_axes"], serde_json::json!([]));
+    assert_eq!(report["triangles"], 112);
+    assert_eq!(
+        report["regions"],
+        serde_json::json!([{"id": 3, "name": "steel"}])
+    );
+    let rejected = report["rejected"].as_array().unwrap();
+    let double = rejected.iter().find(|r| r["order"] == 14).unwrap();
+    assert!(double["residual"].as_f64().unwrap() > 1e-3);
+}
+
+#[test]
+fn negative_numbers_are_values() {
+    let folder = tempfile::tempdir().unwrap();
+    write(&wheel(7, false), &folder.path().join("wheel.tmesh"));
+    for arguments in [
+        ["wheel.tmesh", "--axis", "-0,0,-1", "--center", "-0.0,0,-3"],
+        ["wheel.tmesh", "--axis=0,0,-1", "--order", "7", "-v"],
+    ] {
+        let output = symdetect(&arguments, folder.path());
+        assert!(output.status.success(), "{output:?}");
+        let symmetry = tmesh::read(output.stdout.as_slice())
+            .unwrap()
+            .symmetry
+            .unwrap();
+        assert_eq!((symmetry.order, symmetry.axis.direction[2]), (7, -1.0));
+    }
+    // Only a mirror plane contains this one, and nothing the next.
+    let output = symdetect(&["wheel.tmesh", "--axis", "-1,0,0"], folder.path());
+    let symmetry = tmesh::read(output.stdout.as_slice())
+        .unwrap()
+        .symmetry
+        .unwrap();
+    assert_eq!(symmetry.group, "C1v");
+    fails(
+        &["wheel.tmesh", "--axis", "-1,-2,0.3"],
+        folder.path(),
+        1,
+        &["no symmetry"],
+    );
+}
+
+#[test]
+fn what_cannot_be_done_says_why_and_where() {
+    let folder = tempfile::tempdir().unwrap();
+    write(&wheel(7, true), &folder.path().join("wheel.tmesh"));
+    write(&dented(), &folder.path().join("dented.tmesh"));
+    let path = folder.path();
+    std::fs::write(path.join("old.tmesh"), "kept").unwrap();
+    fails(
+        &["dented.tmesh", "-o", "old.tmesh"],
+        path,
+        1,
+        &[
+            "no symmetry within 1e-3",
+            "off by",
+            " at (",
+            "--tolerance",
+            "--allow-asymmetric",
+        ],
+    );
+    assert_eq!(
+        std::fs::read_to_string(path.join("old.tmesh")).unwrap(),
+        "kept"
+    );
+    fails(
+        &["wheel.tmesh", "--order", "5"],
+        path,
+        1,
+        &["order 5 does not hold", "off by", " at ("],
+    );
+    let output = symdetect(&["dented.tmesh", "--allow-asymmetric"], path);
+    assert!(output.status.success());
+    let symmetry = tmesh::read(output.stdout.as_slice())
+        .unwrap()
+        .symmetry
+        .unwrap();
+    assert_eq!((symmetry.group.as_str(), symmetry.order), ("C1", 1));
+    let loose = symdetect(&["dented.tmesh", "--tolerance", "0.1"], path);
+    let symmetry = tmesh::read(loose.stdout.as_slice())
+        .unwrap()
+        .symmetry
+        .unwrap();
+    assert_eq!(symmetry.order, 7);
+}
+
+#[test]
+fn wrong_usage_and_bad_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write(&wheel(3, true), &path.join("wheel.tmesh"));
+    for arguments in [
+        ["--axis", "1,0"],
+        ["--axis", "0,0,0"],
+        ["--axis", "1,x,0"],
+        ["--axis", "nan,0,0"],
+        ["--tolerance", "0"],
+        ["--tolerance", "-1e-3"],
+        ["--order", "0"],
+        ["--max-order", "1"],
+        ["--order", "100000"],
+    ] {
+        fails(&["wheel.tmesh", arguments[0], arguments[1]], path, 2, &[]);
+    }
+    fails(&[], path, 3, &["empty", "did the previous stage fail?"]);
+    write(
+        &Document::single(Template::default()),
+        &path.join("none.tmesh"),
+    );
+    fails(&["none.tmesh"], path, 3, &["no surface triangles"]);
+    fails(&["missing.tmesh"], path, 3, &["missing.tmesh"]);
+    fails(
+        &["wheel.tmesh", "--report", "no/such/folder.json"],
+        path,
+        4,
+        &["no/such/folder.json"],
+    );
+    fails(
+        &["wheel.tmesh", "-o", "no/such/folder.tmesh"],
+        path,
+        4,
+        &["folder.tmesh"],
+    );
+}
