@@ -1,6 +1,6 @@
 //! The command line of `symdetect`.
 
-use crate::{Error, Params, Report, detect};
+use crate::{Error, Params, Report, available_threads, detect};
 use glam::DVec3;
 use kit::{Command, CommonArgs, Failure, Output, Session};
 use std::io::Write;
@@ -50,6 +50,10 @@ pub struct Cli {
     #[arg(long)]
     allow_asymmetric: bool,
 
+    /// Threads used at most [default: as many as the machine runs at once, up to 16]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256))]
+    threads: Option<u32>,
+
     /// Write what was found as JSON
     #[arg(long, value_name = "PATH")]
     report: Option<PathBuf>,
@@ -93,6 +97,7 @@ impl Cli {
             order: self.order,
             max_order: self.max_order,
             allow_asymmetric: self.allow_asymmetric,
+            threads: self.threads.map_or_else(available_threads, |n| n as usize),
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::mirror::{
     Found as MirrorFound, HALF_TURN, HORIZONTAL, VERTICAL, find_flip, find_mirror_plane,
     find_turned,
 };
-use crate::order::{Limits, Rotation, deviation_measured, find_rotation, powers};
+use crate::order::{FACETS, Limits, Rotation, deviation_measured, find_rotation, powers};
 use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::shape::{Motion, Shape, Target};
@@ -53,7 +53,7 @@ pub fn detect(
         return Err(Error::NoSurface);
     }
     let precision = document.source.as_ref().map(|s| s.precision);
-    let shape = Shape::new(template, precision).ok_or(Error::NoExtent {
+    let shape = Shape::new(template, precision, params.threads).ok_or(Error::NoExtent {
         triangles: template.triangles.len(),
     })?;
     log(&format!(
@@ -167,7 +167,7 @@ impl Job<'_> {
         }
     }
 
-    /// Whether a higher order would hold with twice the tolerance, and differences between facets may
+    /// Whether a higher order would hold with a few times the tolerance, and differences between facets may
     /// be the reason why it does not hold with the tolerance itself.
     fn facets_may_hide(&self, directions: &[DVec3], rotations: &[Rotation]) -> bool {
         let best = rotations.iter().max_by_key(|r| r.rank());
@@ -175,7 +175,7 @@ impl Job<'_> {
         {
             return false;
         }
-        let limits = Limits::new(2.0 * self.limits.tolerance);
+        let limits = Limits::new((1.0 + FACETS) * self.limits.tolerance);
         directions.iter().take(12).any(|&d| {
             let (shape, orders) = (self.shape, self.orders());
             find_rotation(shape, self.centre, d, false, orders, limits, Depth::Quick)

@@ -51,6 +51,8 @@ pub struct Params {
     pub max_order: u32,
     /// Whether a body without symmetry is passed on.
     pub allow_asymmetric: bool,
+    /// Threads used at most; the result does not depend on it.
+    pub threads: usize,
 }
 
 impl Default for Params {
@@ -62,8 +64,14 @@ impl Default for Params {
             order: None,
             max_order: 1024,
             allow_asymmetric: false,
+            threads: available_threads(),
         }
     }
+}
+
+/// Threads the machine runs at once.
+pub(crate) fn available_threads() -> usize {
+    std::thread::available_parallelism().map_or(1, |n| n.get().min(16))
 }
 
 /// Adds its symmetry to a document.

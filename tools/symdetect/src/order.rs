@@ -16,7 +16,7 @@ pub struct Limits {
     pub tolerance: f64,
     /// What candidates keep to before axis and centre are adjusted.
     pub loose: f64,
-    /// Whether up to the tolerance is allowed on top where facets that stand for a smooth surface
+    /// Whether up to [`FACETS`] is allowed on top where facets that stand for a smooth surface
     /// explain it.
     pub facets: bool,
 }
@@ -36,7 +36,7 @@ impl Limits {
         let limit = self.tolerance * radius;
         Bound {
             limit,
-            facets: if self.facets { limit } else { 0.0 },
+            facets: if self.facets { FACETS * limit } else { 0.0 },
         }
     }
 }
@@ -77,6 +77,14 @@ impl Rotation {
 
 /// Samples in a scan over orders.
 const SCAN: usize = 96;
+/// What facets may add to the tolerance at most, in tolerances.
+pub const FACETS: f64 = 2.0;
+/// A deviation by this share of the tolerance counts as one of the tessellation.
+const NOTICEABLE: f64 = 0.05;
+/// Sectors around the axis, and in how many of them a tessellation must deviate to be taken for the
+/// reason; a feature of its own deviates in one or two.
+const SECTORS: usize = 6;
+const WIDESPREAD: usize = 5;
 /// Share of samples that may be off while axis and centre are still rough.
 const OUTLIERS: f64 = 0.12;
 /// Factor by which the deviations of all other orders exceed those of the facet count's divisors.
@@ -251,7 +259,13 @@ impl Search<'_> {
                 distinct,
             })
         };
-        let verify = |n| self.shape.verify_rotation(frame, n, bound, self.depth);
+        let verify = |n| {
+            let found = self.shape.verify_rotation(frame, n, bound, self.depth)?;
+            if found.0.value > limit && !self.is_widespread(frame, n, bound) {
+                return Err(found.0);
+            }
+            Ok(found)
+        };
         let full_range = self.orders.end() > self.orders.start();
         let revolution = self.shape.deviation_from_revolution(frame, 3.0 * limit);
         let axisymmetric = revolution.is_some_and(|d| d.value <= limit);
@@ -291,6 +305,32 @@ impl Search<'_> {
             }
         }
         None
+    }
+
+    /// Whether the rotation of order `n` moves vertices all around the axis off the surface, rather
+    /// than those of a feature somewhere.
+    fn is_widespread(&self, frame: &Frame, n: u32, bound: Bound) -> bool {
+        let mut random = Random(u64::from(n));
+        let mut off = [false; SECTORS];
+        for sample in self.shape.samples.vertices.iter().take(8_000) {
+            let p = frame.to_canonical(sample.point);
+            let turn = libm::atan2(p.y, p.x) / std::f64::consts::TAU + 0.5;
+            let sector = ((turn * SECTORS as f64) as usize).min(SECTORS - 1);
+            // Other places deviate where one power of the rotation takes them to the feature.
+            off[sector] = off[sector]
+                || (0..3).all(|_| {
+                    let k = 1 + random.below(n as usize - 1) as i64;
+                    distance(
+                        self.shape,
+                        frame,
+                        Isometry::rotation(k, n),
+                        sample,
+                        bound.most(),
+                    )
+                    .is_none_or(|d| d > NOTICEABLE * bound.limit)
+                });
+        }
+        off.iter().filter(|o| **o).count() >= WIDESPREAD
     }
 
     /// Whether one of a few powers of the rotation of order `n` maps a point off the surface.

@@ -92,7 +92,7 @@ pub const NO_CLASS: u32 = u32::MAX;
 impl Shape {
     /// Prepares a surface. `precision` is the absolute error of a coordinate, world units. Returns
     /// `None` when the surface has no triangles or no extent.
-    pub fn new(template: &Template, precision: Option<f64>) -> Option<Self> {
+    pub fn new(template: &Template, precision: Option<f64>, threads: usize) -> Option<Self> {
         let triangles: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
         let mut used = vec![false; template.vertices.len()];
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -183,7 +183,7 @@ impl Shape {
             scale,
             precision,
             moments,
-            threads: std::thread::available_parallelism().map_or(1, |n| n.get().min(16)),
+            threads,
             samples,
             all,
             by_class,

@@ -49,7 +49,7 @@ pub enum Depth {
 pub struct Bound {
     /// Anywhere.
     pub limit: f64,
-    /// As much again at most where facets that stand for a smooth surface explain it
+    /// So much more at most where facets that stand for a smooth surface explain it
     /// ([`Shape::chord`]).
     pub facets: f64,
 }
@@ -92,7 +92,7 @@ impl Shape {
             let excess = n.distance - bound.limit;
             let passes = excess <= 0.0
                 || (excess <= bound.facets
-                    && excess <= self.chord(sample.triangle) + self.chord(n.triangle));
+                    && excess <= self.chord(sample.triangle).max(self.chord(n.triangle)));
             return (n.distance, passes);
         }
         // Where many triangles are about equally far, an open search would visit them all.
