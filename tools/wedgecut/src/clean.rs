@@ -2,7 +2,7 @@
 //! passes a vertex closely, and as CAD exports have them.
 
 use crate::opening::Class;
-use crate::surface::{Surface, cancel_opposite};
+use crate::surface::{Surface, join_coincident};
 use geom::sides::UnionFind;
 
 /// What was collapsed.
@@ -77,7 +77,7 @@ pub fn collapse_short_edges(surface: &mut Surface, length: f64) -> Collapsed {
         keep
     });
     surface.patches = kept;
-    cancel_opposite(&mut surface.faces, &mut surface.patches);
+    join_coincident(&mut surface.faces, &mut surface.patches);
     collapsed.faces = before - surface.faces.len();
     collapsed
 }

@@ -44,7 +44,7 @@ pub struct Cli {
     snap: Option<f64>,
 
     /// Collapse edges shorter than this, relative to the radius about the axis
-    #[arg(long, value_name = "REL|off", default_value = "1e-5", value_parser = clean)]
+    #[arg(long, value_name = "REL|off", default_value = "1e-6", value_parser = clean)]
     clean: Clean,
 }
 

@@ -4,7 +4,7 @@ use crate::opening::{Class, Opening};
 use geom::edges::Edges;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tmesh::Triangle;
+use tmesh::{OUTSIDE, Triangle};
 
 /// A surface in the canonical frame, with every point classified.
 #[derive(Clone, Debug, Default)]
@@ -43,7 +43,7 @@ impl Surface {
                 surface.faces.push(face);
             }
         }
-        cancel_opposite(&mut surface.faces, &mut surface.patches);
+        join_coincident(&mut surface.faces, &mut surface.patches);
         surface.patches = flat_patches(&surface.points, &surface.faces, flatness);
         surface
     }
@@ -61,35 +61,55 @@ impl Surface {
     }
 }
 
-/// Removes pairs of faces on the same three points that face each other with the same material
-/// between them or outside of them: what is left of a sliver whose points were joined.
-pub fn cancel_opposite(faces: &mut Vec<Triangle>, patches: &mut Vec<u32>) {
+/// Joins faces on the same three points, as they are left when the layer between them has been
+/// collapsed: one face from the material before the first to the material behind the second, or none
+/// where these are the same.
+pub fn join_coincident(faces: &mut Vec<Triangle>, patches: &mut Vec<u32>) {
     let mut seen: FxHashMap<[u32; 3], usize> = FxHashMap::default();
     let mut keep = vec![true; faces.len()];
-    for (i, f) in faces.iter().enumerate() {
+    for i in 0..faces.len() {
+        let f = faces[i];
         let mut key = f.vertices;
         key.sort_unstable();
-        let Some(j) = seen.remove(&key) else {
+        let Some(&j) = seen.get(&key) else {
             seen.insert(key, i);
             continue;
         };
-        let g = &faces[j];
-        let same = (0..3).any(|k| {
-            let [a, b, c] = f.vertices;
-            [[a, b, c], [b, c, a], [c, a, b]][k] == g.vertices
-        });
-        // From one outer side through both faces to the other outer side.
-        let (outer_f, outer_g) = if same {
-            (f.back, g.front)
+        let g = faces[j];
+        let [a, b, c] = f.vertices;
+        let same = [[a, b, c], [b, c, a], [c, a, b]].contains(&g.vertices);
+        // What lies before and behind the second face, seen from the front of the first.
+        let (front, back) = if same {
+            (f.front, f.back)
         } else {
-            (f.front, g.front)
+            (f.back, f.front)
+        };
+        let joined = if g.back == front {
+            (g.front, back)
+        } else if g.front == back {
+            (front, g.back)
+        } else {
+            // No layer between them: contradicting faces, left for the caps to report.
+            continue;
         };
         keep[i] = false;
-        if outer_f == outer_g {
+        if joined.0 == joined.1 {
             keep[j] = false;
-        } else {
-            seen.insert(key, j);
+            seen.remove(&key);
+            continue;
         }
+        let outer = |t: &Triangle| t.front == OUTSIDE || t.back == OUTSIDE;
+        let marker = if outer(&f) && !outer(&g) {
+            f.marker
+        } else {
+            g.marker
+        };
+        faces[j] = Triangle {
+            front: joined.0,
+            back: joined.1,
+            marker,
+            ..g
+        };
     }
     let mut flags = keep.iter();
     faces.retain(|_| *flags.next().unwrap_or(&true));

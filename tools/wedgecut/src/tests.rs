@@ -11,7 +11,7 @@ const DEFAULT: Params = Params {
     order: None,
     start_angle: None,
     snap: None,
-    clean: 1e-5,
+    clean: 1e-6,
 };
 
 /// Nested rings of points around the axis, extruded and twisted; region k + 1 lies inside ring k.
@@ -428,5 +428,30 @@ fn a_body_without_symmetry_passes_whole() {
     assert_eq!(
         whole.templates[0].triangles.len(),
         body.templates[0].triangles.len()
+    );
+}
+
+#[test]
+fn edges_too_short_to_mesh_are_collapsed() {
+    // A ring 4e-6 inside the outer one: its layer goes when detail of 1e-5 is collapsed.
+    let body = Body::regular(8, &[1.0, 1.0 - 4e-6, 0.5]).document((8, true), Some(6), 1.0);
+    let kept = check(&body, &DEFAULT, 16);
+    let coarse = Params {
+        clean: 1e-5,
+        ..DEFAULT
+    };
+    let (collapsed, report) = cut(body, &coarse).unwrap();
+    assert_eq!(validate(&collapsed), []);
+    assert_eq!(
+        kept.templates[0].vertices.len(),
+        collapsed.templates[0].vertices.len() + 4
+    );
+    assert!(
+        report
+            .notes
+            .iter()
+            .any(|n| n.contains("edges below 1.0e-5 collapsed: 4 points")),
+        "{:?}",
+        report.notes
     );
 }
