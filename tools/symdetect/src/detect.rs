@@ -171,8 +171,12 @@ impl Job<'_> {
     /// be the reason why it does not hold with the tolerance itself.
     fn facets_may_hide(&self, directions: &[DVec3], rotations: &[Rotation]) -> bool {
         let best = rotations.iter().max_by_key(|r| r.rank());
-        if best.is_some_and(|b| b.axisymmetric || b.deviation.value <= 10.0 * self.noise(b.radius))
-        {
+        // Where the facets share the symmetry they cannot hide more of it.
+        let shared = |b: &Rotation| {
+            let small = 0.1 * self.limits.tolerance * b.radius;
+            b.deviation.value <= small.max(10.0 * self.noise(b.radius))
+        };
+        if best.is_some_and(|b| b.axisymmetric || shared(b)) {
             return false;
         }
         let limits = Limits::new((1.0 + FACETS) * self.limits.tolerance);
@@ -207,10 +211,16 @@ impl Job<'_> {
         };
         let principal = candidates::principal(self.shape);
         let mut directions = principal.directions;
-        let mut found: Vec<Rotation> = directions.iter().filter_map(|d| find(*d)).collect();
+        let mut found: Vec<Rotation> = Vec::new();
+        for d in &directions {
+            found.extend(find(*d));
+            // No other axis can have an order above two.
+            if !principal.isotropic && found.iter().any(|r| r.distinct && r.order > 2) {
+                break;
+            }
+        }
         log(&format!(
-            "{} principal directions tried, {} have a rotation",
-            directions.len(),
+            "principal directions tried, {} have a rotation",
             found.len()
         ));
         let distinct_orders = found.iter().filter(|r| r.distinct).map(|r| r.order);
@@ -331,32 +341,35 @@ impl Job<'_> {
             flip: Permutation::identity(shape.regions.len()),
         };
         // Extends the group if the whole of it holds in one of the frames.
-        let mut extend =
-            |group: &mut Group, rotation: &mut Rotation, wider: Group, frames: &[Frame]| {
-                for frame in frames {
-                    if let Ok(v) = wider.verify(shape, frame, bound, Depth::Quick) {
-                        (*group, rotation.frame, state) = (wider, *frame, v);
-                        return true;
-                    }
+        let extend = |group: &mut Group,
+                      rotation: &mut Rotation,
+                      state: &mut Verified,
+                      wider: Group,
+                      found: Frame| {
+            for frame in [found, turned_to(&rotation.frame, &found)] {
+                if let Ok(v) = wider.verify(shape, &frame, bound, Depth::Quick) {
+                    (*group, rotation.frame, *state) = (wider, frame, v);
+                    return;
                 }
-                false
-            };
+            }
+        };
         if let Some(found) = find_turned(shape, &rotation, VERTICAL, fixed, limits) {
             let wider = Group {
                 mirror: true,
                 ..group
             };
-            let frames = [found.frame, turned_to(&rotation.frame, &found.frame)];
-            extend(&mut group, &mut rotation, wider, &frames);
+            extend(&mut group, &mut rotation, &mut state, wider, found.frame);
         }
         for (flip, turn) in [
             (Flip::Horizontal, Isometry::IDENTITY),
             (Flip::Rotary, Isometry::rotation(1, 2 * group.order)),
         ] {
-            let wider = Group { flip, ..group };
-            if let Some(found) = find_flip(shape, &rotation, turn, limits)
-                && extend(&mut group, &mut rotation, wider, &[found.frame])
-            {
+            // The frame only slides along the axis, so that all else keeps holding.
+            if let Some(found) = find_flip(shape, &rotation, turn, limits) {
+                group.flip = flip;
+                rotation.frame = found.frame;
+                state.deviation = state.deviation.max(found.deviation);
+                state.flip = found.permutation;
                 break;
             }
         }
@@ -368,8 +381,7 @@ impl Job<'_> {
                 flip: Flip::HalfTurn,
                 ..group
             };
-            let frames = [found.frame, turned_to(&rotation.frame, &found.frame)];
-            extend(&mut group, &mut rotation, wider, &frames);
+            extend(&mut group, &mut rotation, &mut state, wider, found.frame);
         }
         let mut found = Found {
             frame: rotation.frame,
@@ -474,7 +486,8 @@ impl Job<'_> {
         }
         let limit = self.limits.tolerance * found.radius;
         let reach = (4.0 * found.verified.deviation.value).clamp(1e-5 * found.radius, 4.0 * limit);
-        let frame = refine(shape, found.frame, &operations, 30_000, reach);
+        let samples = (8 * shape.triangles.len()).clamp(2_000, 30_000);
+        let frame = refine(shape, found.frame, &operations, samples, reach);
         self.adopt(found, frame, 1.0);
     }
 
@@ -502,14 +515,9 @@ impl Job<'_> {
             self.adopt(found, frame, 1.02);
         }
         let x = placement::reference(&found.frame, &found.group);
-        let frame = Frame::from_axis(found.frame.origin, found.frame.rotation.z_axis, x);
-        if let Some(frame) = frame {
-            // The same group in an equivalent frame: only rounding and region maps can differ.
-            let bound = self.limits.bound(found.radius);
-            if let Ok(verified) = found.group.verify(self.shape, &frame, bound, Depth::Quick) {
-                found.frame = frame;
-                found.verified = verified;
-            }
+        // What it does to regions is for the full verification to say.
+        if let Some(frame) = Frame::from_axis(found.frame.origin, found.frame.rotation.z_axis, x) {
+            found.frame = frame;
         }
     }
 
@@ -875,11 +883,14 @@ impl Job<'_> {
         let n = found.group.order;
         let most = self.params.max_order.max(n).min((4 * n).max(48)).min(768);
         let most_off = FAR_OFF * found.radius;
+        let multiple = |m: u32| m == 2 * n || m == 3 * n;
         let measured: Vec<RejectedOrder> = (2..=most)
             .filter(|m| !n.is_multiple_of(*m))
+            // Of a body of revolution all others are alike.
+            .filter(|m| !found.axisymmetric || multiple(*m))
             .map(|m| RejectedOrder {
                 order: m,
-                residual: deviation_measured(self.shape, &found.frame, m, 400, most_off).value
+                residual: deviation_measured(self.shape, &found.frame, m, 200, most_off).value
                     / found.radius,
             })
             .filter(|r| r.residual > self.params.tolerance)
@@ -890,8 +901,10 @@ impl Job<'_> {
                 .total_cmp(&b.residual)
                 .then(a.order.cmp(&b.order))
         });
-        let multiple = |r: &&RejectedOrder| [2 * n, 3 * n].contains(&r.order);
-        let mut kept: Vec<RejectedOrder> = measured.iter().filter(multiple).cloned().collect();
+        let mut kept: Vec<RejectedOrder> = (measured.iter())
+            .filter(|r| multiple(r.order))
+            .cloned()
+            .collect();
         for r in nearest {
             if kept.len() < MOST_REJECTED && kept.iter().all(|k| k.order != r.order) {
                 kept.push(r);

@@ -100,7 +100,7 @@ pub fn find_turned(
             if rotation.distinct {
                 operations.extend(powers(*order, &Target::Any));
             }
-            refine(shape, turned, &operations, 5_000, loose)
+            refine(shape, turned, &operations, 2_000, loose)
         };
         let motion = Motion::new(&adjusted, kind);
         if let Ok((deviation, permutation)) = shape.verify_one(motion, bound, Depth::Quick) {
@@ -113,6 +113,10 @@ pub fn find_turned(
                     deviation,
                     permutation,
                 });
+            }
+            // No other angle can be better than the rotations themselves.
+            if deviation.value <= shape.rounding().max(rotation.deviation.value) {
+                break;
             }
         }
     }
@@ -128,7 +132,7 @@ fn canonical(matrix: DMat3) -> Canonical {
 
 /// Adjusts the angle about the axis and leaves axis and centre where they are.
 fn turn_only(shape: &Shape, frame: Frame, kind: DMat3, loose: f64) -> Frame {
-    let adjusted = refine(shape, frame, &[canonical(kind)], 5_000, loose);
+    let adjusted = refine(shape, frame, &[canonical(kind)], 2_000, loose);
     Frame::from_axis(
         frame.origin,
         frame.rotation.z_axis,
@@ -147,31 +151,32 @@ pub fn find_flip(
 ) -> Option<Found> {
     let frame = &rotation.frame;
     let matrix = turn.matrix() * HORIZONTAL;
-    let loose = limits.loose * rotation.radius;
-    let adjusted = refine(shape, *frame, &[canonical(matrix)], 5_000, loose);
-    let axis = frame.rotation.z_axis;
-    let along = axis * axis.dot(adjusted.origin - frame.origin);
-    let slid = Frame {
-        origin: frame.origin + along,
-        ..*frame
-    };
     let bound = limits.bound(rotation.radius);
-    let mut best: Option<Found> = None;
-    for frame in [slid, *frame] {
-        if let Ok((deviation, permutation)) =
-            shape.verify_one(Motion::new(&frame, matrix), bound, Depth::Quick)
-            && best
-                .as_ref()
-                .is_none_or(|b| deviation.value < 0.5 * b.deviation.value)
-        {
-            best = Some(Found {
-                frame,
-                deviation,
-                permutation,
-            });
-        }
+    let verify = |frame: Frame| {
+        let motion = Motion::new(&frame, matrix);
+        let (deviation, permutation) = shape.verify_one(motion, bound, Depth::Quick).ok()?;
+        Some(Found {
+            frame,
+            deviation,
+            permutation,
+        })
+    };
+    let as_is = verify(*frame);
+    let enough = shape.rounding().max(rotation.deviation.value);
+    if as_is.as_ref().is_some_and(|f| f.deviation.value <= enough) {
+        return as_is;
     }
-    best
+    let loose = limits.loose * rotation.radius;
+    let adjusted = refine(shape, *frame, &[canonical(matrix)], 2_000, loose);
+    let axis = frame.rotation.z_axis;
+    let slid = verify(Frame {
+        origin: frame.origin + axis * axis.dot(adjusted.origin - frame.origin),
+        ..*frame
+    });
+    match (as_is, slid) {
+        (Some(a), Some(s)) if a.deviation.value <= s.deviation.value => Some(a),
+        (a, s) => s.or(a),
+    }
 }
 
 /// Finds the mirror plane whose normal is near `normal`, of a body without rotation symmetry. The

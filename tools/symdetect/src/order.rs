@@ -118,14 +118,6 @@ pub fn find_rotation(
     if radius <= 0.0 {
         return None;
     }
-    let loose = limits.loose * radius;
-    let revolution = shape.deviation_from_revolution(&start, loose);
-    let candidates = if revolution.is_some() && search.orders.end() > search.orders.start() {
-        search.orders.clone().collect()
-    } else {
-        search.scan(&start, loose, OUTLIERS)
-    };
-    let largest = *candidates.last()?;
     let mut best: Option<Rotation> = None;
     let keep = |best: &mut Option<Rotation>, found: Option<Rotation>| {
         if let Some(found) = found
@@ -137,14 +129,21 @@ pub fn find_rotation(
         }
     };
     keep(&mut best, search.in_frame(&start));
-    let rounding = 8.0 * shape.precision + 1e-12;
     if fixed
         || best
             .as_ref()
-            .is_some_and(|b| b.distinct && b.deviation.value <= rounding)
+            .is_some_and(|b| b.distinct && b.deviation.value <= shape.rounding())
     {
         return best;
     }
+    let loose = limits.loose * radius;
+    let revolution = shape.deviation_from_revolution(&start, loose);
+    let candidates = if revolution.is_some() && search.orders.end() > search.orders.start() {
+        search.orders.clone().collect()
+    } else {
+        search.scan(&start, loose, OUTLIERS)
+    };
+    let largest = *candidates.last()?;
     let target = shape.target_in_place();
     let near_revolution = candidates.len() > 20;
     let operations = if near_revolution {
@@ -352,19 +351,26 @@ impl Search<'_> {
         let most = *self.orders.end();
         // Rounding of coordinates is no distinction.
         let floor = 2.0 * self.shape.precision.max(1e-13);
-        let worst: Vec<f64> = (0..=most)
-            .map(|n| match n {
-                0 | 1 => 0.0,
-                n => deviation_of_order(self.shape, frame, n, 48, 3.0 * limit).max(floor),
+        let measure =
+            |n: u32, count| deviation_of_order(self.shape, frame, n, count, 3.0 * limit).max(floor);
+        // A few vertices tell; only when they do not, more of them.
+        [12, 48].into_iter().find_map(|count| {
+            let worst: Vec<f64> = (0..=most)
+                .map(|n| if n < 2 { 0.0 } else { measure(n, count) })
+                .collect();
+            (3..=most).rev().find(|&n| {
+                let largest = |of: &dyn Fn(u32) -> f64| {
+                    let divisors = (2..=n).filter(|d| n % d == 0);
+                    divisors.map(of).fold(0.0, f64::max)
+                };
+                let apart = |inside: f64| {
+                    inside <= limit
+                        && (2..=most)
+                            .filter(|m| n % m != 0)
+                            .all(|m| worst[m as usize] >= SEPARATION * inside)
+                };
+                apart(largest(&|d| worst[d as usize])) && apart(largest(&|d| measure(d, 96)))
             })
-            .collect();
-        (3..=most).rev().find(|&n| {
-            let divisors = (2..=n).filter(|d| n % d == 0);
-            let inside = divisors.map(|d| worst[d as usize]).fold(0.0, f64::max);
-            inside <= limit
-                && (2..=most)
-                    .filter(|m| n % m != 0)
-                    .all(|m| worst[m as usize] >= SEPARATION * inside)
         })
     }
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Vertices taken at most.
 const MOST_VERTICES: usize = 80_000;
 /// Face samples at least and at most.
-const FACE_SAMPLES: Range<usize> = 6_000..40_000;
+const FACE_SAMPLES: Range<usize> = 3_000..40_000;
 /// Samples of every kind of interface at least.
 const PER_CLASS: usize = 12;
 /// How far the normals around a vertex must spread for it to count as a feature: one minus the

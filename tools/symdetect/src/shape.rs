@@ -294,6 +294,11 @@ impl Shape {
         Target::Classes(self.classes.iter().map(image).collect())
     }
 
+    /// Deviation that the rounding of coordinates explains.
+    pub fn rounding(&self) -> f64 {
+        8.0 * self.precision + 1e-12
+    }
+
     /// World position of a point.
     pub fn to_world(&self, p: DVec3) -> DVec3 {
         self.origin + self.scale * p

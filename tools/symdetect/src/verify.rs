@@ -78,8 +78,11 @@ pub struct Operation {
 const BLOCK: usize = 1 << 15;
 /// Tests below which threads do not pay.
 const PARALLEL: usize = 1 << 12;
-/// Tests spread over all operations: quick and full.
-const SHARED: [usize; 2] = [3_000, 60_000];
+/// Tests of one operation, or spread over all of a family, in a quick verification.
+const QUICK: usize = 1_500;
+/// The same in a full one: some for each triangle, between bounds.
+const SHARED_PER_TRIANGLE: usize = 8;
+const SHARED: [usize; 2] = [8_000, 60_000];
 
 impl Shape {
     /// Deviation of one test, and whether it passes. Beyond the bound, the distance to any triangle
@@ -218,7 +221,7 @@ impl Shape {
                 target: self.target(permutation),
             };
             let (mixed, sorted) = (&self.samples.mixed, &self.samples.sorted);
-            let first = mixed.len().min(SHARED[0]);
+            let first = mixed.len().min(QUICK);
             let worst = self.worst(first, bound, |i| (&mixed[i], &operation))?;
             if depth == Depth::Quick {
                 return Ok(worst);
@@ -267,7 +270,7 @@ impl Shape {
         let others = operations.len();
         // Each sample with an operation drawn at random, before anything systematic.
         let mut random = Random(others as u64);
-        let draws: Vec<u32> = (0..samples.len().min(1_500))
+        let draws: Vec<u32> = (0..samples.len().min(QUICK / 2))
             .map(|_| random.below(others) as u32)
             .collect();
         let mut worst = self.worst(draws.len(), bound, |i| {
@@ -276,8 +279,11 @@ impl Shape {
         if depth == Depth::Full {
             worst = worst.max(self.worst(sorted.len(), bound, |i| (&sorted[i], &operations[0]))?);
         }
-        let shared = SHARED[usize::from(depth == Depth::Full)];
-        let each = (shared / others).clamp(24, sorted.len().max(24));
+        let shared = match depth {
+            Depth::Quick => QUICK,
+            Depth::Full => (SHARED_PER_TRIANGLE * self.triangles.len()).clamp(SHARED[0], SHARED[1]),
+        };
+        let each = (shared / others).clamp(16, sorted.len().max(16));
         let stride = (sorted.len() / each).max(1);
         let rest = self.worst(each * others, bound, |i| {
             let (which, i) = (i / each, i % each);
