@@ -12,6 +12,8 @@ pub struct Surface {
     pub triangle: Triangle,
     /// Wall face; see [`crate::walls`].
     pub face: u32,
+    /// Facet it is a part of.
+    pub facet: u32,
 }
 
 /// The mesh with its regions.
@@ -99,8 +101,8 @@ pub fn label(plc: &Plc, mesh: &Mesh) -> Result<Cells, Contradiction> {
     }
 
     let mut surface = Vec::with_capacity(pieces.len());
-    for (corners, facet, sides) in pieces {
-        let facet = &plc.facets.facets[facet];
+    for (corners, index, sides) in pieces {
+        let facet = &plc.facets.facets[index];
         let of_side =
             |side: Option<usize>| side.map_or(OUTSIDE, |t| region_of_cell[cell[t] as usize]);
         let found = sides.map(of_side);
@@ -147,6 +149,7 @@ pub fn label(plc: &Plc, mesh: &Mesh) -> Result<Cells, Contradiction> {
                 back: facet.attributes.back,
             },
             face: facet.attributes.face,
+            facet: index as u32,
         });
     }
     let region = cell.iter().map(|&c| region_of_cell[c as usize]).collect();

@@ -8,7 +8,7 @@ use crate::{Error, Params, Sizes};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tetgen_sys::Limits;
+use tetgen_sys::{Limits, Mesh};
 use tmesh::{Document, Wall};
 
 /// Most tetrahedra that may be asked for in a template: TetGen counts in 32 bits.
@@ -124,18 +124,26 @@ struct Done {
     preserved: bool,
 }
 
-fn template(
+/// TetGen's answer for one template.
+pub struct Answer {
+    pub plc: Plc,
+    pub mesh: Mesh,
+    pub switches: String,
+}
+
+/// Has TetGen mesh one template. `preserve`: the surface stays as it is.
+pub fn run(
     document: &Document,
     index: usize,
     params: &Params,
     sizes: &Sizes,
+    preserve: impl Fn(&Plc) -> bool,
     log: &(dyn Fn(&str) + Sync),
-) -> Result<Done, Error> {
+) -> Result<Answer, Error> {
     let begun = Instant::now();
     let plc = Plc::new(document, index, sizes)?;
     check_count(document, index, sizes)?;
-    let preserved = plc.faces.preserve();
-    let switches = switches(params, plc.max_volume, plc.per_region, preserved);
+    let switches = switches(params, plc.max_volume, plc.per_region, preserve(&plc));
     log(&format!(
         "template {index}: {} points, {} triangles in {} facets, {} void(s); switches {switches}",
         plc.points.len(),
@@ -152,14 +160,44 @@ fn template(
         chatter.take(bytes);
     })
     .map_err(|error| failure(error, &chatter, &plc, params.timeout))?;
+    log(&format!(
+        "template {index}: {} tetrahedra; prepared in {:.3} s, meshed in {:.3} s",
+        mesh.tetrahedra().len(),
+        (prepared - begun).as_secs_f64(),
+        prepared.elapsed().as_secs_f64(),
+    ));
+    Ok(Answer {
+        plc,
+        mesh,
+        switches,
+    })
+}
+
+fn template(
+    document: &Document,
+    index: usize,
+    params: &Params,
+    sizes: &Sizes,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<Done, Error> {
+    let Answer {
+        plc,
+        mesh,
+        switches,
+    } = run(
+        document,
+        index,
+        params,
+        sizes,
+        |plc| plc.faces.preserve(),
+        log,
+    )?;
     let meshed = Instant::now();
     let filled = fill(document, index, &plc, &mesh)?;
     log(&format!(
-        "template {index}: {} tetrahedra, {} vertices; prepared in {:.3} s, meshed in {:.3} s, checked in {:.3} s",
+        "template {index}: {} tetrahedra, {} vertices; checked in {:.3} s",
         filled.template.tets.len(),
         filled.template.vertices.len(),
-        (prepared - begun).as_secs_f64(),
-        (meshed - prepared).as_secs_f64(),
         meshed.elapsed().as_secs_f64(),
     ));
     if filled.dropped > 0 {
@@ -171,7 +209,7 @@ fn template(
     Ok(Done {
         filled,
         switches,
-        preserved,
+        preserved: plc.faces.preserve(),
     })
 }
 
