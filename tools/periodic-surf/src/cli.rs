@@ -2,20 +2,25 @@
 
 use crate::prepare;
 use kit::{Command, CommonArgs, Failure, Session};
+use tetwedge::ElementArgs;
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk
-  periodic-surf fan.wedge.tmesh --to stl -o fan.wedge.stl";
+  periodic-surf --edge-length 0.05 fan.wedge.tmesh | tetwedge --edge-length 0.05 -o fan.tmesh";
 
-/// Prepare the surface of a wedge for the mesher.
+/// Make the surface mesh of a wedge whose cut faces match under the rotation
 ///
-/// Wedges between mirror walls pass as they are. On wedges whose sides match under the rotation, the
-/// triangulation of both sides is kept as it was cut.
+/// The surface is refined as size and quality ask for, thin layers included, and the two faces of a
+/// seam stay images of each other; tetwedge then keeps it. Give both tools the same element options.
+/// Wedges between mirror walls pass as they are.
 #[derive(clap::Parser, Debug)]
 #[command(name = "periodic-surf", version, after_help = EXAMPLES)]
 pub struct Cli {
     #[command(flatten)]
     common: CommonArgs,
+
+    #[command(flatten)]
+    elements: ElementArgs,
 }
 
 impl Command for Cli {
@@ -24,19 +29,13 @@ impl Command for Cli {
     }
 
     fn run(self, session: &Session) -> Result<(), Failure> {
+        let params = self.elements.params();
         let document = session.read()?;
+        let log = |text: &str| session.info(text);
         let (mut document, report) =
-            prepare(document).map_err(|error| Failure::Input(error.to_string()))?;
-        let note = if report.seam_vertices == 0 {
-            "no seam: the mesher may refine all walls".to_owned()
-        } else {
-            format!(
-                "seam kept as cut: {} vertex pairs, {} triangle pairs",
-                report.seam_vertices, report.seam_triangles
-            )
-        };
-        session.info(&note);
-        document.history.push(session.history_entry(vec![note]));
+            prepare(document, &params, &log).map_err(|error| error.failure())?;
+        report.facts.iter().for_each(|fact| session.info(fact));
+        document.history.push(session.history_entry(report.facts));
         session.write(&document)
     }
 }

@@ -16,7 +16,7 @@ use tmesh::{Document, Template, Tet, Triangle, Wall};
 const ROUNDING: f64 = 1e-11;
 
 /// Rounds of projection onto the planes of facets.
-const ROUNDS: usize = 4;
+pub const ROUNDS: usize = 4;
 
 /// No counterpart.
 pub const NONE: u32 = u32::MAX;

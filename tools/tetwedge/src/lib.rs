@@ -9,6 +9,7 @@ mod cells;
 mod check;
 mod cli;
 mod diagnose;
+mod elements;
 mod error;
 mod facets;
 mod fill;
@@ -17,13 +18,18 @@ mod mesher;
 mod params;
 mod plc;
 mod raycast;
+mod refined;
 mod seeds;
 mod walls;
 
 pub use cli::Cli;
+pub use elements::ElementArgs;
 pub use error::{Error, Place, RegionName};
 pub use mesher::{Meshed, tetrahedralize};
+pub use facets::{Attributes, Facet, Facets};
 pub use params::{DEFAULT_OPTIMIZE, Params, RegionSize, Sizes, volume_of_edge};
+
+pub use refined::{Refined, refine};
 
 #[cfg(test)]
 mod bodies;

@@ -8,7 +8,7 @@ use crate::{Error, Params, Sizes};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tetgen_sys::Limits;
+use tetgen_sys::{Limits, Mesh};
 use tmesh::{Document, Wall};
 
 /// Most tetrahedra that may be asked for in a template: TetGen counts in 32 bits.
@@ -133,45 +133,61 @@ struct Done {
     failed: usize,
 }
 
-fn template(
-    document: &Document,
+/// TetGen's answer for one template.
+pub struct Answer {
+    pub plc: Plc,
+    pub mesh: Mesh,
+    pub switches: String,
+    /// When TetGen was done.
+    pub meshed: Instant,
+}
+
+/// Has `make` mesh template `index` by one description of its surface after the other, until
+/// one works. Returns what it made, and the number of descriptions that failed before.
+///
+/// `make` gets the number of the description in [`DESCRIPTIONS`] and the time when to stop.
+///
+/// # Errors
+/// The last description's.
+pub fn persist<T>(
     index: usize,
     params: &Params,
-    sizes: &Sizes,
     log: &(dyn Fn(&str) + Sync),
-) -> Result<Done, Error> {
-    check_count(document, index, sizes)?;
+    make: impl Fn(usize, Option<Instant>) -> Result<T, Error>,
+) -> Result<(T, usize), Error> {
     let deadline = params.timeout.and_then(|t| Instant::now().checked_add(t));
     let mut failed = 0;
     loop {
-        let result = attempt(document, index, params, sizes, failed, deadline, log);
-        match result {
+        match make(failed, deadline) {
             Err(error) if error.is_bad_luck() && failed + 1 < DESCRIPTIONS.len() => {
                 log(&format!(
                     "template {index}: {error}; trying an equivalent description of the surface"
                 ));
                 failed += 1;
             }
-            Ok(done) => return Ok(Done { failed, ..done }),
+            Ok(made) => return Ok((made, failed)),
             Err(error) => return Err(error),
         }
     }
 }
 
-/// Meshes a template by one of the descriptions.
-fn attempt(
+/// Has TetGen mesh one template by description `number`. `preserve`: the surface stays as it is.
+///
+/// # Errors
+/// See [`Error`].
+pub fn run(
     document: &Document,
     index: usize,
     params: &Params,
     sizes: &Sizes,
-    number: usize,
-    deadline: Option<Instant>,
+    (number, deadline): (usize, Option<Instant>),
+    preserve: impl Fn(&Plc) -> bool,
     log: &(dyn Fn(&str) + Sync),
-) -> Result<Done, Error> {
+) -> Result<Answer, Error> {
     let begun = Instant::now();
+    check_count(document, index, sizes)?;
     let plc = Plc::new(document, index, sizes, DESCRIPTIONS[number])?;
-    let preserved = plc.faces.preserve();
-    let switches = switches(params, plc.max_volume, plc.per_region, preserved);
+    let switches = switches(params, plc.max_volume, plc.per_region, preserve(&plc));
     log(&format!(
         "template {index}: {} points, {} triangles in {} facets, {} void(s); switches {switches}",
         plc.points.len(),
@@ -193,27 +209,52 @@ fn attempt(
         failure(error, &chatter, &plc, params.timeout, last)
     })?;
     let meshed = Instant::now();
-    let filled = fill(document, index, &plc, &mesh)?;
     log(&format!(
-        "template {index}: {} tetrahedra, {} vertices; prepared in {:.3} s, meshed in {:.3} s, checked in {:.3} s",
-        filled.template.tets.len(),
-        filled.template.vertices.len(),
+        "template {index}: {} tetrahedra; prepared in {:.3} s, meshed in {:.3} s",
+        mesh.tetrahedra().len(),
         (prepared - begun).as_secs_f64(),
         (meshed - prepared).as_secs_f64(),
-        meshed.elapsed().as_secs_f64(),
     ));
-    if filled.dropped > 0 {
-        log(&format!(
-            "template {index}: {} tetrahedra in voids were left out",
-            filled.dropped
-        ));
-    }
-    Ok(Done {
-        filled,
+    Ok(Answer {
+        plc,
+        mesh,
         switches,
-        preserved,
-        failed: 0,
+        meshed,
     })
+}
+
+fn template(
+    document: &Document,
+    index: usize,
+    params: &Params,
+    sizes: &Sizes,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<Done, Error> {
+    let preserve = |plc: &Plc| plc.faces.preserve();
+    let (done, failed) = persist(index, params, log, |number, deadline| {
+        let attempt = (number, deadline);
+        let answer = run(document, index, params, sizes, attempt, preserve, log)?;
+        let filled = fill(document, index, &answer.plc, &answer.mesh)?;
+        log(&format!(
+            "template {index}: {} tetrahedra, {} vertices; checked in {:.3} s",
+            filled.template.tets.len(),
+            filled.template.vertices.len(),
+            answer.meshed.elapsed().as_secs_f64(),
+        ));
+        if filled.dropped > 0 {
+            log(&format!(
+                "template {index}: {} tetrahedra in voids were left out",
+                filled.dropped
+            ));
+        }
+        Ok(Done {
+            filled,
+            switches: answer.switches,
+            preserved: answer.plc.faces.preserve(),
+            failed: 0,
+        })
+    })?;
+    Ok(Done { failed, ..done })
 }
 
 /// Refuses sizes that could only end in running out of memory.

@@ -1,0 +1,103 @@
+//! The surface of a template after TetGen refined it freely, walls included.
+
+use crate::cells::{Cells, label};
+use crate::error::Place;
+use crate::facets::Facets;
+use crate::fill::ROUNDS;
+use crate::mesher::{Answer, persist, run};
+use crate::{Error, Params, Sizes};
+use glam::DVec3;
+use tmesh::Document;
+
+/// A refined surface.
+pub struct Refined {
+    /// Positions, canonical frame, model units: those of the template's vertices that its triangles
+    /// use, then new ones.
+    pub vertices: Vec<DVec3>,
+    /// Template vertex of each of the first vertices.
+    pub vertex_of_point: Vec<u32>,
+    /// Vertex ids, counter-clockwise seen from the front region.
+    pub triangles: Vec<[u32; 3]>,
+    /// Facet of each triangle.
+    pub facet: Vec<u32>,
+    /// Facets of the template's own triangles.
+    pub facets: Facets,
+}
+
+/// Meshes template `index` as asked by `params`, but free to put points on every facet, and gives
+/// the surface of that mesh. No facet joins wall faces with anything else, nor the two faces of a
+/// seam.
+///
+/// # Errors
+/// See [`Error`].
+pub fn refine(
+    document: &Document,
+    index: usize,
+    params: &Params,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<Refined, Error> {
+    let sizes = Sizes::new(document, params)?;
+    let unusable = |what: String| Error::Unusable {
+        template: index,
+        what,
+    };
+    let (refined, _) = persist(index, params, log, |number, deadline| {
+        let attempt = (number, deadline);
+        let Answer { plc, mesh, .. } =
+            run(document, index, params, &sizes, attempt, |_| false, log)?;
+        let kept = plc.points.len();
+        if mesh.points().len() < kept || mesh.points()[..kept] != plc.points {
+            return Err(unusable("input points were moved or left out".to_owned()));
+        }
+        let Cells { surface, .. } = label(&plc, &mesh).map_err(|c| {
+            let place = Place(plc.to_model(c.place));
+            unusable(format!("there are {} near {place}", c.what))
+        })?;
+        let template = &document.templates[index];
+        let mut refined = Refined {
+            vertices: mesh
+                .points()
+                .iter()
+                .enumerate()
+                .map(|(i, p)| match plc.vertex_of_point.get(i) {
+                    Some(&v) => template.vertices[v as usize],
+                    None => plc.to_model(*p),
+                })
+                .collect(),
+            triangles: surface.iter().map(|s| s.triangle.vertices).collect(),
+            facet: surface.iter().map(|s| s.facet as u32).collect(),
+            vertex_of_point: plc.vertex_of_point,
+            facets: plc.facets,
+        };
+        put_back(&mut refined, plc.shift);
+        Ok(refined)
+    })?;
+    Ok(refined)
+}
+
+/// Puts new vertices back onto the planes of their facets, which the mesher got shifted by
+/// `shift` (model units; see [`crate::flat`]).
+fn put_back(refined: &mut Refined, shift: f64) {
+    if shift == 0.0 {
+        return;
+    }
+    let first_new = refined.vertex_of_point.len();
+    let mut pairs: Vec<(u32, u32)> = Vec::new();
+    for (t, &f) in refined.triangles.iter().zip(&refined.facet) {
+        let facet = &refined.facets.facets[f as usize];
+        // Facets more uneven than the shift have no plane to be put back onto.
+        if facet.deviation <= shift && facet.normal != DVec3::ZERO {
+            let new = t.iter().filter(|&&v| v as usize >= first_new);
+            pairs.extend(new.map(|&v| (v, f)));
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    for _ in 0..ROUNDS {
+        for &(v, f) in &pairs {
+            let facet = &refined.facets.facets[f as usize];
+            let p = &mut refined.vertices[v as usize];
+            *p -= facet.normal * (*p - facet.origin).dot(facet.normal);
+        }
+    }
+}
