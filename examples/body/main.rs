@@ -89,6 +89,10 @@ struct Cli {
     #[arg(long, value_name = "R")]
     bore: Option<f64>,
 
+    /// Thickness of a second material that lines a ratchet's bore, 0 for none
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    coating: f64,
+
     /// Radius of a via's core or hole [default: tsv 0.2; practical-tsv 0.05, or what ten films fill]
     #[arg(long, value_name = "R")]
     core: Option<f64>,
@@ -255,10 +259,16 @@ impl Cli {
             }
             Kind::Ratchet => {
                 let bore = within("--bore", self.bore.unwrap_or(0.3), 0.0, Ratchet::ROOT)?;
+                let coating = match self.coating {
+                    0.0 => 0.0,
+                    t if bore > 0.0 => within("--coating", t, 0.0, Ratchet::ROOT - bore)?,
+                    _ => return Err("--coating needs a --bore".to_owned()),
+                };
                 Ratchet {
                     order,
                     radius,
                     bore,
+                    coating,
                     height,
                     tessellation,
                 }

@@ -151,6 +151,7 @@ fn toothed_bodies_are_closed_however_they_are_split() {
                     order,
                     radius,
                     bore,
+                    coating: bore / 10.0,
                     height,
                     tessellation,
                 };

@@ -9,4 +9,5 @@ mod failures;
 mod makefiles;
 mod pipe;
 mod referee;
+mod seams;
 mod support;

@@ -179,6 +179,7 @@ fn ratchet(order: u32, bore: f64) -> Body {
         order,
         radius: 1.0,
         bore,
+        coating: 0.0,
         height: 0.4,
         tessellation: Tessellation::Symmetric,
     }

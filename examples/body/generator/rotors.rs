@@ -36,21 +36,33 @@ impl Section<'_> {
     }
 
     /// One material between this section (placed at each level by `levels`: height, twist, scale
-    /// of the radii) and a bore whose corners lie at the same angles, or the axis.
+    /// of the radii) and a bore whose corners lie at the same angles, or the axis. A second one
+    /// lines the bore where `coating`, its thickness at the corners, is not 0.
     fn extrude(
         &self,
         bore: f64,
+        coating: f64,
         levels: &[(f64, f64, f64)],
         mirror: bool,
         tessellation: Tessellation,
     ) -> Body {
-        let mut sweep = Sweep::new(["body"]);
+        let coated = coating > 0.0 && bore > 0.0;
+        let names: &[&str] = if coated {
+            &["body", "coating"]
+        } else {
+            &["body"]
+        };
+        let mut sweep = Sweep::new(names.iter().copied());
         let mut outer = Vec::new();
         let mut inner = Vec::new();
+        let mut lining = Vec::new();
         for (i, &(z, twist, scale)) in levels.iter().enumerate() {
             outer.push(sweep.ring(self.ring(z, twist, |r| r * scale)));
             if bore > 0.0 {
-                inner.push(sweep.ring(self.ring(z, twist, |_| bore)));
+                inner.push(sweep.ring(self.ring(z, twist, |_| bore + coating)));
+                if coated {
+                    lining.push(sweep.ring(self.ring(z, twist, |_| bore)));
+                }
             } else if i == 0 || i + 1 == levels.len() {
                 inner.push(sweep.axis(z));
             }
@@ -63,7 +75,14 @@ impl Section<'_> {
         }
         if bore > 0.0 {
             for pair in inner.windows(2) {
-                sweep.strip(pair[0], pair[1], None, Some(0));
+                sweep.strip(pair[0], pair[1], coated.then_some(1), Some(0));
+            }
+        }
+        if coated {
+            sweep.strip(lining[0], inner[0], Some(1), None);
+            sweep.strip(last(&inner), last(&lining), Some(1), None);
+            for pair in lining.windows(2) {
+                sweep.strip(pair[0], pair[1], None, Some(1));
             }
         }
         let flat = levels
@@ -102,7 +121,7 @@ impl Gear {
             points: &points.map(|(part, radius)| Point { part, radius }),
         };
         let levels = [(0.0, 0.0, 1.0), (self.height, 0.0, 1.0)];
-        section.extrude(self.bore, &levels, true, self.tessellation)
+        section.extrude(self.bore, 0.0, &levels, true, self.tessellation)
     }
 }
 
@@ -115,6 +134,8 @@ pub struct Ratchet {
     pub radius: f64,
     /// Radius of the bore; 0 for none.
     pub bore: f64,
+    /// Thickness at its corners of a second material that lines the bore; 0 for none.
+    pub coating: f64,
     /// Height.
     pub height: f64,
     /// How flat parts are split.
@@ -134,7 +155,7 @@ impl Ratchet {
             points: &points.map(|(part, radius)| Point { part, radius }),
         };
         let levels = [(0.0, 0.0, 1.0), (self.height, 0.0, 1.0)];
-        section.extrude(self.bore, &levels, false, self.tessellation)
+        section.extrude(self.bore, self.coating, &levels, false, self.tessellation)
     }
 }
 
@@ -186,6 +207,12 @@ impl Impeller {
                 (self.height * share, self.twist * share, scale)
             })
             .collect();
-        section.extrude(self.bore, &levels, self.twist == 0.0, self.tessellation)
+        section.extrude(
+            self.bore,
+            0.0,
+            &levels,
+            self.twist == 0.0,
+            self.tessellation,
+        )
     }
 }

@@ -8,7 +8,7 @@ use spade::{
 
 /// Triangles with smaller angles are improved where the outline allows it, degrees. Insertion of
 /// circumcentres ends for any bound below 30.
-const MIN_ANGLE: f64 = 25.0;
+const MIN_ANGLE: f64 = 27.0;
 
 /// Rounds of removing and inserting points at most.
 const ROUNDS: usize = 40;

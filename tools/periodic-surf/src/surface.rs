@@ -21,7 +21,12 @@ pub fn make(
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Template, SurfaceError> {
     let input = &document.templates[index];
-    let guide = refine(document, index, params, log)?;
+    // The guide's own elements are thrown away; only the surface counts.
+    let params = Params {
+        optimize: None,
+        ..params.clone()
+    };
+    let guide = refine(document, index, &params, log)?;
     let features = Features::new(input, index, &guide)?;
     let mut maker = Maker {
         input,

@@ -25,8 +25,8 @@ mod walls;
 pub use cli::Cli;
 pub use elements::ElementArgs;
 pub use error::{Error, Place, RegionName};
-pub use mesher::{Meshed, tetrahedralize};
 pub use facets::{Attributes, Facet, Facets};
+pub use mesher::{Meshed, tetrahedralize};
 pub use params::{DEFAULT_OPTIMIZE, Params, RegionSize, Sizes, volume_of_edge};
 
 pub use refined::{Refined, refine};
