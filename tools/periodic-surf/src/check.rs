@@ -45,7 +45,9 @@ pub fn same_body(before: &Template, after: &Template, slack: f64) -> Result<(), 
     for region in regions.into_iter().filter(|&r| r != OUTSIDE) {
         let [old, new] = [before, after].map(|t| region_volume(t, region));
         let allowed = CHANGE * old.abs() + slack + 1e-15 * extent.powi(3);
-        if !((new - old).abs() <= allowed) {
+        // False for NaN, too.
+        let unchanged = (new - old).abs() <= allowed;
+        if !unchanged {
             return Err(format!(
                 "region {region} has the volume {new:.12e}, it had {old:.12e}"
             ));

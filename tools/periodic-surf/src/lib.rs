@@ -6,7 +6,7 @@
 //!
 //! 1. A free pass of the mesher gives the guide: where the surface must be fine, for the thinness of
 //!    layers and the quality and size asked for.
-//! 2. Every edge of the seam's low face, and its image, get one division ([`outline`]).
+//! 2. Every edge of the seam's low face, and its image, get one division (`outline.rs`).
 //! 3. The low face is triangulated between these edges, with the guide's inner points; the high face
 //!    is its image.
 //! 4. Flat facets whose outline changed are triangulated anew; all others are as in the guide.
