@@ -169,7 +169,8 @@ fn toothed_bodies_are_closed_however_they_are_split() {
             for (a, b) in a.iter().zip(&b) {
                 is_closed(a);
                 is_closed(b);
-                has_volumes(b, &[a.volume(0)]);
+                let volumes: Vec<f64> = (0..a.materials.len()).map(|i| a.volume(i)).collect();
+                has_volumes(b, &volumes);
                 assert!(a.faces != b.faces || a.vertices != b.vertices);
             }
         }
