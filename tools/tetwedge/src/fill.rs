@@ -56,14 +56,14 @@ pub fn fill(document: &Document, index: usize, plc: &Plc, mesh: &Mesh) -> Result
         unusable(format!("there are {} near {place}", c.what))
     })?;
 
-    let numbering = Numbering::new(mesh, &region, &surface);
-    let mut vertices = Vec::with_capacity(numbering.count);
+    let numbering = Numbering::new(mesh, &region, &surface, &plc.vertex_of_point);
+    let mut vertices = vec![DVec3::ZERO; numbering.count];
     for (i, p) in mesh.points().iter().enumerate() {
         if numbering.new_id[i] != NONE {
-            vertices.push(match plc.vertex_of_point.get(i) {
+            vertices[numbering.new_id[i] as usize] = match plc.vertex_of_point.get(i) {
                 Some(&v) => input.vertices[v as usize],
                 None => plc.to_model(*p),
-            });
+            };
         }
     }
     let renumber = |v: u32| numbering.new_id[v as usize];
@@ -116,14 +116,19 @@ pub fn fill(document: &Document, index: usize, plc: &Plc, mesh: &Mesh) -> Result
     Ok(filled)
 }
 
-/// Numbers for the points that the mesh uses.
+/// Numbers for the points that the mesh uses: the template's own in their order there, then new ones.
 struct Numbering {
     new_id: Vec<u32>,
     count: usize,
 }
 
 impl Numbering {
-    fn new(mesh: &Mesh, region: &[u32], surface: &[crate::cells::Surface]) -> Self {
+    fn new(
+        mesh: &Mesh,
+        region: &[u32],
+        surface: &[crate::cells::Surface],
+        vertex_of_point: &[u32],
+    ) -> Self {
         let mut new_id = vec![NONE; mesh.points().len()];
         for (t, &region) in mesh.tetrahedra().iter().zip(region) {
             if region != tmesh::OUTSIDE {
@@ -136,10 +141,14 @@ impl Numbering {
                 .iter()
                 .for_each(|&v| new_id[v as usize] = 0);
         }
+        let mut order: Vec<usize> = (0..new_id.len()).collect();
+        order[..vertex_of_point.len()].sort_unstable_by_key(|&i| vertex_of_point[i]);
         let mut count = 0;
-        for id in new_id.iter_mut().filter(|id| **id == 0) {
-            *id = count as u32;
-            count += 1;
+        for i in order {
+            if new_id[i] == 0 {
+                new_id[i] = count as u32;
+                count += 1;
+            }
         }
         Self { new_id, count }
     }
