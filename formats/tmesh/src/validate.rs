@@ -12,6 +12,10 @@ use std::collections::{BTreeSet, HashSet};
 /// on the plane: a few units in the last place of the coordinates.
 const PLANE_ROUNDING: f64 = 1e-14;
 
+/// Distance from its image, relative to the extent, up to which a vertex of a hub wall counts as
+/// equal to it: where two copies of a template meet on another one, a vertex has two images.
+const HUB_ROUNDING: f64 = 1e-14;
+
 /// Deviation from orthonormality up to which a frame counts as a rotation.
 const FRAME_ROUNDING: f64 = 1e-12;
 
@@ -343,7 +347,7 @@ fn check_walls(index: usize, template: &Template, document: &Document, found: &m
                     vertex_pairs: &w.vertex_pairs,
                     triangle_pairs: &w.triangle_pairs,
                 };
-                pairs.check(template, template, w.rotation, false, found);
+                pairs.check(template, template, w.rotation, None, found);
             }
             Wall::Hub(w) => {
                 let count = document.templates.len();
@@ -383,7 +387,7 @@ fn check_walls(index: usize, template: &Template, document: &Document, found: &m
                     vertex_pairs: &w.vertex_pairs,
                     triangle_pairs: &w.triangle_pairs,
                 };
-                pairs.check(template, other, w.placement, true, found);
+                pairs.check(template, other, w.placement, Some(extent), found);
             }
         }
     }
@@ -397,14 +401,15 @@ struct Pairs<'a> {
 }
 
 impl Pairs<'_> {
-    /// Checks that second members are images of first ones (`of_second` false), or first members
-    /// images of second ones (`of_second` true), and that paired triangles have paired vertices.
+    /// Checks that second members are images of first ones, or, on a hub wall of a template of the
+    /// given extent, first members images of second ones but for rounding; and that paired triangles
+    /// have paired vertices.
     fn check(
         &self,
         first: &Template,
         second: &Template,
         isometry: Isometry,
-        of_second: bool,
+        hub: Option<f64>,
         found: &mut Collector,
     ) {
         if let Some(i) = first_unordered(self.vertex_pairs.iter().map(|p| p[0])) {
@@ -420,12 +425,12 @@ impl Pairs<'_> {
         for &[a, b] in self.vertex_pairs {
             let p = first.vertices[a as usize];
             let q = second.vertices[b as usize];
-            let (image, target) = if of_second {
-                (placed.apply(q), p)
-            } else {
-                (placed.apply(p), q)
+            let (image, target, allowed) = match hub {
+                Some(extent) => (placed.apply(q), p, HUB_ROUNDING * extent),
+                None => (placed.apply(p), q, 0.0),
             };
-            if image != target {
+            let distance = (image - target).abs().max_element();
+            if distance > allowed {
                 found.add(Violation::NotAnImage {
                     wall: self.wall.to_owned(),
                     template: self.index,

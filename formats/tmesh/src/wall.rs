@@ -55,7 +55,8 @@ pub struct Seam {
 
 /// A face shared with another template.
 ///
-/// `placement.apply(other.vertices[b])` equals `vertices[a]` to the bit for each pair `[a, b]`.
+/// `placement.apply(other.vertices[b])` equals `vertices[a]` for each pair `[a, b]`, but for rounding:
+/// where two copies of the other template meet, a vertex here has two images there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HubWall {
     /// Such as `hub`.

@@ -6,6 +6,7 @@ pub mod bvh;
 pub mod cells;
 pub mod contacts;
 pub mod edges;
+pub mod fan;
 pub mod measure;
 pub mod sides;
 pub mod tet;

@@ -1,6 +1,6 @@
 //! The command line of `wedgecut`.
 
-use crate::{Domain, Params, cut};
+use crate::{Domain, Hub, Params, cut};
 use kit::{Command, CommonArgs, Failure, Session};
 
 const EXAMPLES: &str = "Examples:
@@ -33,9 +33,10 @@ pub struct Cli {
     #[arg(allow_hyphen_values = true)]
     start_angle: Angle,
 
-    /// Column around the axis that is meshed apart from the wedge: `none`, or `auto` to have one
-    /// where it pays; this version never makes one
-    #[arg(long, value_enum, default_value_t)]
+    /// Column around the axis that is meshed apart from the wedge, against small angles on the axis:
+    /// `auto` to have one where it pays, `none`, or the radius of the circle inscribed in its
+    /// polygon, in model units
+    #[arg(long, value_name = "auto|none|RADIUS", default_value = "auto", value_parser = hub)]
     hub: Hub,
 
     /// Move points within this distance of a cut face onto it, relative to the radius about the
@@ -59,11 +60,15 @@ fn clean(text: &str) -> Result<Clean, String> {
     }
 }
 
-#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
-enum Hub {
-    #[default]
-    Auto,
-    None,
+fn hub(text: &str) -> Result<Hub, String> {
+    match text {
+        "auto" => Ok(Hub::Auto),
+        "none" => Ok(Hub::None),
+        _ => match text.parse::<f64>() {
+            Ok(radius) if radius > 0.0 && radius.is_finite() => Ok(Hub::Radius(radius)),
+            _ => Err("expected `auto`, `none` or a positive radius".to_owned()),
+        },
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -110,9 +115,9 @@ impl Command for Cli {
             order: self.order.0,
             start_angle: self.start_angle.0.map(f64::to_radians),
             snap: self.snap,
+            hub: self.hub,
             clean: self.clean.0,
         };
-        let (Hub::Auto | Hub::None) = self.hub;
         let document = session.read()?;
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));

@@ -4,7 +4,7 @@
 //! depends on the shape and not on how its flat faces happened to be triangulated. Crossing points
 //! are made once per edge and shared by all patches around it.
 
-use crate::opening::{Class, Opening, Side};
+use crate::opening::{Opening, Side};
 use crate::planar::{Segment, triangulate};
 use crate::surface::Surface;
 use glam::DVec3;
@@ -20,6 +20,27 @@ const OUT: u32 = 0;
 /// `split_at_axis`: also split what lies in the plane where it passes the axis, for wedges whose
 /// two sides share one plane.
 pub fn clip(surface: &mut Surface, opening: &Opening, side: Side, split_at_axis: bool) {
+    let keeps = |classes: [i8; 3]| classes.iter().all(|&c| c >= 0) && classes != [0; 3];
+    divide(surface, opening, side, split_at_axis, keeps);
+}
+
+/// Divides the surface at the hub's plane, so that no face has points on both sides of it. Faces
+/// that lie in the plane go; the caps replace them.
+pub fn divide_at_hub(surface: &mut Surface, opening: &Opening) {
+    for (p, class) in surface.points.iter_mut().zip(&mut surface.classes) {
+        (*p, *class) = opening.classify_hub(*p, *class);
+    }
+    divide(surface, opening, Side::Hub, false, |c| c != [0; 3]);
+}
+
+/// Divides all patches that cross a plane, and keeps the faces whose points have the right classes.
+fn divide(
+    surface: &mut Surface,
+    opening: &Opening,
+    side: Side,
+    split_at_axis: bool,
+    wanted: impl Fn([i8; 3]) -> bool,
+) {
     let mut members: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
     let mut cutter = Cutter {
         opening,
@@ -43,8 +64,7 @@ pub fn clip(surface: &mut Surface, opening: &Opening, side: Side, split_at_axis:
         }
     }
     let keeps = |surface: &Surface, face: &Triangle| {
-        let classes = face.vertices.map(|v| surface.classes[v as usize].of(side));
-        classes.iter().all(|&c| c >= 0) && classes.iter().any(|&c| c > 0)
+        wanted(face.vertices.map(|v| surface.classes[v as usize].of(side)))
     };
     for (i, (face, &patch)) in faces.iter().zip(&patches).enumerate() {
         match reach[patch as usize] {
@@ -119,7 +139,7 @@ impl Cutter<'_> {
     fn passes_axis(&self, surface: &Surface, v: u32, w: u32) -> bool {
         let on = |v: u32| {
             let class = surface.classes[v as usize];
-            class.of(self.side) == 0 && class != Class::AXIS
+            class.of(self.side) == 0 && !class.is_axis()
         };
         let x = |v: u32| surface.points[v as usize].x;
         self.split_at_axis && on(v) && on(w) && (x(v) > 0.0) != (x(w) > 0.0)

@@ -112,6 +112,14 @@ pub enum CutError {
         /// Largest relative difference accepted.
         allowed: f64,
     },
+    /// A hub that cannot be made.
+    #[error("there can be no hub of radius {radius}: {reason}; use --hub none or another radius")]
+    BadHub {
+        /// Inscribed radius, model units.
+        radius: f64,
+        /// Why not.
+        reason: String,
+    },
     /// Nothing of the body lies in the wedge.
     #[error("the wedge is empty")]
     Empty,

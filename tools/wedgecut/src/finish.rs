@@ -7,28 +7,47 @@ use crate::seam::Matched;
 use crate::surface::Surface;
 use geom::edges::Edges;
 use glam::DVec3;
+use std::ops::Range;
 use tmesh::{Frame, Isometry, MirrorWall, Plane, Seam, Template, Triangle, Wall};
 
-/// A body that is its own wedge.
-pub fn whole(surface: Surface, frame: &Frame) -> Result<Template, CutError> {
-    Ok(compact(surface, frame)?.into_parts().0)
+/// A wedge, and what the hub has to know about it.
+pub struct Wedge {
+    /// The template.
+    pub template: Template,
+    /// Class of each vertex.
+    classes: Vec<Class>,
+    /// Vertex of each point of the surface, or `u32::MAX`.
+    pub renumbered: Vec<u32>,
+    /// Triangles on the hub.
+    pub hub: Range<u32>,
 }
 
-/// A wedge between mirror walls; `caps` in the order of the sides.
+/// A body that is its own wedge.
+pub fn whole(surface: &Surface, frame: &Frame) -> Result<Template, CutError> {
+    Ok(compact(surface, surface.faces.clone(), frame)?.template)
+}
+
+/// A wedge between mirror walls; `faces` of the surface belong to it, `caps` in the order of the
+/// sides, `hub` closes it towards the hub.
 pub fn mirror_wedge(
-    mut surface: Surface,
+    surface: &Surface,
+    mut faces: Vec<Triangle>,
     caps: Vec<Vec<Triangle>>,
+    hub: &[Triangle],
     plan: &Plan,
     opening: &Opening,
     frame: &Frame,
-) -> Result<Template, CutError> {
+) -> Result<Wedge, CutError> {
     let mut ranges = Vec::new();
     for cap in caps {
-        let start = surface.faces.len() as u32;
-        surface.faces.extend(cap);
-        ranges.push(start..surface.faces.len() as u32);
+        ranges.push(append(&mut faces, &cap));
     }
-    let (mut template, classes) = compact(surface, frame)?.into_parts();
+    let hub = append(&mut faces, hub);
+    let mut wedge = Wedge {
+        hub,
+        ..compact(surface, faces, frame)?
+    };
+    let classes = &wedge.classes;
     for (i, range) in ranges.into_iter().enumerate() {
         let (side, name) = if i == 0 {
             (Side::A, "wall-a")
@@ -44,7 +63,7 @@ pub fn mirror_wedge(
         let vertices = (0..classes.len() as u32)
             .filter(|&v| on(&classes[v as usize]))
             .collect();
-        template.walls.push(Wall::Mirror(MirrorWall {
+        wedge.template.walls.push(Wall::Mirror(MirrorWall {
             name: name.to_owned(),
             plane: Plane {
                 normal: -opening.inward(side),
@@ -55,23 +74,30 @@ pub fn mirror_wedge(
             triangles: range.collect(),
         }));
     }
-    Ok(template)
+    Ok(wedge)
 }
 
-/// A wedge with a seam; `cap` closes the low side, its image the high side.
+fn append(faces: &mut Vec<Triangle>, cap: &[Triangle]) -> Range<u32> {
+    let start = faces.len() as u32;
+    faces.extend(cap);
+    start..faces.len() as u32
+}
+
+/// A wedge with a seam; `faces` of the surface belong to it, `cap` closes the low side, its image
+/// the high side, `hub` closes it towards the hub.
 pub fn rotation_wedge(
-    mut surface: Surface,
-    cap: Vec<Triangle>,
-    matched: Matched,
+    surface: &Surface,
+    mut faces: Vec<Triangle>,
+    cap: &[Triangle],
+    hub: &[Triangle],
+    matched: &Matched,
     plan: &Plan,
     frame: &Frame,
-) -> Result<Template, CutError> {
+) -> Result<Wedge, CutError> {
     let partner = |v: u32| {
         let i = matched.pairs.binary_search_by_key(&v, |p| p[0]);
         i.map_or(v, |i| matched.pairs[i][1])
     };
-    let start = surface.faces.len() as u32;
-    let count = cap.len() as u32;
     let image: Vec<Triangle> = cap
         .iter()
         .map(|t| {
@@ -82,81 +108,69 @@ pub fn rotation_wedge(
             }
         })
         .collect();
-    surface.faces.extend(cap);
-    surface.faces.extend(image);
-    let compacted = compact(surface, frame)?;
+    let low = append(&mut faces, cap);
+    let high = append(&mut faces, &image);
+    let hub = append(&mut faces, hub);
+    let mut wedge = Wedge {
+        hub,
+        ..compact(surface, faces, frame)?
+    };
+    let new = |v: u32| wedge.renumbered[v as usize];
     let mut vertex_pairs: Vec<[u32; 2]> = matched
         .pairs
         .iter()
-        .filter_map(|pair| {
-            Some([
-                compacted.renumbered(pair[0])?,
-                compacted.renumbered(pair[1])?,
-            ])
-        })
+        .map(|&[v, w]| [new(v), new(w)])
+        .filter(|pair| !pair.contains(&u32::MAX))
         .collect();
     vertex_pairs.sort_unstable();
-    let (mut template, _) = compacted.into_parts();
-    template.walls.push(Wall::Seam(Seam {
+    wedge.template.walls.push(Wall::Seam(Seam {
         name: "seam".to_owned(),
         rotation: Isometry::rotation(1, plan.order),
         vertex_pairs,
-        triangle_pairs: (0..count).map(|i| [start + i, start + count + i]).collect(),
+        triangle_pairs: low.zip(high).map(|(a, b)| [a, b]).collect(),
     }));
-    Ok(template)
-}
-
-struct Compacted {
-    template: Template,
-    classes: Vec<Class>,
-    new_id: Vec<u32>,
-}
-
-impl Compacted {
-    fn renumbered(&self, v: u32) -> Option<u32> {
-        Some(self.new_id[v as usize]).filter(|&v| v != u32::MAX)
-    }
-
-    fn into_parts(self) -> (Template, Vec<Class>) {
-        (self.template, self.classes)
-    }
+    Ok(wedge)
 }
 
 /// Drops unused points, lists the axis, and makes sure the surface closes.
-fn compact(surface: Surface, frame: &Frame) -> Result<Compacted, CutError> {
-    check_closed(&surface, frame)?;
+fn compact(surface: &Surface, faces: Vec<Triangle>, frame: &Frame) -> Result<Wedge, CutError> {
+    check_closed(&surface.points, &faces, frame)?;
     let mut used = vec![false; surface.points.len()];
-    for v in surface.faces.iter().flat_map(|f| f.vertices) {
+    for v in faces.iter().flat_map(|f| f.vertices) {
         used[v as usize] = true;
     }
-    let mut new_id = vec![u32::MAX; surface.points.len()];
+    let mut renumbered = vec![u32::MAX; surface.points.len()];
     let mut template = Template::default();
     let mut classes = Vec::new();
     for (v, &used) in used.iter().enumerate() {
         if used {
-            new_id[v] = template.vertices.len() as u32;
-            if surface.classes[v] == Class::AXIS {
-                template.axis.push(new_id[v]);
+            renumbered[v] = template.vertices.len() as u32;
+            if surface.classes[v].is_axis() {
+                template.axis.push(renumbered[v]);
             }
             // Adding zero folds negative zeros, which would make equal points differ in their bits.
             template.vertices.push(surface.points[v] + DVec3::ZERO);
             classes.push(surface.classes[v]);
         }
     }
-    template.triangles = surface.faces;
+    template.triangles = faces;
     for t in &mut template.triangles {
-        t.vertices = t.vertices.map(|v| new_id[v as usize]);
+        t.vertices = t.vertices.map(|v| renumbered[v as usize]);
     }
-    Ok(Compacted {
+    Ok(Wedge {
         template,
         classes,
-        new_id,
+        renumbered,
+        hub: 0..0,
     })
 }
 
 /// Around every edge each region must be left as often as it is entered.
-fn check_closed(surface: &Surface, frame: &Frame) -> Result<(), CutError> {
-    let corners: Vec<[u32; 3]> = surface.faces.iter().map(|f| f.vertices).collect();
+///
+/// # Errors
+/// [`CutError::NotClosed`].
+pub fn check_closed(points: &[DVec3], faces: &[Triangle], frame: &Frame) -> Result<(), CutError> {
+    let corners: Vec<[u32; 3]> = faces.iter().map(|f| f.vertices).collect();
     let edges = Edges::new(&corners);
     let mut open = 0;
     let mut first = DVec3::ZERO;
@@ -164,7 +178,7 @@ fn check_closed(surface: &Surface, frame: &Frame) -> Result<(), CutError> {
     for e in 0..edges.len() {
         balance.clear();
         for u in edges.around(e) {
-            let face = &surface.faces[u.triangle as usize];
+            let face = &faces[u.triangle as usize];
             let step = if u.forward { 1 } else { -1 };
             for (region, change) in [(face.back, step), (face.front, -step)] {
                 match balance.iter_mut().find(|b| b.0 == region) {
@@ -175,7 +189,7 @@ fn check_closed(surface: &Surface, frame: &Frame) -> Result<(), CutError> {
         }
         if balance.iter().any(|b| b.1 != 0) {
             if open == 0 {
-                let [a, b] = edges.ends[e].map(|v| surface.points[v as usize]);
+                let [a, b] = edges.ends[e].map(|v| points[v as usize]);
                 first = frame.to_world(0.5 * (a + b));
             }
             open += 1;

@@ -4,13 +4,15 @@
 //! Stages: into the canonical axis frame, with heights and columns made exact ([`snap`]); points
 //! classified once against the two sides ([`opening`]); the surface clipped, flat patches as whole
 //! polygons ([`clip`]); the sections closed by caps that carry the region interfaces ([`section`]);
-//! for rotation wedges, the two sections paired and made exact images ([`seam`]).
+//! for rotation wedges, the two sections paired and made exact images ([`seam`]); where there is a
+//! hub, what lies in front of its plane united to a template of its own ([`hub`]).
 
 mod clean;
 mod cli;
 mod clip;
 mod error;
 mod finish;
+mod hub;
 mod opening;
 mod plan;
 mod planar;
@@ -24,14 +26,14 @@ mod tests;
 
 pub use cli::Cli;
 pub use error::CutError;
-pub use plan::{Domain, Params};
+pub use plan::{Domain, Hub, Params};
 
 use glam::DVec3;
-use opening::{Opening, Side};
-use plan::Plan;
+use opening::{HubPlane, Opening, Side};
+use plan::{HubPlan, Plan};
 use section::{Extent, Section};
 use surface::Surface;
-use tmesh::{Document, Frame, Source, Symmetry, Template};
+use tmesh::{Document, Frame, Source, Symmetry, Template, Triangle};
 
 /// Multiple of the input's precision within which values count as equal: rotation into the axis
 /// frame adds up three coordinates' errors, and the axis has an error of its own.
@@ -41,6 +43,9 @@ const ROUNDING_REACH: f64 = 1e-10;
 /// Largest distance, relative to the radius about the axis, that a point is moved onto a cut plane
 /// because the body is only nearly symmetric.
 const LARGEST_SNAP: f64 = 1e-4;
+
+/// Least order of the wedge for a hub.
+const HUB_LEAST_ORDER: u32 = 3;
 
 /// What the cut did, besides its result.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +71,7 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
     if !document.templates[0].tets.is_empty() {
         return Err(CutError::NotASurface("this document holds a volume mesh"));
     }
-    let plan = Plan::new(&symmetry, params)?;
+    let mut plan = Plan::new(&symmetry, params)?;
     let mut document = document;
     let mut template = std::mem::take(&mut document.templates[0]);
     let tolerances = Tolerances::new(&template, &symmetry, document.source.as_ref(), params);
@@ -86,12 +91,35 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         tolerances.plane,
         tolerances.equal,
     )];
-    let wedge = cut_wedge(template, &plan, &tolerances, &document.frame, &mut notes)?;
-    document.templates = vec![wedge];
+    let hub = choose_hub(&plan, params)?;
+    let cutter = Cutter {
+        plan: &plan,
+        hub,
+        tolerances: &tolerances,
+        frame: &document.frame,
+    };
+    document.templates = cutter.cut(template, &mut notes)?;
+    let copies = plan.instances.len();
+    if let Some(hub) = &hub {
+        plan.add_hub(hub);
+        notes.push(format!(
+            "hub of inscribed radius {} and order {} ({} copies), a template of its own",
+            hub.radius,
+            hub.order,
+            plan.instances.len() - copies,
+        ));
+    }
     document.instances = plan.instances;
     document.region_maps = plan.region_maps;
-    let copies = document.instances.len();
-    let wedge_volume = total_volume(&document.templates[0]) * copies as f64;
+    let wedge_volume: f64 = document
+        .instances
+        .iter()
+        .map(|i| i.template as usize)
+        .zip(std::iter::repeat(Vec::from_iter(
+            document.templates.iter().map(total_volume),
+        )))
+        .map(|(t, volumes)| volumes[t])
+        .sum();
     let relative = (wedge_volume - body_volume).abs() / body_volume.abs();
     let drift =
         symmetry.residual.max(0.0) * tolerances.radius + tolerances.plane + tolerances.detail;
@@ -210,68 +238,209 @@ fn frame(
     Frame::from_axis(origin, axis, x).ok_or_else(bad)
 }
 
-fn cut_wedge(
-    template: Template,
-    plan: &Plan,
-    tolerances: &Tolerances,
-    frame: &Frame,
-    notes: &mut Vec<String>,
-) -> Result<Template, CutError> {
-    if plan.is_whole() {
-        let mut surface =
-            Surface::new(template.vertices, template.triangles, None, tolerances.flat);
-        collapse(&mut surface, tolerances, notes);
-        return finish::whole(surface, frame);
-    }
-    let opening = Opening::new(plan.opening, tolerances.plane);
-    let mut surface = Surface::new(
-        template.vertices,
-        template.triangles,
-        Some(&opening),
-        tolerances.flat,
-    );
-    let split_at_axis = plan.is_half() && !plan.mirror;
-    for &side in opening.sides() {
-        clip::clip(&mut surface, &opening, side, split_at_axis);
-    }
-    collapse(&mut surface, tolerances, notes);
-    let far = if plan.is_half() {
-        Extent::FarHalf
-    } else {
-        Extent::HalfPlane(Side::B)
+/// The hub asked for.
+fn choose_hub(plan: &Plan, params: &Params) -> Result<Option<HubPlan>, CutError> {
+    let Hub::Radius(radius) = params.hub else {
+        return Ok(None);
     };
-    if plan.mirror {
-        let extents = if plan.is_half() {
-            vec![Extent::WholePlane]
-        } else {
-            vec![Extent::HalfPlane(Side::A), far]
-        };
-        let mut caps = Vec::new();
-        for extent in extents {
-            let section = Section::new(&surface, &opening, extent);
-            caps.push(section.cap(&surface, &opening, frame)?);
-        }
-        return finish::mirror_wedge(surface, caps, plan, &opening, frame);
+    // The hub's plane has to cross both sides.
+    if plan.order < HUB_LEAST_ORDER {
+        return Err(CutError::BadHub {
+            radius,
+            reason: format!(
+                "the wedge of order {} is too wide for one; orders from {HUB_LEAST_ORDER} can have a hub",
+                plan.order
+            ),
+        });
     }
-    let mut low = Section::new(&surface, &opening, Extent::HalfPlane(Side::A));
-    let mut high = Section::new(&surface, &opening, far);
-    let matched = seam::match_sections(
-        &mut surface,
-        &opening,
-        plan.opening,
-        &mut low,
-        &mut high,
-        tolerances.partner,
-        frame,
-    )?;
-    notes.push(format!(
-        "{} point pairs on the seam, moved by {:.1e} at most; {} points that only one side had",
-        matched.pairs.len(),
-        matched.moved,
-        matched.inserted,
-    ));
-    let cap = low.cap(&surface, &opening, frame)?;
-    finish::rotation_wedge(surface, cap, matched, plan, frame)
+    Ok(Some(HubPlan {
+        radius,
+        order: plan.hub_order(),
+    }))
+}
+
+/// What is needed to cut the templates.
+struct Cutter<'a> {
+    plan: &'a Plan,
+    hub: Option<HubPlan>,
+    tolerances: &'a Tolerances,
+    frame: &'a Frame,
+}
+
+impl Cutter<'_> {
+    fn cut(&self, body: Template, notes: &mut Vec<String>) -> Result<Vec<Template>, CutError> {
+        let (plan, tolerances, frame) = (self.plan, self.tolerances, self.frame);
+        if plan.is_whole() {
+            let mut surface = Surface::new(body.vertices, body.triangles, None, tolerances.flat);
+            collapse(&mut surface, tolerances, notes);
+            return Ok(vec![finish::whole(&surface, frame)?]);
+        }
+        let plane = self
+            .hub
+            .map(|hub| HubPlane::new(hub.radius, plan.opening, plan.mirror));
+        let opening = Opening::new(plan.opening, tolerances.plane).with_hub(plane);
+        let mut surface = Surface::new(
+            body.vertices,
+            body.triangles,
+            Some(&opening),
+            tolerances.flat,
+        );
+        let split_at_axis = plan.is_half() && !plan.mirror;
+        for &side in opening.sides() {
+            clip::clip(&mut surface, &opening, side, split_at_axis);
+        }
+        collapse(&mut surface, tolerances, notes);
+        if self.hub.is_some() {
+            clip::divide_at_hub(&mut surface, &opening);
+        }
+        let matched = if plan.mirror {
+            None
+        } else {
+            Some(self.match_seam(&mut surface, &opening, notes)?)
+        };
+        let faces = std::mem::take(&mut surface.faces);
+        let (outer, inner): (Vec<Triangle>, Vec<Triangle>) = faces.into_iter().partition(|f| {
+            f.vertices
+                .iter()
+                .all(|&v| surface.classes[v as usize].hub >= 0)
+        });
+
+        let hub_cap = match &self.hub {
+            Some(hub) => self.hub_cap(&mut surface, &opening, &outer, &inner, hub)?,
+            None => Vec::new(),
+        };
+        let caps = self.caps(&mut surface, &opening, &outer)?;
+        let wedge = match &matched {
+            None => finish::mirror_wedge(&surface, outer, caps, &hub_cap, plan, &opening, frame)?,
+            Some(matched) => {
+                finish::rotation_wedge(&surface, outer, &caps[0], &hub_cap, matched, plan, frame)?
+            }
+        };
+        let Some(hub) = &self.hub else {
+            return Ok(vec![wedge.template]);
+        };
+        let caps = self.caps(&mut surface, &opening, &inner)?;
+        let inner = hub::Inner {
+            surface: &surface,
+            faces: &inner,
+            low: &caps[0],
+            high: caps.get(1).map_or(&[], |cap| cap),
+            pairs: matched.as_ref().map_or(&[], |m| &m.pairs),
+            hub: &hub_cap,
+        };
+        let united = hub::unite(&inner, &wedge, plan, hub, frame)?;
+        Ok(vec![wedge.template, united])
+    }
+
+    /// The sides on which the wedge ends.
+    fn extents(&self) -> Vec<Extent> {
+        match (self.plan.is_half(), self.plan.mirror) {
+            (true, true) => vec![Extent::WholePlane],
+            (true, false) => vec![Extent::HalfPlane(Side::A), Extent::FarHalf],
+            (false, _) => vec![Extent::HalfPlane(Side::A), Extent::HalfPlane(Side::B)],
+        }
+    }
+
+    fn match_seam(
+        &self,
+        surface: &mut Surface,
+        opening: &Opening,
+        notes: &mut Vec<String>,
+    ) -> Result<seam::Matched, CutError> {
+        let sections = self.extents();
+        let mut low = Section::new(surface, opening, sections[0]);
+        let mut high = Section::new(surface, opening, sections[1]);
+        let matched = seam::match_sections(
+            surface,
+            opening,
+            self.plan.opening,
+            &mut low,
+            &mut high,
+            self.tolerances.partner,
+            self.frame,
+        )?;
+        notes.push(format!(
+            "{} point pairs on the seam, moved by {:.1e} at most; {} points that only one side had",
+            matched.pairs.len(),
+            matched.moved,
+            matched.inserted,
+        ));
+        Ok(matched)
+    }
+
+    /// Caps that close a part of the surface at the sides: both of a mirror wedge, the low one of a
+    /// rotation wedge.
+    fn caps(
+        &self,
+        surface: &mut Surface,
+        opening: &Opening,
+        part: &[Triangle],
+    ) -> Result<Vec<Vec<Triangle>>, CutError> {
+        let mut extents = self.extents();
+        if !self.plan.mirror {
+            extents.truncate(1);
+        }
+        extents
+            .into_iter()
+            .map(|extent| self.cap(surface, opening, part, extent))
+            .collect()
+    }
+
+    fn cap(
+        &self,
+        surface: &mut Surface,
+        opening: &Opening,
+        part: &[Triangle],
+        extent: Extent,
+    ) -> Result<Vec<Triangle>, CutError> {
+        surface.faces = part.to_vec();
+        let cap = Section::new(surface, opening, extent).cap(surface, opening, self.frame);
+        surface.faces.clear();
+        cap
+    }
+
+    /// The cap between wedge and hub, facing out of the wedge.
+    fn hub_cap(
+        &self,
+        surface: &mut Surface,
+        opening: &Opening,
+        outer: &[Triangle],
+        inner: &[Triangle],
+        hub: &HubPlan,
+    ) -> Result<Vec<Triangle>, CutError> {
+        let bad = |reason: &str| CutError::BadHub {
+            radius: hub.radius,
+            reason: reason.to_owned(),
+        };
+        if inner.is_empty() {
+            return Err(bad("nothing of the body is that near to the axis"));
+        }
+        if outer.is_empty() {
+            return Err(bad("nothing of the body is farther from the axis"));
+        }
+        surface.faces = outer.to_vec();
+        let from_outside = Section::new(surface, opening, Extent::Hub);
+        surface.faces = inner.to_vec();
+        let from_inside = Section::new(surface, opening, Extent::HubInside);
+        surface.faces.clear();
+        let regions = |s: &Section| -> Vec<_> {
+            s.edges
+                .iter()
+                .filter(|e| e.left != e.right)
+                .map(|e| (e.ends, e.left, e.right))
+                .collect()
+        };
+        if regions(&from_outside) != regions(&from_inside) {
+            return Err(bad(
+                "a face of the body lies in the hub's wall; choose another radius",
+            ));
+        }
+        let cap = from_outside.cap(surface, opening, self.frame)?;
+        if cap.is_empty() {
+            return Err(bad("there is no material at its wall"));
+        }
+        Ok(cap)
+    }
 }
 
 fn collapse(surface: &mut Surface, tolerances: &Tolerances, notes: &mut Vec<String>) {

@@ -1,19 +1,21 @@
-//! The two half planes that bound the wedge, and where points lie with respect to them.
+//! The planes that bound the wedge, and where points lie with respect to them.
 //!
-//! Side A is the half plane y = 0, x >= 0; side B is A turned by the wedge's angle. Each point is
-//! classified once, moved onto the planes it counts as lying on, and its class is kept; nothing
+//! Side A is the half plane y = 0, x >= 0; side B is A turned by the wedge's angle. The hub's plane,
+//! where there is one, crosses the wedge in front of the axis. Each point is classified once, moved onto the planes it counts as lying on, and its class is kept; nothing
 //! asks again with another tolerance.
 
 use glam::DVec3;
 use tmesh::Isometry;
 
-/// Which of the two cut planes.
+/// Which of the cut planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The plane y = 0.
     A,
     /// The plane at the wedge's angle.
     B,
+    /// The plane between the wedge and the hub.
+    Hub,
 }
 
 /// Where a point lies: for each cut plane -1 beyond it, 0 on it, 1 on the wedge's side. On both
@@ -24,20 +26,67 @@ pub struct Class {
     pub a: i8,
     /// With respect to side B.
     pub b: i8,
+    /// With respect to the hub's plane: -1 in the hub; 1 where there is none.
+    pub hub: i8,
 }
 
 impl Class {
     /// On the axis.
-    pub const AXIS: Self = Self { a: 0, b: 0 };
+    pub const AXIS: Self = Self::new(0, 0);
     /// Between the planes.
-    pub const INSIDE: Self = Self { a: 1, b: 1 };
+    pub const INSIDE: Self = Self::new(1, 1);
+
+    /// A class with respect to sides A and B, without a hub.
+    pub const fn new(a: i8, b: i8) -> Self {
+        Self { a, b, hub: 1 }
+    }
+
+    /// Whether the point is on the axis.
+    pub fn is_axis(self) -> bool {
+        self.a == 0 && self.b == 0
+    }
 
     /// The class for one side.
     pub fn of(self, side: Side) -> i8 {
         match side {
             Side::A => self.a,
             Side::B => self.b,
+            Side::Hub => self.hub,
         }
+    }
+}
+
+/// The plane `normal . x = distance` between wedge and hub, parallel to the axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HubPlane {
+    /// Unit normal away from the axis.
+    normal: DVec3,
+    /// Distance from the axis, model units.
+    distance: f64,
+}
+
+impl HubPlane {
+    /// The plane at the given distance (model units) from the axis across a wedge of angle `turn`:
+    /// orthogonal to side A of a mirror wedge, where it is half a side of the hub's polygon, and to
+    /// the middle of a rotation wedge.
+    pub fn new(distance: f64, turn: Isometry, mirror: bool) -> Self {
+        let normal = if mirror {
+            DVec3::X
+        } else {
+            let (cos, sin) =
+                Isometry::rotation(i64::from(turn.k()), 2 * turn.n()).cos_sin();
+            DVec3::new(cos, sin, 0.0)
+        };
+        Self { normal, distance }
+    }
+
+    /// Direction within the plane that is orthogonal to the axis.
+    fn along(&self) -> DVec3 {
+        DVec3::new(-self.normal.y, self.normal.x, 0.0)
+    }
+
+    fn offset(&self, p: DVec3) -> f64 {
+        self.normal.x * p.x + self.normal.y * p.y - self.distance
     }
 }
 
@@ -49,6 +98,7 @@ pub struct Opening {
     sin: f64,
     /// Distance up to which a point counts as on a plane or the axis, model units.
     tolerance: f64,
+    hub: Option<HubPlane>,
 }
 
 impl Opening {
@@ -60,7 +110,13 @@ impl Opening {
             cos,
             sin,
             tolerance,
+            hub: None,
         }
+    }
+
+    /// The same with a hub; the wedge's angle has to be below half a turn.
+    pub fn with_hub(self, hub: Option<HubPlane>) -> Self {
+        Self { hub, ..self }
     }
 
     /// Whether both sides lie in one plane.
@@ -77,11 +133,12 @@ impl Opening {
         }
     }
 
-    /// Normal of a side's plane into the wedge.
+    /// Normal of a side's plane into the wedge, away from the hub.
     pub fn inward(&self, side: Side) -> DVec3 {
         match side {
             Side::A => DVec3::Y,
             Side::B => DVec3::new(self.sin, -self.cos, 0.0),
+            Side::Hub => self.hub.map_or(DVec3::X, |h| h.normal),
         }
     }
 
@@ -92,16 +149,57 @@ impl Opening {
             (0, _) => 0.0,
             (_, Side::A) => p.y,
             (_, Side::B) => p.x * self.sin - p.y * self.cos,
+            (_, Side::Hub) => self.hub.map_or(f64::INFINITY, |h| h.offset(p)),
         }
     }
 
     /// Distance of a point on a side from the axis, measured along the side (negative beyond the
-    /// axis).
+    /// axis); in the hub's plane the distance from the plane's line nearest to the axis.
     pub fn radius_on(&self, side: Side, p: DVec3) -> f64 {
         match side {
             Side::A => p.x,
             Side::B => p.x * self.cos + p.y * self.sin,
+            Side::Hub => self.hub.map_or(0.0, |h| h.along().dot(p)),
         }
+    }
+
+    /// Classifies a point, of known class for the sides, against the hub's plane, and moves it onto
+    /// the plane where it counts as lying on it.
+    pub fn classify_hub(&self, p: DVec3, class: Class) -> (DVec3, Class) {
+        let Some(hub) = &self.hub else {
+            return (p, class);
+        };
+        let offset = hub.offset(p);
+        if offset.abs() <= self.tolerance {
+            self.put_on_hub(hub, p, class)
+        } else {
+            let hub = sign(offset);
+            (p, Class { hub, ..class })
+        }
+    }
+
+    fn put_on_hub(&self, hub: &HubPlane, p: DVec3, class: Class) -> (DVec3, Class) {
+        let class = Class { hub: 0, ..class };
+        if hub.normal == DVec3::X {
+            // Exactly in the plane; on side B up to rounding, as all points there.
+            let y = if class.b == 0 {
+                hub.distance * (self.sin / self.cos)
+            } else {
+                p.y
+            };
+            return (DVec3::new(hub.distance, y, p.z), class);
+        }
+        let side = match class {
+            Class { a: 0, .. } => Some(Side::A),
+            Class { b: 0, .. } => Some(Side::B),
+            _ => None,
+        };
+        // Half the angle of the wedge is between its sides and the normal.
+        let p = match side {
+            Some(side) => self.point_on(side, hub.distance / hub.normal.x, p.z),
+            None => p - hub.normal * hub.offset(p),
+        };
+        (p, class)
     }
 
     /// Classifies a point and moves it onto the planes it counts as lying on.
@@ -112,18 +210,12 @@ impl Opening {
         let (a, b) = (p.y, p.x * self.sin - p.y * self.cos);
         if self.is_half() {
             if a.abs() <= self.tolerance {
-                return (DVec3::new(p.x, 0.0, p.z), Class { a: 0, b: 1 });
+                return (DVec3::new(p.x, 0.0, p.z), Class::new(0, 1));
             }
-            return (p, Class { a: sign(a), b: 1 });
+            return (p, Class::new(sign(a), 1));
         }
         if a.abs().min(b.abs()) > self.tolerance {
-            return (
-                p,
-                Class {
-                    a: sign(a),
-                    b: sign(b),
-                },
-            );
+            return (p, Class::new(sign(a), sign(b)));
         }
         if a.abs() <= b.abs() {
             self.put(Side::A, p)
@@ -144,6 +236,13 @@ impl Opening {
         let (dp, dq) = (self.distance(side, p.0, p.1), self.distance(side, q.0, q.1));
         let t = dp / (dp - dq);
         let x = p.0 + (q.0 - p.0) * t;
+        if let (Side::Hub, Some(hub)) = (side, &self.hub) {
+            // On the sides where both ends are.
+            let on = |side: Side| {
+                i8::from(!(p.1.of(side) == 0 && q.1.of(side) == 0))
+            };
+            return self.put_on_hub(hub, x, Class::new(on(Side::A), on(Side::B)));
+        }
         let other = if side == Side::A { Side::B } else { Side::A };
         if !self.is_half() && p.1.of(other) == 0 && q.1.of(other) == 0 {
             return (DVec3::new(0.0, 0.0, x.z), Class::AXIS);
@@ -164,6 +263,9 @@ impl Opening {
         match side {
             Side::A => DVec3::new(r, 0.0, z),
             Side::B => DVec3::new(r * self.cos, r * self.sin, z),
+            Side::Hub => self.hub.map_or(DVec3::ZERO, |h| {
+                h.normal * h.distance + h.along() * r + DVec3::Z * z
+            }),
         }
     }
 
@@ -173,9 +275,10 @@ impl Opening {
             return (DVec3::new(0.0, 0.0, p.z), Class::AXIS);
         }
         let class = match side {
-            Side::A if self.is_half() => Class { a: 0, b: 1 },
-            Side::A => Class { a: 0, b: sign(r) },
-            Side::B => Class { a: sign(r), b: 0 },
+            Side::A if self.is_half() => Class::new(0, 1),
+            Side::A => Class::new(0, sign(r)),
+            Side::B => Class::new(sign(r), 0),
+            Side::Hub => Class { hub: 0, ..Class::INSIDE },
         };
         (self.point_on(side, r, p.z), class)
     }
@@ -195,11 +298,11 @@ mod tests {
         let (p, class) = opening.classify(DVec3::new(0.5, 3e-7, 1.0));
         assert_eq!(
             (p, class),
-            (DVec3::new(0.5, 0.0, 1.0), Class { a: 0, b: 1 })
+            (DVec3::new(0.5, 0.0, 1.0), Class::new(0, 1))
         );
         let (c, s) = Isometry::rotation(1, 12).cos_sin();
         let (p, class) = opening.classify(DVec3::new(2.0 * c + 4e-7, 2.0 * s, 1.0));
-        assert_eq!(class, Class { a: 1, b: 0 });
+        assert_eq!(class, Class::new(1, 0));
         assert_eq!(
             p,
             Isometry::rotation(1, 12).apply(DVec3::new(opening.radius_on(Side::B, p), 0.0, 1.0))
@@ -211,7 +314,7 @@ mod tests {
         // On A's plane, but beyond the axis: outside of B.
         assert_eq!(
             opening.classify(DVec3::new(-0.5, 0.0, 0.0)).1,
-            Class { a: 0, b: -1 }
+            Class::new(0, -1)
         );
     }
 
@@ -225,6 +328,6 @@ mod tests {
         let (p, q) = (at(0.7, 0.1, 0.3), at(0.31, 0.9, 1.7));
         let slanted = opening.crossing(Side::B, p, q);
         assert_eq!((low.0.x, low.0.y), (slanted.0.x, slanted.0.y));
-        assert_eq!(low.1, Class { a: 1, b: 0 });
+        assert_eq!(low.1, Class::new(1, 0));
     }
 }

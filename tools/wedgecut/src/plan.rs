@@ -16,6 +16,21 @@ pub enum Domain {
     Rotation,
 }
 
+/// Whether the column around the axis is made a template of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Hub {
+    /// Where it pays.
+    #[default]
+    Auto,
+    /// No.
+    None,
+    /// Yes, with this inscribed radius, model units.
+    Radius(f64),
+}
+
+/// Least angle of the hub's wedge, degrees.
+const HUB_ANGLE: u32 = 30;
+
 /// What to cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Params {
@@ -29,8 +44,19 @@ pub struct Params {
     /// about the axis; `None` derives it from the precision of the input and the residual of the
     /// symmetry.
     pub snap: Option<f64>,
+    /// The hub.
+    pub hub: Hub,
     /// Edges shorter than this, relative to the radius about the axis, are collapsed; 0 for none.
     pub clean: f64,
+}
+
+/// The hub's size and symmetry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HubPlan {
+    /// Radius of the circle inscribed in the hub's polygon, model units.
+    pub radius: f64,
+    /// Order of the hub's rotation, a divisor of the wedge's.
+    pub order: u32,
 }
 
 /// The wedge and its copies.
@@ -93,6 +119,33 @@ impl Plan {
     /// Whether both sides lie in one plane: the wedge is half of space.
     pub fn is_half(&self) -> bool {
         self.opening == Isometry::rotation(1, 2)
+    }
+
+    /// The largest order for a hub whose own wedge is at least [`HUB_ANGLE`] wide.
+    pub fn hub_order(&self) -> u32 {
+        let full = if self.mirror { 180 } else { 360 };
+        (1..=self.order.min(full / HUB_ANGLE))
+            .rev()
+            .find(|h| self.order.is_multiple_of(*h))
+            .unwrap_or(1)
+    }
+
+    /// Adds the copies of the hub, template 1.
+    pub fn add_hub(&mut self, hub: &HubPlan) {
+        let copies: Vec<Instance> = self
+            .instances
+            .iter()
+            .filter(|i| hub.order.is_multiple_of(i.isometry.n()))
+            .map(|i| Instance { template: 1, ..*i })
+            .collect();
+        self.instances.extend(copies);
+    }
+
+    /// How a copy of the wedge renames regions.
+    pub fn regions_of(&self, isometry: Isometry) -> Option<&RegionMap> {
+        let instance = self.instances.iter().find(|i| i.isometry == isometry)?;
+        let index = instance.region_map.checked_sub(1)?;
+        self.region_maps.get(index as usize)
     }
 
     fn add_instances(&mut self, symmetry: &Symmetry) {

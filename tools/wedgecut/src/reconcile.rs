@@ -112,6 +112,10 @@ pub fn insert(
         let ends = section.edges[insertion.edge].ends;
         let [a, b] = ends.map(|v| surface.points[v as usize]);
         let (p, class) = on_wall(opening, section.extent, a + (b - a) * insertion.at);
+        // No edge crosses the hub's plane.
+        let [start, end] = ends.map(|v| surface.classes[v as usize].hub);
+        let hub = if start == 0 { end } else { start };
+        let class = Class { hub, ..class };
         new[i] = surface.add(p, class);
         section.points.push(new[i]);
         chains.entry(ends).or_default().push(new[i]);
@@ -145,10 +149,10 @@ pub fn insert(
 
 fn on_wall(opening: &Opening, extent: Extent, p: DVec3) -> (DVec3, Class) {
     if extent.side() == Side::A {
-        return (DVec3::new(p.x, 0.0, p.z), Class { a: 0, b: 1 });
+        return (DVec3::new(p.x, 0.0, p.z), Class::new(0, 1));
     }
     let r = opening.radius_on(Side::B, p);
-    (opening.point_on(Side::B, r, p.z), Class { a: 1, b: 0 })
+    (opening.point_on(Side::B, r, p.z), Class::new(1, 0))
 }
 
 fn divide_faces(surface: &mut Surface, chains: &FxHashMap<[u32; 2], Vec<u32>>) {

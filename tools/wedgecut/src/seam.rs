@@ -1,7 +1,7 @@
 //! Making the two sides of a rotation wedge images of each other, to the bit.
 
 use crate::error::CutError;
-use crate::opening::{Class, Opening};
+use crate::opening::Opening;
 use crate::reconcile::{Insertion, insert, insertions};
 use crate::section::Section;
 use crate::surface::Surface;
@@ -44,7 +44,7 @@ pub fn match_sections(
     let to_low = nearest(&highs, &lows, tolerance);
     let mut partner: FxHashMap<u32, u32> = FxHashMap::default();
     for &v in &low.points {
-        if surface.classes[v as usize] == Class::AXIS {
+        if surface.classes[v as usize].is_axis() {
             partner.insert(v, v);
         }
     }
@@ -118,7 +118,7 @@ fn off_axis(surface: &Surface, opening: &Opening, section: &Section) -> Vec<(u32
     section
         .points
         .iter()
-        .filter(|&&v| surface.classes[v as usize] != Class::AXIS)
+        .filter(|&&v| !surface.classes[v as usize].is_axis())
         .map(|&v| (v, plane_of(surface, opening, section, v)))
         .collect()
 }

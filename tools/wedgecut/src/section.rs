@@ -21,6 +21,10 @@ pub enum Extent {
     WholePlane,
     /// The part of side A's plane beyond the axis: the second side of a wedge of half a turn.
     FarHalf,
+    /// The hub's plane between the sides, as the end of the wedge.
+    Hub,
+    /// The same as the end of the hub.
+    HubInside,
 }
 
 impl Extent {
@@ -28,7 +32,8 @@ impl Extent {
     pub fn side(self) -> Side {
         match self {
             Self::HalfPlane(side) => side,
-            _ => Side::A,
+            Self::WholePlane | Self::FarHalf => Side::A,
+            Self::Hub | Self::HubInside => Side::Hub,
         }
     }
 
@@ -36,10 +41,10 @@ impl Extent {
     pub fn contains(self, opening: &Opening, p: DVec3, class: Class) -> bool {
         class.of(self.side()) == 0
             && match self {
-                Self::WholePlane => true,
+                Self::WholePlane | Self::Hub | Self::HubInside => true,
                 Self::HalfPlane(_) if !opening.is_half() => true,
-                Self::HalfPlane(_) => class == Class::AXIS || p.x > 0.0,
-                Self::FarHalf => class == Class::AXIS || p.x < 0.0,
+                Self::HalfPlane(_) => class.is_axis() || p.x > 0.0,
+                Self::FarHalf => class.is_axis() || p.x < 0.0,
             }
     }
 
@@ -54,12 +59,16 @@ impl Extent {
     /// Whether turning from the direction away from the axis to the axis direction, within the
     /// wall, is counter-clockwise seen from outside of the wedge.
     fn faces_out(self) -> bool {
-        matches!(self, Self::WholePlane | Self::HalfPlane(Side::A))
+        matches!(
+            self,
+            Self::WholePlane | Self::HalfPlane(Side::A) | Self::HubInside
+        )
     }
 
     fn name(self) -> &'static str {
         match self {
             Self::WholePlane | Self::HalfPlane(Side::A) => "wall-a",
+            Self::Hub | Self::HubInside => "the hub",
             _ => "wall-b",
         }
     }
@@ -166,10 +175,25 @@ impl Section {
         }
     }
 
+    /// Points of the section on the lines where the wall ends.
+    fn borders(&self, surface: &Surface) -> Vec<Vec<u32>> {
+        let on = |is_on: &dyn Fn(Class) -> bool| -> Vec<u32> {
+            let points = self.points.iter().copied();
+            points
+                .filter(|&v| is_on(surface.classes[v as usize]))
+                .collect()
+        };
+        match self.extent {
+            Extent::WholePlane => Vec::new(),
+            Extent::Hub | Extent::HubInside => vec![on(&|c| c.a == 0), on(&|c| c.b == 0)],
+            _ => vec![on(&Class::is_axis), on(&|c| c.hub == 0)],
+        }
+    }
+
     /// Closes the wedge on this wall: triangles that face out of it, each with the region behind.
     ///
-    /// Where the wall ends at the axis, consecutive axis points are joined, so that the caps of both
-    /// sides share those edges.
+    /// Where the wall ends at the axis or at another wall, consecutive points there are joined, so
+    /// that the caps of both walls share those edges.
     ///
     /// # Errors
     /// A section whose edges cross, or do not agree on what is inside.
@@ -203,19 +227,13 @@ impl Section {
                 right: Some(e.right),
             })
             .collect();
-        if self.extent != Extent::WholePlane {
-            let mut axis: Vec<u32> = self
-                .points
-                .iter()
-                .copied()
-                .filter(|&v| surface.classes[v as usize] == Class::AXIS)
-                .collect();
-            axis.sort_unstable_by(|&v, &w| {
+        for mut border in self.borders(surface) {
+            border.sort_unstable_by(|&v, &w| {
                 surface.points[v as usize]
                     .z
                     .total_cmp(&surface.points[w as usize].z)
             });
-            for pair in axis.windows(2) {
+            for pair in border.windows(2) {
                 let key = if pair[0] < pair[1] {
                     [pair[0], pair[1]]
                 } else {

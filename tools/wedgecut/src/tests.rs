@@ -7,6 +7,7 @@ use tmesh::{
 };
 
 const DEFAULT: Params = Params {
+    hub: crate::Hub::None,
     domain: Domain::Auto,
     order: None,
     start_angle: None,
