@@ -4,25 +4,15 @@
 //! same face, so the mesher may refine it freely. The two faces of a seam have to stay images of
 //! each other, so their triangulation must be settled before the wedge is filled:
 //!
-//! 1. A free pass of the mesher gives the guide: where the surface must be fine, for the thinness of
-//!    layers and the quality and size asked for.
-//! 2. Every edge of the seam's low face, and its image, get one division (`outline.rs`).
-//! 3. The low face is triangulated between these edges, with the guide's inner points; the high face
-//!    is its image.
-//! 4. Flat facets whose outline changed are triangulated anew; all others are as in the guide.
+//! The method is `tetwedge`'s, which needs it for hubs as well (its module `surface`). A hub follows
+//! its wedge: once the wedge's surface is made, the hub is given the face they share.
 
-mod check;
 mod cli;
-mod error;
-mod features;
-mod outline;
-mod planar;
-mod surface;
 
 pub use cli::Cli;
-pub use error::SurfaceError;
-pub use tetwedge::Params;
+pub use tetwedge::{Params, SurfaceError};
 
+use tetwedge::{Other, impose, make};
 use tmesh::{Document, Template, Wall};
 
 /// Sentences about what was done, for the history and the user.
@@ -50,40 +40,71 @@ pub fn prepare(
     // Names of regions are wrong whatever the walls are.
     tetwedge::Sizes::new(&document, params)?;
     let mut report = Report::default();
-    for index in 0..document.templates.len() {
-        let template = &document.templates[index];
-        let fact = match template.walls.as_slice() {
-            _ if shared(&document, index) => "kept as cut, it shares a wall with another template",
-            [Wall::Seam(_)] if !params.quality => "seam kept as cut, no quality is asked for",
-            [Wall::Seam(seam)] => {
-                let made = surface::make(&document, index, seam, params, log)?;
-                report.facts.push(format!(
-                    "template {index}: {} triangles, seam of {} vertex pairs and {} triangle pairs",
-                    made.triangles.len(),
-                    pairs(&made),
-                    seam_triangles(&made),
-                ));
-                report.remade += 1;
-                document.templates[index] = made;
-                continue;
+    let seams: Vec<bool> = document.templates.iter().map(has_seam).collect();
+    for (index, &seam) in seams.iter().enumerate() {
+        if !seam || !params.quality {
+            continue;
+        }
+        if others(&document.templates[index]).next().is_some() {
+            // It follows another one.
+            continue;
+        }
+        let made = make(&document, index, params, log)?;
+        document.templates[index] = made.template;
+        report.add(index, &document.templates[index]);
+        for follower in 0..document.templates.len() {
+            if others(&document.templates[follower]).any(|o| o == index) {
+                let other = Other {
+                    template: &document.templates[index],
+                    vertices: &made.vertices,
+                    triangles: &made.shared,
+                };
+                let given = impose(&document, follower, &other).map_err(|what| {
+                    SurfaceError::Changed {
+                        template: follower,
+                        what,
+                    }
+                })?;
+                document.templates[follower] = given;
+                let made = make(&document, follower, params, log)?;
+                document.templates[follower] = made.template;
+                report.add(follower, &document.templates[follower]);
             }
-            walls if walls.iter().any(|w| matches!(w, Wall::Seam(_))) => {
-                "kept as cut, it has a seam and other walls"
-            }
-            _ => "no seam, the mesher may refine all walls",
+        }
+    }
+    if report.remade == 0 {
+        let why = if seams.contains(&true) {
+            "surface kept as cut, no quality is asked for"
+        } else {
+            "no seam, the mesher may refine all walls"
         };
-        report.facts.push(format!("template {index}: {fact}"));
+        report.facts.push(why.to_owned());
     }
     Ok((document, report))
 }
 
-/// Whether a template has a wall in common with another one.
-fn shared(document: &Document, index: usize) -> bool {
-    document.templates.iter().enumerate().any(|(i, t)| {
-        t.walls
-            .iter()
-            .any(|w| matches!(w, Wall::Hub(h) if i == index || h.other as usize == index))
+fn has_seam(template: &Template) -> bool {
+    template.walls.iter().any(|w| matches!(w, Wall::Seam(_)))
+}
+
+/// Templates that a template shares a hub wall with.
+fn others(template: &Template) -> impl Iterator<Item = usize> {
+    template.walls.iter().filter_map(|w| match w {
+        Wall::Hub(hub) => Some(hub.other as usize),
+        _ => None,
     })
+}
+
+impl Report {
+    fn add(&mut self, index: usize, made: &Template) {
+        self.facts.push(format!(
+            "template {index}: {} triangles, seam of {} vertex pairs and {} triangle pairs",
+            made.triangles.len(),
+            pairs(made),
+            seam_triangles(made),
+        ));
+        self.remade += 1;
+    }
 }
 
 fn pairs(template: &Template) -> usize {

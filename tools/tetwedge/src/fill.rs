@@ -30,6 +30,8 @@ pub struct Filled {
     pub vertices: Vec<u32>,
     /// New index of each old triangle that had to be preserved, else [`NONE`].
     pub triangles: Vec<u32>,
+    /// Triangles on faces that other templates list as hub walls, increasing.
+    pub shared: Vec<u32>,
     /// Tetrahedra in cells that are to be empty, left out.
     pub dropped: usize,
 }
@@ -104,6 +106,11 @@ pub fn fill(document: &Document, index: usize, plc: &Plc, mesh: &Mesh) -> Result
         },
         vertices: of_vertex,
         triangles: vec![NONE; input.triangles.len()],
+        shared: {
+            let others = face_key(input.walls.len(), false);
+            let all = 0..faces.len() as u32;
+            all.filter(|&t| faces[t as usize] >= others).collect()
+        },
         dropped,
     };
     // Old vertices come first, in their order.

@@ -18,18 +18,16 @@ mod mesher;
 mod params;
 mod plc;
 mod raycast;
-mod refined;
 mod seeds;
+mod surface;
 mod walls;
 
 pub use cli::Cli;
 pub use elements::ElementArgs;
 pub use error::{Error, Place, RegionName};
-pub use facets::{Attributes, Facet, Facets};
 pub use mesher::{Meshed, tetrahedralize};
 pub use params::{DEFAULT_OPTIMIZE, Params, RegionSize, Sizes, volume_of_edge};
-
-pub use refined::{Refined, refine};
+pub use surface::{Made, Other, SurfaceError, impose, make};
 
 #[cfg(test)]
 mod bodies;

@@ -4,12 +4,14 @@ use crate::diagnose::{Chatter, failure};
 use crate::fill::{Filled, NONE, fill};
 use crate::params::switches;
 use crate::plc::{DESCRIPTIONS, Plc};
+use crate::surface::{Other, impose, make};
+use crate::walls::leader;
 use crate::{Error, Params, Sizes};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 use tetgen_sys::{Limits, Mesh};
-use tmesh::{Document, Wall};
+use tmesh::{Document, Template, Wall};
 
 /// Most tetrahedra that may be asked for in a template: TetGen counts in 32 bits.
 const MOST: f64 = 4e8;
@@ -38,39 +40,26 @@ pub fn tetrahedralize(
 ) -> Result<Meshed, Error> {
     let sizes = Sizes::new(&document, params)?;
     let count = document.templates.len();
-    let next = AtomicUsize::new(0);
-    let results: Vec<Mutex<Option<Result<Done, Error>>>> =
-        (0..count).map(|_| Mutex::new(None)).collect();
-    let work = || {
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(slot) = results.get(index) else {
-                break;
-            };
-            let result = template(&document, index, params, &sizes, log);
-            if let Ok(mut slot) = slot.lock() {
-                *slot = Some(result);
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 1..params.threads.min(count) {
-            scope.spawn(work);
-        }
-        work();
-    });
-    let mut done = Vec::with_capacity(count);
-    for slot in results {
-        // Every slot is filled: each worker ends only when there is no template left.
-        if let Some(result) = slot.into_inner().unwrap_or(None) {
-            done.push(result?);
+    let leaders: Vec<Option<usize>> = (0..count).map(|i| leader(&document, i)).collect();
+    let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
+    let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
+    for (&index, done) in first.iter().zip(all(&document, &first, params, &sizes, log)) {
+        slots[index] = Some(done?);
+    }
+    for (index, lead) in leaders.iter().enumerate() {
+        if let Some(lead) = lead.and_then(|l| slots[l].as_ref()) {
+            document.templates[index] = follow(&document, index, &lead.filled, params, log)?;
+            slots[index] = Some(template(&document, index, params, &sizes, log)?);
         }
     }
+    // Every slot is filled: a leader has no leader.
+    let mut done: Vec<Done> = slots.into_iter().flatten().collect();
 
     let mut advice = Vec::new();
     let mut facts = Vec::new();
     let refined = document.history.iter().any(|h| h.tool == "periodic-surf");
-    if !refined && done.iter().any(|d| d.preserved) {
+    let as_cut = |(d, lead): (&Done, &Option<usize>)| d.preserved && lead.is_none();
+    if !refined && done.iter().zip(&leaders).any(as_cut) {
         advice.push(
             "the surface was preserved for the sake of the faces it shares with its copies; periodic-surf before tetwedge \
              gives better elements"
@@ -95,7 +84,9 @@ pub fn tetrahedralize(
     }
     for index in 0..count {
         let mut template = std::mem::take(&mut done[index].filled.template);
-        for wall in &mut template.walls {
+        // A follower has the new numbers already.
+        let walls = template.walls.iter_mut().filter(|_| leaders[index].is_none());
+        for wall in walls {
             if let Wall::Hub(hub) = wall {
                 let other = &done[hub.other as usize].filled;
                 let lost = renumber_second(&mut hub.vertex_pairs, &other.vertices)
@@ -115,6 +106,70 @@ pub fn tetrahedralize(
         advice,
         facts,
     })
+}
+
+/// Meshes the listed templates, several at a time.
+fn all(
+    document: &Document,
+    list: &[usize],
+    params: &Params,
+    sizes: &Sizes,
+    log: &(dyn Fn(&str) + Sync),
+) -> Vec<Result<Done, Error>> {
+    let next = AtomicUsize::new(0);
+    let results: Vec<Mutex<Option<Result<Done, Error>>>> =
+        list.iter().map(|_| Mutex::new(None)).collect();
+    let work = || {
+        while let Some(place) = Some(next.fetch_add(1, Ordering::Relaxed))
+            && let (Some(&index), Some(slot)) = (list.get(place), results.get(place))
+        {
+            let result = template(document, index, params, sizes, log);
+            if let Ok(mut slot) = slot.lock() {
+                *slot = Some(result);
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 1..params.threads.min(list.len()) {
+            scope.spawn(work);
+        }
+        work();
+    });
+    // Every slot is filled: each worker ends only when there is no template left.
+    results
+        .into_iter()
+        .filter_map(|slot| slot.into_inner().unwrap_or(None))
+        .collect()
+}
+
+/// Gives a template the faces that it shares with one that was meshed before, and makes the rest of
+/// its surface fit them.
+fn follow(
+    document: &Document,
+    index: usize,
+    lead: &Filled,
+    params: &Params,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<Template, Error> {
+    let other = Other {
+        template: &lead.template,
+        vertices: &lead.vertices,
+        triangles: &lead.shared,
+    };
+    let mut document = document.clone();
+    document.templates[index] = impose(&document, index, &other).map_err(|what| Error::Unusable {
+        template: index,
+        what,
+    })?;
+    if params.quality {
+        match make(&document, index, params, log) {
+            Ok(made) => return Ok(made.template),
+            Err(error) => log(&format!(
+                "template {index}: {error}; its other faces are divided only where the shared one is"
+            )),
+        }
+    }
+    Ok(document.templates.swap_remove(index))
 }
 
 /// Renumbers the second members; returns whether one has no counterpart.

@@ -12,12 +12,29 @@ pub fn face_key(wall: usize, second: bool) -> u32 {
     1 + 2 * wall as u32 + u32::from(second)
 }
 
+/// Whether a template may refine the faces that others list as hub walls: what lists them is given
+/// the result. A template with a seam has its surface settled before, a listed face is not its own.
+pub fn leads(document: &Document, index: usize) -> bool {
+    let walls = &document.templates[index].walls;
+    walls.iter().all(|w| matches!(w, Wall::Mirror(_)))
+}
+
+/// The template that has to be meshed before this one, whose hub walls are given what came of it.
+pub fn leader(document: &Document, index: usize) -> Option<usize> {
+    let mut others = document.templates[index].walls.iter().filter_map(|w| match w {
+        Wall::Hub(hub) => Some(hub.other as usize),
+        _ => None,
+    });
+    let first = others.next()?;
+    (others.all(|o| o == first) && leads(document, first)).then_some(first)
+}
+
 /// What a template's walls mean for its triangles.
 pub struct Faces {
     /// Wall face of each triangle, or [`NO_FACE`].
     pub of_triangle: Vec<u32>,
-    /// Triangles that must come back as they are: seams, and faces shared with another template,
-    /// whichever of the two lists the wall.
+    /// Triangles that must come back as they are: seams, own hub walls, and faces that other
+    /// templates list as hub walls unless this one leads.
     pub preserved: Vec<bool>,
 }
 
@@ -54,13 +71,14 @@ impl Faces {
             }
         }
         let mut key = face_key(template.walls.len(), false);
+        let free = leads(document, index);
         for other in &document.templates {
             for wall in &other.walls {
                 if let Wall::Hub(h) = wall
                     && h.other as usize == index
                 {
                     for &[_, t] in &h.triangle_pairs {
-                        preserved[t as usize] = true;
+                        preserved[t as usize] |= !free;
                         if of_triangle[t as usize] == NO_FACE {
                             of_triangle[t as usize] = key;
                         }

@@ -1,10 +1,9 @@
 //! Feature edges: where facets meet, end, or touch something else, and how the guide divides them.
 
-use crate::SurfaceError;
+use super::{Refined, SurfaceError};
 use geom::edges::{EdgeUse, Edges};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tetwedge::Refined;
 use tmesh::Template;
 
 /// No number.

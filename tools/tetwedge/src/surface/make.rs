@@ -1,26 +1,42 @@
-//! The new surface of a template with a seam.
+//! The new surface of a template with a seam, or with a face that another template has refined.
 
-use crate::features::{Features, NONE};
-use crate::outline::{merged, same};
-use crate::planar::Patch;
-use crate::{Params, SurfaceError, check};
+use super::features::{Features, NONE};
+use super::guide::refine;
+use super::outline::{merged, same};
+use super::planar::Patch;
+use super::{Refined, SurfaceError, check};
+use crate::Params;
+use crate::walls::{NO_FACE, Projection, face_key};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
-use tetwedge::{Refined, refine};
 use tmesh::{Document, Seam, Template, Triangle, Wall};
 
-/// Makes the surface of template `index`, whose only wall is `seam`.
+/// A new surface.
+pub struct Made {
+    /// The template; second members of its hub walls' pairs are as they were.
+    pub template: Template,
+    /// New vertex of each vertex, `u32::MAX` for those that are gone.
+    pub vertices: Vec<u32>,
+    /// Triangles on faces that other templates list as a hub wall, increasing.
+    pub shared: Vec<u32>,
+}
+
+/// Makes the surface of template `index`: its seam's faces become images of each other, its own hub
+/// walls stay as they are, everything else is as fine as a free pass of the mesher has it.
 ///
 /// # Errors
 /// See [`SurfaceError`].
 pub fn make(
     document: &Document,
     index: usize,
-    seam: &Seam,
     params: &Params,
     log: &(dyn Fn(&str) + Sync),
-) -> Result<Template, SurfaceError> {
+) -> Result<Made, SurfaceError> {
     let input = &document.templates[index];
+    let seam = input.walls.iter().enumerate().find_map(|(i, w)| match w {
+        Wall::Seam(seam) => Some((i, seam)),
+        _ => None,
+    });
     // The guide's own elements are thrown away; only the surface counts.
     let params = Params {
         optimize: None,
@@ -28,42 +44,60 @@ pub fn make(
     };
     let guide = refine(document, index, &params, log)?;
     let features = Features::new(input, index, &guide)?;
+    let mut frozen = vec![false; guide.facets.facets.len()];
+    for wall in &input.walls {
+        if let Wall::Hub(hub) = wall {
+            for pair in &hub.triangle_pairs {
+                frozen[guide.facets.of_triangle[pair[0] as usize] as usize] = true;
+            }
+        }
+    }
     let mut maker = Maker {
         input,
         index,
-        seam,
+        seam: seam.map(|s| s.1),
         guide: &guide,
         features: &features,
+        frozen,
         made: Template::default(),
+        face_of: Vec::new(),
         of_input: vec![NONE; input.vertices.len()],
         of_guide: vec![NONE; guide.vertices.len()],
+        of_triangle: vec![NONE; input.triangles.len()],
         pairs: Vec::new(),
         chains: vec![Chain::default(); features.ends.len()],
     };
     maker.corners();
     maker.divide_edges()?;
     let triangle_pairs = maker.fill_facets()?;
+    if let Some((i, _)) = seam {
+        for pair in &triangle_pairs {
+            maker.face_of[pair[1] as usize] = face_key(i, true);
+        }
+    }
+    let walls = maker.walls(triangle_pairs);
     let Maker {
         mut made,
-        mut pairs,
+        face_of,
+        of_input,
         ..
     } = maker;
-    pairs.sort_unstable();
-    pairs.dedup();
     made.axis.sort_unstable();
     made.axis.dedup();
-    made.walls = vec![Wall::Seam(Seam {
-        vertex_pairs: pairs,
-        triangle_pairs,
-        ..seam.clone()
-    })];
+    made.walls = walls;
     let facets = &guide.facets.facets;
     let slack = facets.iter().map(|f| 2.0 * f.area * f.deviation).sum();
     check::same_body(input, &made, slack).map_err(|what| SurfaceError::Changed {
         template: index,
         what,
     })?;
-    Ok(made)
+    let others = face_key(input.walls.len(), false);
+    let shared = (0..face_of.len() as u32).filter(|&t| face_of[t as usize] >= others);
+    Ok(Made {
+        shared: shared.collect(),
+        template: made,
+        vertices: of_input,
+    })
 }
 
 /// New points of a feature edge.
@@ -79,14 +113,21 @@ struct Chain {
 struct Maker<'a> {
     input: &'a Template,
     index: usize,
-    seam: &'a Seam,
+    seam: Option<&'a Seam>,
     guide: &'a Refined,
     features: &'a Features,
+    /// Facets that stay as they are.
+    frozen: Vec<bool>,
     made: Template,
+    /// Wall face of each new triangle; see [`crate::walls`].
+    face_of: Vec<u32>,
     /// New vertex of each input vertex.
     of_input: Vec<u32>,
     /// New vertex of each guide vertex.
     of_guide: Vec<u32>,
+    /// New index of each triangle of the facets that stay.
+    of_triangle: Vec<u32>,
+    /// Vertex pairs of the seam.
     pairs: Vec<[u32; 2]>,
     chains: Vec<Chain>,
 }
@@ -104,7 +145,13 @@ impl Maker<'_> {
         self.made.vertices.len() as u32 - 1
     }
 
-    /// Takes over the input vertices where feature edges end, and those on the axis.
+    /// The seam's pairs.
+    fn seam_pairs(&self) -> impl Iterator<Item = [u32; 2]> + use<'_> {
+        self.seam.into_iter().flat_map(|s| s.vertex_pairs.iter().copied())
+    }
+
+    /// Takes over the input vertices where feature edges end, those on the axis and on facets that
+    /// stay.
     fn corners(&mut self) {
         let mut stays = vec![false; self.input.vertices.len()];
         self.input
@@ -116,6 +163,12 @@ impl Maker<'_> {
             .iter()
             .flatten()
             .for_each(|&v| stays[v as usize] = true);
+        for (t, &facet) in self.guide.facets.of_triangle.iter().enumerate() {
+            if self.frozen[facet as usize] {
+                let corners = self.input.triangles[t].vertices;
+                corners.iter().for_each(|&v| stays[v as usize] = true);
+            }
+        }
         for (point, &v) in self.guide.vertex_of_point.iter().enumerate() {
             if stays[v as usize] {
                 let new = self.add(self.input.vertices[v as usize]);
@@ -131,22 +184,30 @@ impl Maker<'_> {
             .map(new)
             .filter(|&v| v != NONE)
             .collect();
-        let pairs = self
-            .seam
-            .vertex_pairs
-            .iter()
-            .map(|p| [new(&p[0]), new(&p[1])]);
+        let pairs = self.seam_pairs().map(|p| [new(&p[0]), new(&p[1])]);
         self.pairs = pairs.filter(|p| !p.contains(&NONE)).collect();
+    }
+
+    /// Of each feature edge, whether a facet that stays has it.
+    fn undivided(&self) -> Vec<bool> {
+        let mut whole = vec![false; self.features.ends.len()];
+        for (t, &facet) in self.guide.facets.of_triangle.iter().enumerate() {
+            if self.frozen[facet as usize] {
+                let [a, b, c] = self.input.triangles[t].vertices;
+                for (p, q) in [(a, b), (b, c), (c, a)] {
+                    if let Some((edge, _)) = self.features.find(p, q) {
+                        whole[edge] = true;
+                    }
+                }
+            }
+        }
+        whole
     }
 
     /// Divides all feature edges, those of the seam and their images alike.
     fn divide_edges(&mut self) -> Result<(), SurfaceError> {
-        let partner: FxHashMap<u32, u32> = self
-            .seam
-            .vertex_pairs
-            .iter()
-            .map(|p| (p[0], p[1]))
-            .collect();
+        let partner: FxHashMap<u32, u32> = self.seam_pairs().map(|p| (p[0], p[1])).collect();
+        let whole = self.undivided();
         let mut on_axis = vec![false; self.input.vertices.len()];
         self.input
             .axis
@@ -167,7 +228,7 @@ impl Maker<'_> {
                 is_image[other] = true;
             }
         }
-        let rotation = self.seam.rotation.placed();
+        let rotation = self.seam.map(|s| s.rotation.placed());
         for edge in 0..count {
             if is_image[edge] {
                 continue;
@@ -175,6 +236,11 @@ impl Maker<'_> {
             let [a, b] = self.features.ends[edge];
             let own = parameters(edge);
             let (division, other) = match image[edge] {
+                Some((other, reversed)) if whole[edge] || whole[other] => {
+                    self.chains[other].changed = !self.features.points[other].is_empty();
+                    (Vec::new(), Some((other, reversed)))
+                }
+                None if whole[edge] => (Vec::new(), None),
                 Some((other, reversed)) => {
                     if image[other].is_some() {
                         return Err(self.unmatched(a));
@@ -200,7 +266,7 @@ impl Maker<'_> {
                 self.made.axis.extend(&vertices);
                 self.pairs.extend(vertices.iter().map(|&v| [v, v]));
             }
-            if let Some((other, reversed)) = other {
+            if let (Some((other, reversed)), Some(rotation)) = (other, &rotation) {
                 let mut images = Vec::with_capacity(points.len());
                 for (&v, &p) in vertices.iter().zip(&points) {
                     let w = self.add(rotation.apply(p));
@@ -239,7 +305,7 @@ impl Maker<'_> {
         // Of each facet of the low face, the triangle that says what its image is like.
         let mut low: Vec<Option<Triangle>> = vec![None; count];
         let mut high = vec![false; count];
-        for &[a, b] in &self.seam.triangle_pairs {
+        for &[a, b] in self.seam.map_or(&[][..], |s| &s.triangle_pairs) {
             let image = self.input.triangles[b as usize];
             let like = |t: &Triangle| (t.marker, t.front, t.back);
             let slot = &mut low[facets.of_triangle[a as usize] as usize];
@@ -256,7 +322,13 @@ impl Maker<'_> {
             }
             let attributes = facets.facets[facet].attributes;
             let first = self.made.triangles.len() as u32;
-            let triangles = self.facet(facet, &old[facet], &fine[facet], low[facet].is_some())?;
+            let triangles = if self.frozen[facet] {
+                self.frozen_facet(&old[facet], first)
+            } else {
+                self.facet(facet, &old[facet], &fine[facet], low[facet].is_some())?
+            };
+            let faces = std::iter::repeat_n(attributes.face, triangles.len());
+            self.face_of.extend(faces);
             self.made
                 .triangles
                 .extend(triangles.into_iter().map(|vertices| Triangle {
@@ -272,9 +344,23 @@ impl Maker<'_> {
         self.copy_to_high(&on_seam)
     }
 
+    /// The triangles of a facet that stays.
+    fn frozen_facet(&mut self, old: &[u32], first: u32) -> Vec<[u32; 3]> {
+        for (new, &t) in (first..).zip(old) {
+            self.of_triangle[t as usize] = new;
+        }
+        let corners = old.iter().map(|&t| self.input.triangles[t as usize].vertices);
+        corners
+            .map(|t| t.map(|v| self.of_input[v as usize]))
+            .collect()
+    }
+
     fn copy_to_high(&mut self, on_seam: &[(u32, Triangle)]) -> Result<Vec<[u32; 2]>, SurfaceError> {
+        let Some(seam) = self.seam else {
+            return Ok(Vec::new());
+        };
         let mut image: FxHashMap<u32, u32> = self.pairs.iter().map(|p| (p[0], p[1])).collect();
-        let rotation = self.seam.rotation.placed();
+        let rotation = seam.rotation.placed();
         let mut pairs = Vec::with_capacity(on_seam.len());
         for &(low, like) in on_seam {
             let corners = self.made.triangles[low as usize].vertices;
@@ -289,6 +375,7 @@ impl Maker<'_> {
                 })
             });
             pairs.push([low, self.made.triangles.len() as u32]);
+            self.face_of.push(NO_FACE);
             self.made.triangles.push(Triangle {
                 vertices: [a, c, b],
                 ..like
@@ -344,7 +431,11 @@ impl Maker<'_> {
         inner.dedup();
         inner.retain(|&v| !self.features.on[v as usize] && self.of_guide[v as usize] == NONE);
         let level = self.level(old);
-        let settle = |p: DVec3| level.map_or(p, |z| DVec3::new(p.x, p.y, z));
+        let projection = self.projection(guide.facets.facets[facet].attributes.face, low);
+        let settle = |p: DVec3| {
+            let p = level.map_or(p, |z| DVec3::new(p.x, p.y, z));
+            projection.map_or(p, |plane| plane.apply(p))
+        };
         if !changed {
             for &v in &inner {
                 let new = self.add(settle(guide.vertices[v as usize]));
@@ -398,16 +489,84 @@ impl Maker<'_> {
                             Some(&v) => guide.vertices[v as usize],
                             None => plane.lift(patch.points[i], height),
                         };
-                        let mut p = settle(p);
-                        if low {
-                            p.y = 0.0;
-                        }
-                        number[i] = self.add(p);
+                        number[i] = self.add(settle(p));
                     }
                     number[i]
                 })
             })
             .collect())
+    }
+
+    /// The plane of a wall's face that points have to be on.
+    fn projection(&self, face: u32, low: bool) -> Option<Projection> {
+        if low {
+            // The low face of a seam is at angle 0 in the canonical frame.
+            return Some(Projection::Vertical { cos: 1.0, sin: 0.0 });
+        }
+        let wall = (face.checked_sub(1)? / 2) as usize;
+        match self.input.walls.get(wall) {
+            Some(Wall::Mirror(mirror)) => Some(Projection::of(mirror)),
+            _ => None,
+        }
+    }
+
+    /// The walls of the new surface.
+    fn walls(&mut self, triangle_pairs: Vec<[u32; 2]>) -> Vec<Wall> {
+        let mut walls = self.input.walls.clone();
+        let mut of_face: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for (t, &face) in self.face_of.iter().enumerate() {
+            if face != NO_FACE {
+                of_face.entry(face).or_default().push(t as u32);
+            }
+        }
+        let mut triangle_pairs = Some(triangle_pairs);
+        for (i, wall) in walls.iter_mut().enumerate() {
+            match wall {
+                Wall::Mirror(mirror) => {
+                    mirror.triangles = of_face.remove(&face_key(i, false)).unwrap_or_default();
+                    let mut on: Vec<u32> = self.on_wall(&mirror.vertices);
+                    let corners = |&t: &u32| self.made.triangles[t as usize].vertices;
+                    on.extend(mirror.triangles.iter().flat_map(corners));
+                    on.sort_unstable();
+                    on.dedup();
+                    mirror.vertices = on;
+                }
+                Wall::Seam(seam) => {
+                    let mut pairs = std::mem::take(&mut self.pairs);
+                    pairs.sort_unstable();
+                    pairs.dedup();
+                    seam.vertex_pairs = pairs;
+                    seam.triangle_pairs = triangle_pairs.take().unwrap_or_default();
+                }
+                Wall::Hub(hub) => {
+                    for pair in &mut hub.vertex_pairs {
+                        pair[0] = self.of_input[pair[0] as usize];
+                    }
+                    hub.vertex_pairs.sort_unstable();
+                    for pair in &mut hub.triangle_pairs {
+                        pair[0] = self.of_triangle[pair[0] as usize];
+                    }
+                }
+            }
+        }
+        walls
+    }
+
+    /// New vertices at input vertices of a wall, and on edges between them.
+    fn on_wall(&self, vertices: &[u32]) -> Vec<u32> {
+        let mut on = vec![false; self.input.vertices.len()];
+        vertices.iter().for_each(|&v| on[v as usize] = true);
+        let mut found: Vec<u32> = vertices
+            .iter()
+            .map(|&v| self.of_input[v as usize])
+            .filter(|&v| v != NONE)
+            .collect();
+        for ([a, b], chain) in self.features.ends.iter().zip(&self.chains) {
+            if on[*a as usize] && on[*b as usize] {
+                found.extend(&chain.vertices);
+            }
+        }
+        found
     }
 
     /// Height of a facet that is exactly horizontal.

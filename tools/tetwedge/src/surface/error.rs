@@ -5,7 +5,8 @@ use kit::Failure;
 use thiserror::Error;
 
 /// What the user can do instead.
-const ADVICE: &str = "leave periodic-surf out to keep the surface as it was cut, or cut at another --order or --start-angle of wedgecut";
+const ADVICE: &str =
+    "leave periodic-surf out to keep the surface as it was cut, or cut at another --order, --hub or --start-angle of wedgecut";
 
 /// Why a wedge's surface could not be made. Places are canonical coordinates.
 #[derive(Debug, Error)]
@@ -18,7 +19,7 @@ pub enum SurfaceError {
     AlreadyFilled(usize),
     /// The free pass of the mesher failed.
     #[error("the mesh that is to guide the surface failed: {0}")]
-    Mesher(#[from] tetwedge::Error),
+    Mesher(#[from] crate::Error),
     /// The free pass did not keep the edges of the surface.
     #[error(
         "the mesh that is to guide the surface of template {template} has {what} near ({}, {}, {}); {ADVICE}",

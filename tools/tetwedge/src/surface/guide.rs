@@ -1,4 +1,4 @@
-//! The surface of a template after TetGen refined it freely, walls included.
+//! The guide: the surface of a template after TetGen refined it freely, walls included.
 
 use crate::cells::{Cells, label};
 use crate::error::Place;
