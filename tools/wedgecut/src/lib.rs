@@ -7,6 +7,7 @@
 //! for rotation wedges, the two sections paired and made exact images ([`seam`]); where there is a
 //! hub, what lies in front of its plane united to a template of its own ([`hub`]).
 
+mod choose;
 mod clean;
 mod cli;
 mod clip;
@@ -33,7 +34,7 @@ use opening::{HubPlane, Opening, Side};
 use plan::{HubPlan, Plan};
 use section::{Extent, Section};
 use surface::Surface;
-use tmesh::{Document, Frame, Source, Symmetry, Template, Triangle};
+use tmesh::{Document, Frame, Source, Symmetry, Template, Triangle, Wall};
 
 /// Multiple of the input's precision within which values count as equal: rotation into the axis
 /// frame adds up three coordinates' errors, and the axis has an error of its own.
@@ -43,9 +44,6 @@ const ROUNDING_REACH: f64 = 1e-10;
 /// Largest distance, relative to the radius about the axis, that a point is moved onto a cut plane
 /// because the body is only nearly symmetric.
 const LARGEST_SNAP: f64 = 1e-4;
-
-/// Least order of the wedge for a hub.
-const HUB_LEAST_ORDER: u32 = 3;
 
 /// What the cut did, besides its result.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,11 +69,114 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
     if !document.templates[0].tets.is_empty() {
         return Err(CutError::NotASurface("this document holds a volume mesh"));
     }
-    let mut plan = Plan::new(&symmetry, params)?;
-    let mut document = document;
+    let plan = Plan::new(&symmetry, params)?;
+    let body = &document.templates[0];
+    let tolerances = Tolerances::new(body, &symmetry, document.source.as_ref(), params);
+    let hub = match params.hub {
+        Hub::Radius(radius) => Some(plan.hub(radius)?),
+        Hub::Auto | Hub::None => None,
+    };
+    // Order and hub are chosen by the wedge of the order found.
+    if !params.chooses() || plan.is_whole() {
+        return cut_as_planned(&document, &symmetry, plan, hub, params, &tolerances);
+    }
+    let (first, report) = cut_as_planned(&document, &symmetry, plan, None, params, &tolerances)?;
+    let Some((choice, why)) = choose(&first, &symmetry, params) else {
+        return match hub {
+            None => Ok((first, report)),
+            Some(_) => {
+                let plan = Plan::new(&symmetry, params)?;
+                cut_as_planned(&document, &symmetry, plan, hub, params, &tolerances)
+            }
+        };
+    };
+    let params = Params {
+        order: Some(choice.order),
+        ..params.clone()
+    };
+    let mut plan = Plan::new(&symmetry, &params)?;
+    let hub = choice.hub.map(|radius| plan.hub(radius)).transpose()?;
+    if hub.is_none() && choice.order == symmetry.order {
+        let notes = [report.notes, vec![why]].concat();
+        return Ok((first, Report { notes }));
+    }
+    let cut = cut_as_planned(&document, &symmetry, plan, hub, &params, &tolerances);
+    let (document, mut report) = match (cut, params.hub) {
+        // A hub that nobody asked for must not be in the way.
+        (Err(error), Hub::Auto) if hub.is_some() => {
+            plan = Plan::new(&symmetry, &params)?;
+            let (document, mut report) =
+                cut_as_planned(&document, &symmetry, plan, None, &params, &tolerances)?;
+            report.notes.push(format!("no hub: {error}"));
+            (document, report)
+        }
+        (cut, _) => cut?,
+    };
+    report.notes.push(why);
+    Ok((document, report))
+}
+
+/// Chooses order and hub, and says why.
+fn choose(
+    wedge: &Document,
+    symmetry: &Symmetry,
+    params: &Params,
+) -> Option<(choose::Choice, String)> {
+    let mirror = matches!(wedge.templates[0].walls.first(), Some(Wall::Mirror(_)));
+    let max_volume = |region: u32| {
+        let at = wedge.regions.binary_search_by_key(&region, |r| r.id).ok()?;
+        wedge.regions[at].max_volume
+    };
+    let orders: Vec<u32> = match params.order {
+        Some(order) => vec![order],
+        None => plan::divisors(symmetry.order),
+    };
+    let with_hub = matches!(params.hub, Hub::Radius(_));
+    let orders: Vec<u32> = orders
+        .into_iter()
+        .filter(|&n| !with_hub || n >= plan::HUB_LEAST_ORDER)
+        .collect();
+    let options = choose::Options {
+        orders: &orders,
+        mirror,
+        hub_order: &|order| plan::hub_order(order, mirror),
+        radius: match params.hub {
+            Hub::Radius(radius) => Some(radius),
+            _ => None,
+        },
+        no_hub: params.hub == Hub::None,
+    };
+    let estimate = choose::Estimate::new(&wedge.templates[0], max_volume);
+    let ways = estimate.ways(&options);
+    let choice = choose::best(&ways)?;
+    let hub = |c: &choose::Choice| c.hub.map_or(String::new(), |r| format!(" with a hub of {r:.3}"));
+    let list: Vec<String> = ways
+        .iter()
+        .map(|c| format!("{}{} {:.2}", c.order, hub(c), c.elements))
+        .collect();
+    let why = format!(
+        "order {} of {}{}: the fastest that costs few elements; estimated elements over those of the whole body by \
+         order: {}",
+        choice.order,
+        symmetry.order,
+        hub(&choice),
+        list.join(", "),
+    );
+    Some((choice, why))
+}
+
+/// Cuts as a plan says.
+fn cut_as_planned(
+    document: &Document,
+    symmetry: &Symmetry,
+    mut plan: Plan,
+    hub: Option<HubPlan>,
+    params: &Params,
+    tolerances: &Tolerances,
+) -> Result<(Document, Report), CutError> {
+    let mut document = document.clone();
     let mut template = std::mem::take(&mut document.templates[0]);
-    let tolerances = Tolerances::new(&template, &symmetry, document.source.as_ref(), params);
-    document.frame = frame(&symmetry, &plan, params, &template.vertices, &tolerances)?;
+    document.frame = frame(symmetry, &plan, params, &template.vertices, tolerances)?;
     for p in &mut template.vertices {
         *p = document.frame.to_canonical(*p);
     }
@@ -91,11 +192,10 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         tolerances.plane,
         tolerances.equal,
     )];
-    let hub = choose_hub(&plan, params)?;
     let cutter = Cutter {
         plan: &plan,
         hub,
-        tolerances: &tolerances,
+        tolerances,
         frame: &document.frame,
     };
     document.templates = cutter.cut(template, &mut notes)?;
@@ -111,22 +211,19 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
     }
     document.instances = plan.instances;
     document.region_maps = plan.region_maps;
+    if document.templates[0].triangles.is_empty() {
+        return Err(CutError::Empty);
+    }
+    let volumes: Vec<f64> = document.templates.iter().map(total_volume).collect();
     let wedge_volume: f64 = document
         .instances
         .iter()
-        .map(|i| i.template as usize)
-        .zip(std::iter::repeat(Vec::from_iter(
-            document.templates.iter().map(total_volume),
-        )))
-        .map(|(t, volumes)| volumes[t])
+        .map(|i| volumes[i.template as usize])
         .sum();
     let relative = (wedge_volume - body_volume).abs() / body_volume.abs();
     let drift =
         symmetry.residual.max(0.0) * tolerances.radius + tolerances.plane + tolerances.detail;
     let allowed = 1e-6 + 4.0 * drift * body_area / body_volume.abs();
-    if document.templates[0].triangles.is_empty() {
-        return Err(CutError::Empty);
-    }
     if relative > allowed {
         return Err(CutError::VolumeDiffers {
             copies,
@@ -236,27 +333,6 @@ fn frame(
     }
     let x = base.rotation * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0);
     Frame::from_axis(origin, axis, x).ok_or_else(bad)
-}
-
-/// The hub asked for.
-fn choose_hub(plan: &Plan, params: &Params) -> Result<Option<HubPlan>, CutError> {
-    let Hub::Radius(radius) = params.hub else {
-        return Ok(None);
-    };
-    // The hub's plane has to cross both sides.
-    if plan.order < HUB_LEAST_ORDER {
-        return Err(CutError::BadHub {
-            radius,
-            reason: format!(
-                "the wedge of order {} is too wide for one; orders from {HUB_LEAST_ORDER} can have a hub",
-                plan.order
-            ),
-        });
-    }
-    Ok(Some(HubPlan {
-        radius,
-        order: plan.hub_order(),
-    }))
 }
 
 /// What is needed to cut the templates.

@@ -30,13 +30,29 @@ pub enum Hub {
 
 /// Least angle of the hub's wedge, degrees.
 const HUB_ANGLE: u32 = 30;
+/// Least order of the wedge for a hub.
+pub const HUB_LEAST_ORDER: u32 = 3;
+
+/// The largest divisor of a wedge's order for a hub whose own wedge is at least [`HUB_ANGLE`] wide.
+pub fn hub_order(order: u32, mirror: bool) -> u32 {
+    let full = if mirror { 180 } else { 360 };
+    (1..=order.min(full / HUB_ANGLE))
+        .rev()
+        .find(|h| order.is_multiple_of(*h))
+        .unwrap_or(1)
+}
+
+/// All divisors, increasing.
+pub fn divisors(n: u32) -> Vec<u32> {
+    (1..=n).filter(|d| n.is_multiple_of(*d)).collect()
+}
 
 /// What to cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Params {
     /// Walls.
     pub domain: Domain,
-    /// Order used for meshing, a divisor of the order found; `None` takes the order found.
+    /// Order used for meshing, a divisor of the order found; `None` chooses.
     pub order: Option<u32>,
     /// Angle of the first side from the mirror direction, radians; `None` chooses.
     pub start_angle: Option<f64>,
@@ -48,6 +64,13 @@ pub struct Params {
     pub hub: Hub,
     /// Edges shorter than this, relative to the radius about the axis, are collapsed; 0 for none.
     pub clean: f64,
+}
+
+impl Params {
+    /// Whether anything is left to choose once the order found is known.
+    pub fn chooses(&self) -> bool {
+        self.order.is_none() || self.hub == Hub::Auto
+    }
 }
 
 /// The hub's size and symmetry.
@@ -83,10 +106,7 @@ impl Plan {
         let found = symmetry.order;
         let order = params.order.unwrap_or(found);
         if order == 0 || !found.is_multiple_of(order) {
-            let divisors: Vec<_> = (1..=found)
-                .filter(|d| found.is_multiple_of(*d))
-                .map(|d| d.to_string())
-                .collect();
+            let divisors: Vec<_> = divisors(found).iter().map(u32::to_string).collect();
             return Err(CutError::NotADivisor {
                 asked: order,
                 found,
@@ -121,13 +141,25 @@ impl Plan {
         self.opening == Isometry::rotation(1, 2)
     }
 
-    /// The largest order for a hub whose own wedge is at least [`HUB_ANGLE`] wide.
-    pub fn hub_order(&self) -> u32 {
-        let full = if self.mirror { 180 } else { 360 };
-        (1..=self.order.min(full / HUB_ANGLE))
-            .rev()
-            .find(|h| self.order.is_multiple_of(*h))
-            .unwrap_or(1)
+    /// A hub of the given inscribed radius, model units.
+    ///
+    /// # Errors
+    /// A wedge that is too wide for one.
+    pub fn hub(&self, radius: f64) -> Result<HubPlan, CutError> {
+        // The hub's plane has to cross both sides.
+        if self.order < HUB_LEAST_ORDER {
+            return Err(CutError::BadHub {
+                radius,
+                reason: format!(
+                    "the wedge of order {} is too wide for one; orders from {HUB_LEAST_ORDER} can have a hub",
+                    self.order
+                ),
+            });
+        }
+        Ok(HubPlan {
+            radius,
+            order: hub_order(self.order, self.mirror),
+        })
     }
 
     /// Adds the copies of the hub, template 1.

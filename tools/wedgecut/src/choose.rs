@@ -1,0 +1,490 @@
+//! Which order to mesh at, and whether to make a hub.
+//!
+//! Elements are as large as features nearby allow: the thickness of layers, the length of edges. A
+//! wedge that is narrower than that makes them smaller, and where the axis runs through material
+//! every wedge gets narrow. The number of elements is estimated by integrating the inverse cube of
+//! their size over the section of the body, for the whole body and for wedges of every order with
+//! hubs of several radii; the fastest to mesh wins among those that cost few more elements than the
+//! whole body.
+
+use geom::edges::Edges;
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
+use tmesh::{OUTSIDE, Template, Wall};
+
+/// How fast element sizes grow with the distance from a feature.
+const GROWTH: f64 = 0.7;
+/// Size of elements over the width of a wedge that does not disturb them.
+const SPAN: f64 = 1.3;
+/// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
+const ACCEPTED: f64 = 1.15;
+/// Widest angle of a wedge, degrees, that needs no hub where the axis runs through material.
+const WIDE: f64 = 44.0;
+/// Smallest pieces of the section, relative to its extent.
+const FINEST: f64 = 1.0 / 512.0;
+/// Cells of the grid on which samples are thinned out, per direction.
+const CELLS: f64 = 256.0;
+/// Most pairs of a sample and an edge that are looked at.
+const PAIRS: usize = 20_000_000;
+/// Classes of radius, and of size: per factor of two.
+const RADII: usize = 96;
+const PER_OCTAVE: f64 = 4.0;
+const SIZES: usize = 80;
+
+/// A size that a feature asks for, at a place of the section.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    /// Radius and height, model units.
+    at: DVec2,
+    /// Size, model units.
+    size: f64,
+}
+
+/// Body volume by radius and element size.
+pub struct Estimate {
+    extent: f64,
+    /// Smallest size there is.
+    least: f64,
+    /// Volume of each class of radius and size.
+    volume: Vec<[f64; SIZES]>,
+    /// Radii blocked by steep faces, increasing, disjoint.
+    steep: Vec<[f64; 2]>,
+}
+
+/// A way to mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// Order of the wedge.
+    pub order: u32,
+    /// Inscribed radius of the hub.
+    pub hub: Option<f64>,
+    /// Estimated elements over those of the whole body.
+    pub elements: f64,
+    /// Estimated elements to be meshed over those of the whole body.
+    pub meshed: f64,
+}
+
+/// What there is to choose from.
+pub struct Options<'a> {
+    /// Orders.
+    pub orders: &'a [u32],
+    /// Whether wedges end at mirror planes.
+    pub mirror: bool,
+    /// Order of the hub for an order of the wedge.
+    pub hub_order: &'a dyn Fn(u32) -> u32,
+    /// Radius asked for; `None` chooses, or none if `no_hub`.
+    pub radius: Option<f64>,
+    /// No hub.
+    pub no_hub: bool,
+}
+
+impl Estimate {
+    /// Looks at the section and the edges of a wedge of the order found.
+    pub fn new(wedge: &Template, max_volume: impl Fn(u32) -> Option<f64>) -> Self {
+        let sections = sections(wedge);
+        let mut extent = 0.0_f64;
+        for p in &wedge.vertices {
+            extent = extent.max(p.x.hypot(p.y)).max(p.z.abs());
+        }
+        let mut samples = edge_samples(wedge);
+        let mut steep = Vec::new();
+        for section in &sections {
+            let outline = Outline::new(section);
+            outline.thickness(extent, &mut samples);
+            outline.steep(&mut steep);
+        }
+        let samples = thinned(samples, extent);
+        let least = samples.iter().fold(extent, |m, s| m.min(s.size)).max(extent * 1e-6);
+        let mut estimate = Self {
+            extent,
+            least,
+            volume: vec![[0.0; SIZES]; RADII],
+            steep: merged(steep),
+        };
+        let weight = 1.0 / sections.len().max(1) as f64;
+        for section in &sections {
+            for (corners, region) in section {
+                let cap = max_volume(*region).map_or(f64::INFINITY, edge_of_volume);
+                estimate.integrate(*corners, &samples, cap, weight);
+            }
+        }
+        estimate
+    }
+
+    fn integrate(&mut self, triangle: [DVec2; 3], samples: &[Sample], cap: f64, weight: f64) {
+        let finest = self.extent * FINEST;
+        let mut stack = vec![(triangle, samples.to_vec())];
+        while let Some((t, near)) = stack.pop() {
+            let middle = (t[0] + t[1] + t[2]) / 3.0;
+            let reach = t.iter().fold(0.0_f64, |m, p| m.max(p.distance(middle)));
+            let asked = |s: &Sample| s.size + GROWTH * s.at.distance(middle);
+            let size = near.iter().map(asked).fold(cap, f64::min);
+            let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| t[i].distance(t[j]));
+            let longest = (0..3).max_by(|&i, &j| sides[i].total_cmp(&sides[j])).unwrap_or(0);
+            if sides[longest] <= size.max(finest) {
+                let area = 0.5 * (t[1] - t[0]).perp_dot(t[2] - t[0]).abs();
+                let volume = std::f64::consts::TAU * middle.x * area * weight;
+                let (radius, class) = (self.radius_class(middle.x), self.size_class(size));
+                self.volume[radius][class] += volume;
+                continue;
+            }
+            // Samples that can matter somewhere in the triangle.
+            let kept: Vec<Sample> = near
+                .iter()
+                .copied()
+                .filter(|s| asked(s) <= size + 2.0 * GROWTH * reach)
+                .collect();
+            let (a, b, c) = (t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]);
+            let half = 0.5 * (a + b);
+            stack.push(([a, half, c], kept.clone()));
+            stack.push(([half, b, c], kept));
+        }
+    }
+
+    fn radius_class(&self, r: f64) -> usize {
+        ((r / self.extent * RADII as f64) as usize).min(RADII - 1)
+    }
+
+    fn size_class(&self, size: f64) -> usize {
+        (((size / self.least).log2() * PER_OCTAVE).max(0.0) as usize).min(SIZES - 1)
+    }
+
+    /// Volume and size of a class, and the middle of its radii.
+    fn classes(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        self.volume.iter().enumerate().flat_map(move |(i, row)| {
+            let radius = (i as f64 + 0.5) / RADII as f64 * self.extent;
+            row.iter().enumerate().filter(|(_, v)| **v > 0.0).map(move |(j, &v)| {
+                let size = self.least * ((j as f64 + 0.5) / PER_OCTAVE).exp2();
+                (radius, size, v)
+            })
+        })
+    }
+
+    /// Elements of the body meshed as a whole, up to a factor.
+    fn whole(&self) -> f64 {
+        self.classes().map(|(_, size, v)| v / size.powi(3)).sum()
+    }
+
+    /// Elements of wedges and hubs, up to the same factor.
+    fn parts(&self, order: u32, mirror: bool, hub: Option<f64>) -> (f64, f64) {
+        let angle = opening(order, mirror);
+        let width = |r: f64| SPAN * 2.0 * (0.5 * angle).tan().min(1.0) * r;
+        let radius = hub.unwrap_or(0.0);
+        let (mut outer, mut inner, mut height) = (0.0, 0.0, 0.0);
+        for (r, size, v) in self.classes() {
+            if r >= radius {
+                outer += v / size.min(width(r)).powi(3);
+            } else {
+                let from_wall = width(radius) + GROWTH * (radius - r);
+                inner += v / size.min(from_wall).powi(3);
+            }
+            if self.radius_class(r) == self.radius_class(radius) {
+                height += v / (std::f64::consts::TAU * r * self.extent / RADII as f64);
+            }
+        }
+        if let Some(hub) = hub {
+            // Layers between the hub's wall and steep faces.
+            let corner = hub / (0.5 * angle).cos();
+            let corner = if mirror { hub / angle.cos() } else { corner };
+            let at_wall = width(hub);
+            for &[low, high] in &self.steep {
+                let gap = if low > corner {
+                    low - corner
+                } else if high < hub {
+                    hub - high
+                } else {
+                    0.0
+                };
+                if gap < at_wall {
+                    let gap = gap.max(0.01 * at_wall);
+                    let wall = std::f64::consts::TAU * hub * height;
+                    let extra = wall / (2.0 * GROWTH) * (gap.powi(-2) - at_wall.powi(-2));
+                    outer += extra;
+                    inner += extra;
+                }
+            }
+        }
+        (outer, inner)
+    }
+
+    /// Whether there is material on the axis.
+    fn is_solid(&self) -> bool {
+        self.volume[0].iter().any(|v| *v > 0.0)
+    }
+
+    /// Radii that a hub may have.
+    fn radii(&self) -> Vec<f64> {
+        let mut free = Vec::new();
+        let mut from = 0.0;
+        for &[low, high] in &self.steep {
+            free.push([from, low]);
+            from = high;
+        }
+        let most = self.extent;
+        free.push([from, most]);
+        let mut radii = Vec::new();
+        for [low, high] in free.into_iter().filter(|f| f[1] - f[0] > 1e-3 * most) {
+            for part in [0.2, 0.35, 0.5, 0.6, 0.7, 0.8, 0.88] {
+                radii.push(low + part * (high - low));
+            }
+        }
+        radii
+    }
+
+    /// The ways to mesh, each order with its best hub.
+    pub fn ways(&self, options: &Options<'_>) -> Vec<Choice> {
+        let whole = self.whole();
+        if whole.is_nan() || whole <= 0.0 {
+            return Vec::new();
+        }
+        let radii = match options.radius {
+            Some(radius) => vec![radius],
+            None if options.no_hub || !self.is_solid() => Vec::new(),
+            None => self.radii(),
+        };
+        let mut ways = Vec::new();
+        for &order in options.orders {
+            let copies = f64::from(order) * if options.mirror { 2.0 } else { 1.0 };
+            let angle = opening(order, options.mirror);
+            let narrow = angle.to_degrees() < WIDE && self.is_solid();
+            let mut found: Vec<Choice> = Vec::new();
+            if options.radius.is_none() && (!narrow || radii.is_empty()) {
+                let (outer, _) = self.parts(order, options.mirror, None);
+                found.push(Choice {
+                    order,
+                    hub: None,
+                    elements: outer / whole,
+                    meshed: outer / whole / copies,
+                });
+            }
+            if narrow || options.radius.is_some() {
+                let hub_copies = f64::from((options.hub_order)(order))
+                    * if options.mirror { 2.0 } else { 1.0 };
+                for &radius in &radii {
+                    let (outer, inner) = self.parts(order, options.mirror, Some(radius));
+                    found.push(Choice {
+                        order,
+                        hub: Some(radius),
+                        elements: (outer + inner) / whole,
+                        meshed: (outer / copies + inner / hub_copies) / whole,
+                    });
+                }
+            }
+            ways.extend(best(&found));
+        }
+        ways
+    }
+}
+
+/// The fastest way within the accepted number of elements, else the one with the fewest.
+pub fn best(ways: &[Choice]) -> Option<Choice> {
+    let accepted = ways.iter().filter(|w| w.elements <= ACCEPTED);
+    let fastest = accepted.min_by(|a, b| a.meshed.total_cmp(&b.meshed));
+    let fewest = || ways.iter().min_by(|a, b| a.elements.total_cmp(&b.elements));
+    fastest.or_else(fewest).copied()
+}
+
+fn opening(order: u32, mirror: bool) -> f64 {
+    let full = if mirror { 1.0 } else { 2.0 };
+    full * std::f64::consts::PI / f64::from(order)
+}
+
+/// Edge of the regular tetrahedron of a volume.
+fn edge_of_volume(volume: f64) -> f64 {
+    (volume * 6.0 * std::f64::consts::SQRT_2).cbrt()
+}
+
+/// Triangles of the body's section with each side of the wedge, by radius and height.
+fn sections(wedge: &Template) -> Vec<Vec<([DVec2; 3], u32)>> {
+    let triangles = |list: Vec<u32>| -> Vec<([DVec2; 3], u32)> {
+        list.into_iter()
+            .map(|t| {
+                let t = &wedge.triangles[t as usize];
+                let at = |v: u32| flat(wedge.vertices[v as usize]);
+                (t.vertices.map(at), t.back)
+            })
+            .collect()
+    };
+    wedge
+        .walls
+        .iter()
+        .filter_map(|wall| match wall {
+            Wall::Mirror(mirror) => Some(triangles(mirror.triangles.clone())),
+            Wall::Seam(seam) => {
+                Some(triangles(seam.triangle_pairs.iter().map(|p| p[0]).collect()))
+            }
+            Wall::Hub(_) => None,
+        })
+        .collect()
+}
+
+fn flat(p: DVec3) -> DVec2 {
+    DVec2::new(p.x.hypot(p.y), p.z)
+}
+
+/// Lengths of the edges of the body, at their ends. Edges in the walls are cuts; those that end at a
+/// wall go on behind it.
+fn edge_samples(wedge: &Template) -> Vec<Sample> {
+    let mut on = vec![0_u8; wedge.vertices.len()];
+    for (i, wall) in wedge.walls.iter().enumerate() {
+        match wall {
+            Wall::Mirror(m) => m.vertices.iter().for_each(|&v| on[v as usize] |= 1 << (i % 8)),
+            Wall::Seam(s) => {
+                for p in &s.vertex_pairs {
+                    on[p[0] as usize] |= 1;
+                    on[p[1] as usize] |= 2;
+                }
+            }
+            Wall::Hub(_) => {}
+        }
+    }
+    let corners: Vec<[u32; 3]> = wedge.triangles.iter().map(|t| t.vertices).collect();
+    let edges = Edges::new(&corners);
+    let normal = |t: u32| {
+        let [a, b, c] = geom::measure::corners(&wedge.vertices, &wedge.triangles[t as usize]);
+        geom::measure::double_area_vector(a, b, c).normalize_or_zero()
+    };
+    let mut samples = Vec::new();
+    for e in 0..edges.len() {
+        let [a, b] = edges.ends[e];
+        let (at_a, at_b) = (on[a as usize], on[b as usize]);
+        if at_a & at_b != 0 {
+            continue;
+        }
+        let around = edges.around(e);
+        let is_flat = matches!(around, [u, v]
+            if normal(u.triangle).dot(normal(v.triangle)) > 1.0 - 1e-9);
+        if is_flat {
+            continue;
+        }
+        let [p, q] = [a, b].map(|v| wedge.vertices[v as usize]);
+        let behind = if at_a | at_b == 0 { 1.0 } else { 2.0 };
+        let size = behind * p.distance(q);
+        samples.extend([p, q].map(|p| Sample { at: flat(p), size }));
+    }
+    samples
+}
+
+/// Keeps the smallest size per cell of a grid.
+fn thinned(samples: Vec<Sample>, extent: f64) -> Vec<Sample> {
+    let mut best: FxHashMap<[i64; 2], Sample> = FxHashMap::default();
+    for s in samples {
+        let cell = (s.at / extent * CELLS).floor().to_array().map(|x| x as i64);
+        let entry = best.entry(cell).or_insert(s);
+        if s.size < entry.size {
+            *entry = s;
+        }
+    }
+    let mut kept: Vec<_> = best.into_iter().collect();
+    kept.sort_unstable_by_key(|(cell, _)| *cell);
+    kept.into_iter().map(|(_, s)| s).collect()
+}
+
+/// An edge of the section's outline or between two regions; material on either side.
+struct OutlineEdge {
+    a: DVec2,
+    b: DVec2,
+    /// Whether there is material to the left, and to the right.
+    material: [bool; 2],
+}
+
+struct Outline {
+    edges: Vec<OutlineEdge>,
+}
+
+impl Outline {
+    fn new(section: &[([DVec2; 3], u32)]) -> Self {
+        let key = |p: DVec2| p.to_array().map(|x| (x + 0.0).to_bits());
+        type Ends = ([u64; 2], [u64; 2]);
+        let mut seen: FxHashMap<Ends, u32> = FxHashMap::default();
+        for (t, region) in section {
+            for k in 0..3 {
+                seen.insert((key(t[k]), key(t[(k + 1) % 3])), *region);
+            }
+        }
+        let mut edges = Vec::new();
+        for (t, region) in section {
+            for k in 0..3 {
+                let (a, b) = (t[k], t[(k + 1) % 3]);
+                let other = seen.get(&(key(b), key(a))).copied().unwrap_or(OUTSIDE);
+                let on_axis = a.x == 0.0 && b.x == 0.0;
+                // An edge between two regions comes twice.
+                let twice = other != OUTSIDE && key(a) > key(b);
+                if other != *region && !on_axis && !twice {
+                    let ccw = (t[1] - t[0]).perp_dot(t[2] - t[0]) > 0.0;
+                    let outside = other != OUTSIDE;
+                    let material = if ccw { [true, outside] } else { [outside, true] };
+                    edges.push(OutlineEdge { a, b, material });
+                }
+            }
+        }
+        Self { edges }
+    }
+
+    /// Thickness of what lies on either side of each edge.
+    fn thickness(&self, extent: f64, samples: &mut Vec<Sample>) {
+        let count = self.edges.len().max(1);
+        let most = (PAIRS / count).max(1);
+        let length: f64 = self.edges.iter().map(|e| e.a.distance(e.b)).sum();
+        let step = (length / most as f64).max(extent / 64.0);
+        let stride = count.div_ceil(most);
+        for edge in self.edges.iter().step_by(stride) {
+            let along = edge.b - edge.a;
+            let parts = (along.length() / step).ceil().clamp(1.0, 64.0) as usize;
+            let normal = along.perp().normalize_or_zero();
+            for i in 0..parts {
+                let from = edge.a + along * ((i as f64 + 0.5) / parts as f64);
+                for (side, direction) in [normal, -normal].into_iter().enumerate() {
+                    if edge.material[side]
+                        && let Some(size) = self.nearest(from, direction, 1e-9 * extent)
+                    {
+                        samples.push(Sample { at: from, size });
+                        samples.push(Sample {
+                            at: from + direction * size,
+                            size,
+                        });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Distance to the next edge along a ray.
+    fn nearest(&self, from: DVec2, direction: DVec2, least: f64) -> Option<f64> {
+        let mut best = f64::INFINITY;
+        for e in &self.edges {
+            let (u, v) = (e.a - from, e.b - from);
+            let (p, q) = (direction.perp_dot(u), direction.perp_dot(v));
+            if p * q > 0.0 || p == q {
+                continue;
+            }
+            let t = direction.dot(u + (v - u) * (p / (p - q)));
+            if t > least && t < best {
+                best = t;
+            }
+        }
+        best.is_finite().then_some(best)
+    }
+
+    /// Radii that edges nearer to the axis' direction than to the radial one cover.
+    fn steep(&self, blocked: &mut Vec<[f64; 2]>) {
+        for e in &self.edges {
+            let d = e.b - e.a;
+            if d.y.abs() > d.x.abs() {
+                blocked.push([e.a.x.min(e.b.x), e.a.x.max(e.b.x)]);
+            }
+        }
+    }
+}
+
+fn merged(mut intervals: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    intervals.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut merged: Vec<[f64; 2]> = Vec::new();
+    for i in intervals {
+        match merged.last_mut() {
+            Some(last) if i[0] <= last[1] => last[1] = last[1].max(i[1]),
+            _ => merged.push(i),
+        }
+    }
+    merged
+}
