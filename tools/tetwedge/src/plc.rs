@@ -3,12 +3,12 @@
 use crate::facets::Facets;
 use crate::flat::flatten;
 use crate::seeds::seeds;
-use crate::walls::{Faces, NO_FACE, vertical_planes};
+use crate::walls::{Faces, vertical_planes};
 use crate::{Error, Sizes};
 use geom::edges::Edges;
 use glam::DVec3;
 use tetgen_sys::{Complex, RegionSeed};
-use tmesh::{Document, OUTSIDE};
+use tmesh::{Document, OUTSIDE, Wall};
 
 /// Facets may be uneven by this part of the body's diagonal, or by a few times the input's
 /// precision where that is more.
@@ -82,7 +82,7 @@ pub struct Plc {
     pub points: Vec<[f64; 3]>,
     /// How far positions differ from the template's, at most; model units.
     pub shift: f64,
-    /// Facets, not on walls, with vertices that were shifted.
+    /// Facets, not on walls through the axis, with vertices that were shifted.
     pub shifted: Vec<bool>,
     triangles: Vec<[i32; 3]>,
     markers: Vec<i32>,
@@ -168,7 +168,12 @@ impl Plc {
             shifted[facet as usize] |= t.iter().any(moved);
         }
         for (shifted, facet) in shifted.iter_mut().zip(&facets.facets) {
-            *shifted &= facet.attributes.face == NO_FACE && facet.normal != DVec3::ZERO;
+            let wall = facet.attributes.face.checked_sub(1).map(|k| k as usize / 2);
+            // Walls through the axis have a plane of their own to be put back onto.
+            let upright = wall.is_some_and(|w| {
+                matches!(template.walls.get(w), Some(Wall::Mirror(_) | Wall::Seam(_)))
+            });
+            *shifted &= !upright && facet.normal != DVec3::ZERO;
         }
         let shift = shift / scale;
 

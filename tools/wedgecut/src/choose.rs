@@ -7,6 +7,7 @@
 //! hubs of several radii; the fastest to mesh wins among those that cost few more elements than the
 //! whole body.
 
+use crate::section::NO_MARKER;
 use geom::edges::Edges;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
@@ -15,10 +16,12 @@ use tmesh::{OUTSIDE, Template, Wall};
 /// How fast element sizes grow with the distance from a feature.
 const GROWTH: f64 = 0.7;
 /// Size of elements over the width of a wedge that does not disturb them.
-const SPAN: f64 = 1.3;
+const SPAN: f64 = 1.45;
 /// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
 const ACCEPTED: f64 = 1.15;
-/// Widest angle of a wedge, degrees, that needs no hub where the axis runs through material.
+/// Time for an element of the hub, which is meshed twice, over that for one of the wedge.
+const HUB_COST: f64 = 2.0;
+/// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
 const WIDE: f64 = 44.0;
 /// Smallest pieces of the section, relative to its extent.
 const FINEST: f64 = 1.0 / 512.0;
@@ -47,6 +50,8 @@ pub struct Estimate {
     least: f64,
     /// Volume of each class of radius and size.
     volume: Vec<[f64; SIZES]>,
+    /// Whether there is material on the axis.
+    solid: bool,
     /// Radii blocked by steep faces, increasing, disjoint.
     steep: Vec<[f64; 2]>,
 }
@@ -87,11 +92,9 @@ impl Estimate {
             extent = extent.max(p.x.hypot(p.y)).max(p.z.abs());
         }
         let mut samples = edge_samples(wedge);
-        let mut steep = Vec::new();
         for section in &sections {
             let outline = Outline::new(section);
             outline.thickness(extent, &mut samples);
-            outline.steep(&mut steep);
         }
         let samples = thinned(samples, extent);
         let least = samples.iter().fold(extent, |m, s| m.min(s.size)).max(extent * 1e-6);
@@ -99,7 +102,8 @@ impl Estimate {
             extent,
             least,
             volume: vec![[0.0; SIZES]; RADII],
-            steep: merged(steep),
+            solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
+            steep: steep(wedge),
         };
         let weight = 1.0 / sections.len().max(1) as f64;
         for section in &sections {
@@ -121,7 +125,9 @@ impl Estimate {
             let size = near.iter().map(asked).fold(cap, f64::min);
             let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| t[i].distance(t[j]));
             let longest = (0..3).max_by(|&i, &j| sides[i].total_cmp(&sides[j])).unwrap_or(0);
-            if sides[longest] <= size.max(finest) {
+            // Near the axis wedges get narrow quickly.
+            let wanted = size.min(0.3 * middle.x).max(finest);
+            if sides[longest] <= wanted {
                 let area = 0.5 * (t[1] - t[0]).perp_dot(t[2] - t[0]).abs();
                 let volume = std::f64::consts::TAU * middle.x * area * weight;
                 let (radius, class) = (self.radius_class(middle.x), self.size_class(size));
@@ -168,7 +174,13 @@ impl Estimate {
     /// Elements of wedges and hubs, up to the same factor.
     fn parts(&self, order: u32, mirror: bool, hub: Option<f64>) -> (f64, f64) {
         let angle = opening(order, mirror);
-        let width = |r: f64| SPAN * 2.0 * (0.5 * angle).tan().min(1.0) * r;
+        // Wide wedges have room for elements of any size, at the axis too.
+        let tangent = if angle.to_degrees() < WIDE {
+            (0.5 * angle).tan()
+        } else {
+            f64::INFINITY
+        };
+        let width = |r: f64| SPAN * 2.0 * tangent * r;
         let radius = hub.unwrap_or(0.0);
         let (mut outer, mut inner, mut height) = (0.0, 0.0, 0.0);
         for (r, size, v) in self.classes() {
@@ -207,11 +219,6 @@ impl Estimate {
         (outer, inner)
     }
 
-    /// Whether there is material on the axis.
-    fn is_solid(&self) -> bool {
-        self.volume[0].iter().any(|v| *v > 0.0)
-    }
-
     /// Radii that a hub may have.
     fn radii(&self) -> Vec<f64> {
         let mut free = Vec::new();
@@ -239,14 +246,14 @@ impl Estimate {
         }
         let radii = match options.radius {
             Some(radius) => vec![radius],
-            None if options.no_hub || !self.is_solid() => Vec::new(),
+            None if options.no_hub || !self.solid => Vec::new(),
             None => self.radii(),
         };
         let mut ways = Vec::new();
         for &order in options.orders {
             let copies = f64::from(order) * if options.mirror { 2.0 } else { 1.0 };
             let angle = opening(order, options.mirror);
-            let narrow = angle.to_degrees() < WIDE && self.is_solid();
+            let narrow = angle.to_degrees() < WIDE && self.solid;
             let mut found: Vec<Choice> = Vec::new();
             if options.radius.is_none() && (!narrow || radii.is_empty()) {
                 let (outer, _) = self.parts(order, options.mirror, None);
@@ -266,7 +273,7 @@ impl Estimate {
                         order,
                         hub: Some(radius),
                         elements: (outer + inner) / whole,
-                        meshed: (outer / copies + inner / hub_copies) / whole,
+                        meshed: (outer / copies + HUB_COST * inner / hub_copies) / whole,
                     });
                 }
             }
@@ -316,6 +323,11 @@ fn sections(wedge: &Template) -> Vec<Vec<([DVec2; 3], u32)>> {
             Wall::Hub(_) => None,
         })
         .collect()
+}
+
+/// Whether a side of a triangle lies on the axis.
+fn on_axis(t: &[DVec2; 3]) -> bool {
+    t.iter().filter(|p| p.x == 0.0).count() > 1
 }
 
 fn flat(p: DVec3) -> DVec2 {
@@ -465,16 +477,30 @@ impl Outline {
         }
         best.is_finite().then_some(best)
     }
+}
 
-    /// Radii that edges nearer to the axis' direction than to the radial one cover.
-    fn steep(&self, blocked: &mut Vec<[f64; 2]>) {
-        for e in &self.edges {
-            let d = e.b - e.a;
-            if d.y.abs() > d.x.abs() {
-                blocked.push([e.a.x.min(e.b.x), e.a.x.max(e.b.x)]);
-            }
+/// Radii that faces nearer to the axis' direction than to the radial one cover.
+fn steep(wedge: &Template) -> Vec<[f64; 2]> {
+    let mut covered = Vec::new();
+    for t in wedge.triangles.iter().filter(|t| t.marker != NO_MARKER) {
+        let corners = geom::measure::corners(&wedge.vertices, t);
+        let [a, b, c] = corners;
+        let normal = geom::measure::double_area_vector(a, b, c);
+        if normal.z.abs() < normal.truncate().length() {
+            let flat = corners.map(DVec3::truncate);
+            let near = (0..3).map(|k| from_origin(flat[k], flat[(k + 1) % 3]));
+            let far = flat.iter().fold(0.0_f64, |m, p| m.max(p.length()));
+            covered.push([near.fold(f64::INFINITY, f64::min), far]);
         }
     }
+    merged(covered)
+}
+
+/// Distance of a segment from the origin.
+fn from_origin(a: DVec2, b: DVec2) -> f64 {
+    let along = b - a;
+    let t = (-a.dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    if t.is_nan() { a.length() } else { (a + along * t).length() }
 }
 
 fn merged(mut intervals: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
