@@ -14,11 +14,16 @@ use rustc_hash::FxHashMap;
 use tmesh::{OUTSIDE, Template, Wall};
 
 /// How fast element sizes grow with the distance from a feature.
-const GROWTH: f64 = 0.7;
+const GROWTH: f64 = 0.35;
 /// Size of elements over the width of a wedge that does not disturb them.
-const SPAN: f64 = 1.45;
+const SPAN: f64 = 1.2;
 /// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
 const ACCEPTED: f64 = 1.15;
+/// Elements of a whole body per cube of their size, about.
+const DENSITY: f64 = 5.0;
+/// Elements that a wedge has more than its part of the whole body, where it has few: what is small has
+/// more surface.
+const SURPLUS: f64 = 90.0;
 /// Time for an element of the hub, which is meshed twice, over that for one of the wedge.
 const HUB_COST: f64 = 2.0;
 /// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
@@ -46,6 +51,8 @@ struct Sample {
 /// Body volume by radius and element size.
 pub struct Estimate {
     extent: f64,
+    /// Whether the size of elements is known.
+    sized: bool,
     /// Smallest size there is.
     least: f64,
     /// Volume of each class of radius and size.
@@ -84,7 +91,8 @@ pub struct Options<'a> {
 }
 
 impl Estimate {
-    /// Looks at the section and the edges of a wedge of the order found.
+    /// Looks at the section and the edges of a wedge of the order found. `max_volume` is the largest
+    /// volume of an element in a region, model units cubed, where one will be asked for.
     pub fn new(wedge: &Template, max_volume: impl Fn(u32) -> Option<f64>) -> Self {
         let sections = sections(wedge);
         let mut extent = 0.0_f64;
@@ -100,6 +108,7 @@ impl Estimate {
         let least = samples.iter().fold(extent, |m, s| m.min(s.size)).max(extent * 1e-6);
         let mut estimate = Self {
             extent,
+            sized: sections.iter().flatten().all(|(_, r)| max_volume(*r).is_some()),
             least,
             volume: vec![[0.0; SIZES]; RADII],
             solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
@@ -249,6 +258,13 @@ impl Estimate {
             None if options.no_hub || !self.solid => Vec::new(),
             None => self.radii(),
         };
+        let surplus = |copies: f64| {
+            if self.sized {
+                SURPLUS * copies / (DENSITY * whole)
+            } else {
+                0.0
+            }
+        };
         let mut ways = Vec::new();
         for &order in options.orders {
             let copies = f64::from(order) * if options.mirror { 2.0 } else { 1.0 };
@@ -260,7 +276,7 @@ impl Estimate {
                 found.push(Choice {
                     order,
                     hub: None,
-                    elements: outer / whole,
+                    elements: outer / whole + surplus(copies),
                     meshed: outer / whole / copies,
                 });
             }
@@ -272,7 +288,7 @@ impl Estimate {
                     found.push(Choice {
                         order,
                         hub: Some(radius),
-                        elements: (outer + inner) / whole,
+                        elements: (outer + inner) / whole + surplus(copies + hub_copies),
                         meshed: (outer / copies + HUB_COST * inner / hub_copies) / whole,
                     });
                 }
@@ -296,7 +312,7 @@ fn opening(order: u32, mirror: bool) -> f64 {
     full * std::f64::consts::PI / f64::from(order)
 }
 
-/// Edge of the regular tetrahedron of a volume.
+/// Edge of the regular tetrahedron of a volume, model units.
 fn edge_of_volume(volume: f64) -> f64 {
     (volume * 6.0 * std::f64::consts::SQRT_2).cbrt()
 }

@@ -6,6 +6,7 @@ use kit::{Command, CommonArgs, Failure, Session};
 const EXAMPLES: &str = "Examples:
   symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
   symdetect gear.stl | wedgecut --order 4 --to vtk -o wedge.vtk
+  symdetect via.stl | wedgecut --max-volume 0.01 | tetwedge --max-volume 0.01 -o via.tmesh
   symdetect fan.stl | wedgecut --domain rotation --start-angle 15 | tetwedge | rotassemble > fan.vtk";
 
 /// Cut one wedge out of a symmetric body.
@@ -23,9 +24,19 @@ pub struct Cli {
     #[arg(long, value_enum, default_value_t)]
     domain: Domain,
 
-    /// Order of the rotation to use: `auto` takes the order found, else one of its divisors
+    /// Order of the rotation to use, a divisor of the order found: `auto` chooses the one that is
+    /// fastest to mesh without many more elements than the whole body would get
     #[arg(long, value_name = "auto|N", default_value = "auto", value_parser = order)]
     order: Order,
+
+    /// Largest volume of an element that tetwedge will be asked for, so that order and hub are
+    /// chosen for it
+    #[arg(long, value_name = "V", value_parser = positive)]
+    max_volume: Option<f64>,
+
+    /// The same as an edge length: the volume of the regular tetrahedron with this edge
+    #[arg(long, value_name = "H", value_parser = positive, conflicts_with = "max_volume")]
+    edge_length: Option<f64>,
 
     /// Angle of the first cut face from the mirror direction (rotation wedges: any; mirror wedges:
     /// a multiple of 180/n)
@@ -97,11 +108,23 @@ fn angle(text: &str) -> Result<Angle, String> {
     }
 }
 
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
+        _ => Err("expected a positive number".to_owned()),
+    }
+}
+
 fn relative(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if (0.0..=0.01).contains(&x) => Ok(x),
         _ => Err("expected a number from 0 to 0.01".to_owned()),
     }
+}
+
+/// Volume of the regular tetrahedron with the given edge.
+fn volume_of_edge(edge: f64) -> f64 {
+    edge * edge * edge / (6.0 * std::f64::consts::SQRT_2)
 }
 
 impl Command for Cli {
@@ -116,6 +139,7 @@ impl Command for Cli {
             start_angle: self.start_angle.0.map(f64::to_radians),
             snap: self.snap,
             hub: self.hub,
+            max_volume: self.max_volume.or(self.edge_length.map(volume_of_edge)),
             clean: self.clean.0,
         };
         let document = session.read()?;

@@ -125,7 +125,7 @@ fn choose(
     let mirror = matches!(wedge.templates[0].walls.first(), Some(Wall::Mirror(_)));
     let max_volume = |region: u32| {
         let at = wedge.regions.binary_search_by_key(&region, |r| r.id).ok()?;
-        wedge.regions[at].max_volume
+        wedge.regions[at].max_volume.or(params.max_volume)
     };
     let orders: Vec<u32> = match params.order {
         Some(order) => vec![order],

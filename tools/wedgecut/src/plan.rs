@@ -62,6 +62,9 @@ pub struct Params {
     pub snap: Option<f64>,
     /// The hub.
     pub hub: Hub,
+    /// Largest volume of an element that will be asked of the mesher, model units cubed, where the
+    /// document has none for the region.
+    pub max_volume: Option<f64>,
     /// Edges shorter than this, relative to the radius about the axis, are collapsed; 0 for none.
     pub clean: f64,
 }

@@ -8,6 +8,7 @@ use tmesh::{
 
 const DEFAULT: Params = Params {
     hub: crate::Hub::None,
+    max_volume: None,
     domain: Domain::Auto,
     order: None,
     start_angle: None,
