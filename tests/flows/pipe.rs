@@ -69,7 +69,9 @@ fn mesh_wedge(name: &str, body: &Body, encoding: Encoding, stages: &[&[&str]]) -
     let report = json(&checked.stdout);
     check_report(name, &report, &expected);
     let symmetry = &report["symmetry"];
-    assert_eq!(symmetry["order"], expected.order, "{name}");
+    // The order used is a divisor of the order found; with a hub, a divisor of that.
+    let order = symmetry["order"].as_u64().expect("a number");
+    assert!(expected.order.is_multiple_of(order), "{name}: {order}");
     assert_eq!(symmetry["mirror"], expected.mirror, "{name}");
     (wedge, report)
 }
