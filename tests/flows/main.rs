@@ -6,6 +6,7 @@ mod generator;
 
 mod bodies;
 mod failures;
+mod hubs;
 mod makefiles;
 mod pipe;
 mod referee;

@@ -59,12 +59,11 @@ pub fn prepare(
                     vertices: &made.vertices,
                     triangles: &made.shared,
                 };
-                let given = impose(&document, follower, &other).map_err(|what| {
-                    SurfaceError::Changed {
+                let given =
+                    impose(&document, follower, &other).map_err(|what| SurfaceError::Changed {
                         template: follower,
                         what,
-                    }
-                })?;
+                    })?;
                 document.templates[follower] = given;
                 let made = make(&document, follower, params, log)?;
                 document.templates[follower] = made.template;

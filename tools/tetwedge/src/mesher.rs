@@ -43,7 +43,10 @@ pub fn tetrahedralize(
     let leaders: Vec<Option<usize>> = (0..count).map(|i| leader(&document, i)).collect();
     let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
     let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
-    for (&index, done) in first.iter().zip(all(&document, &first, params, &sizes, log)) {
+    for (&index, done) in first
+        .iter()
+        .zip(all(&document, &first, params, &sizes, log))
+    {
         slots[index] = Some(done?);
     }
     for (index, lead) in leaders.iter().enumerate() {
@@ -85,7 +88,10 @@ pub fn tetrahedralize(
     for index in 0..count {
         let mut template = std::mem::take(&mut done[index].filled.template);
         // A follower has the new numbers already.
-        let walls = template.walls.iter_mut().filter(|_| leaders[index].is_none());
+        let walls = template
+            .walls
+            .iter_mut()
+            .filter(|_| leaders[index].is_none());
         for wall in walls {
             if let Wall::Hub(hub) = wall {
                 let other = &done[hub.other as usize].filled;
@@ -157,10 +163,11 @@ fn follow(
         triangles: &lead.shared,
     };
     let mut document = document.clone();
-    document.templates[index] = impose(&document, index, &other).map_err(|what| Error::Unusable {
-        template: index,
-        what,
-    })?;
+    document.templates[index] =
+        impose(&document, index, &other).map_err(|what| Error::Unusable {
+            template: index,
+            what,
+        })?;
     if params.quality {
         match make(&document, index, params, log) {
             Ok(made) => return Ok(made.template),

@@ -29,7 +29,7 @@ const HUB_COST: f64 = 2.0;
 /// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
 const WIDE: f64 = 44.0;
 /// Smallest pieces of the section, relative to its extent.
-const FINEST: f64 = 1.0 / 512.0;
+const FINEST: f64 = 1.0 / 256.0;
 /// Cells of the grid on which samples are thinned out, per direction.
 const CELLS: f64 = 256.0;
 /// Most pairs of a sample and an edge that are looked at.
@@ -105,10 +105,16 @@ impl Estimate {
             outline.thickness(extent, &mut samples);
         }
         let samples = thinned(samples, extent);
-        let least = samples.iter().fold(extent, |m, s| m.min(s.size)).max(extent * 1e-6);
+        let caps = sections.iter().flatten();
+        let caps = caps.filter_map(|(_, region)| max_volume(*region).map(edge_of_volume));
+        let sizes = samples.iter().map(|s| s.size).chain(caps);
+        let least = sizes.fold(extent, f64::min).max(extent * 1e-6);
         let mut estimate = Self {
             extent,
-            sized: sections.iter().flatten().all(|(_, r)| max_volume(*r).is_some()),
+            sized: sections
+                .iter()
+                .flatten()
+                .all(|(_, r)| max_volume(*r).is_some()),
             least,
             volume: vec![[0.0; SIZES]; RADII],
             solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
@@ -133,7 +139,9 @@ impl Estimate {
             let asked = |s: &Sample| s.size + GROWTH * s.at.distance(middle);
             let size = near.iter().map(asked).fold(cap, f64::min);
             let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| t[i].distance(t[j]));
-            let longest = (0..3).max_by(|&i, &j| sides[i].total_cmp(&sides[j])).unwrap_or(0);
+            let longest = (0..3)
+                .max_by(|&i, &j| sides[i].total_cmp(&sides[j]))
+                .unwrap_or(0);
             // Near the axis wedges get narrow quickly.
             let wanted = size.min(0.3 * middle.x).max(finest);
             if sides[longest] <= wanted {
@@ -168,10 +176,13 @@ impl Estimate {
     fn classes(&self) -> impl Iterator<Item = (f64, f64, f64)> {
         self.volume.iter().enumerate().flat_map(move |(i, row)| {
             let radius = (i as f64 + 0.5) / RADII as f64 * self.extent;
-            row.iter().enumerate().filter(|(_, v)| **v > 0.0).map(move |(j, &v)| {
-                let size = self.least * ((j as f64 + 0.5) / PER_OCTAVE).exp2();
-                (radius, size, v)
-            })
+            row.iter()
+                .enumerate()
+                .filter(|(_, v)| **v > 0.0)
+                .map(move |(j, &v)| {
+                    let size = self.least * ((j as f64 + 0.5) / PER_OCTAVE).exp2();
+                    (radius, size, v)
+                })
         })
     }
 
@@ -281,8 +292,8 @@ impl Estimate {
                 });
             }
             if narrow || options.radius.is_some() {
-                let hub_copies = f64::from((options.hub_order)(order))
-                    * if options.mirror { 2.0 } else { 1.0 };
+                let hub_copies =
+                    f64::from((options.hub_order)(order)) * if options.mirror { 2.0 } else { 1.0 };
                 for &radius in &radii {
                     let (outer, inner) = self.parts(order, options.mirror, Some(radius));
                     found.push(Choice {
@@ -333,9 +344,9 @@ fn sections(wedge: &Template) -> Vec<Vec<([DVec2; 3], u32)>> {
         .iter()
         .filter_map(|wall| match wall {
             Wall::Mirror(mirror) => Some(triangles(mirror.triangles.clone())),
-            Wall::Seam(seam) => {
-                Some(triangles(seam.triangle_pairs.iter().map(|p| p[0]).collect()))
-            }
+            Wall::Seam(seam) => Some(triangles(
+                seam.triangle_pairs.iter().map(|p| p[0]).collect(),
+            )),
             Wall::Hub(_) => None,
         })
         .collect()
@@ -356,7 +367,10 @@ fn edge_samples(wedge: &Template) -> Vec<Sample> {
     let mut on = vec![0_u8; wedge.vertices.len()];
     for (i, wall) in wedge.walls.iter().enumerate() {
         match wall {
-            Wall::Mirror(m) => m.vertices.iter().for_each(|&v| on[v as usize] |= 1 << (i % 8)),
+            Wall::Mirror(m) => m
+                .vertices
+                .iter()
+                .for_each(|&v| on[v as usize] |= 1 << (i % 8)),
             Wall::Seam(s) => {
                 for p in &s.vertex_pairs {
                     on[p[0] as usize] |= 1;
@@ -441,7 +455,11 @@ impl Outline {
                 if other != *region && !on_axis && !twice {
                     let ccw = (t[1] - t[0]).perp_dot(t[2] - t[0]) > 0.0;
                     let outside = other != OUTSIDE;
-                    let material = if ccw { [true, outside] } else { [outside, true] };
+                    let material = if ccw {
+                        [true, outside]
+                    } else {
+                        [outside, true]
+                    };
                     edges.push(OutlineEdge { a, b, material });
                 }
             }
@@ -516,7 +534,11 @@ fn steep(wedge: &Template) -> Vec<[f64; 2]> {
 fn from_origin(a: DVec2, b: DVec2) -> f64 {
     let along = b - a;
     let t = (-a.dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    if t.is_nan() { a.length() } else { (a + along * t).length() }
+    if t.is_nan() {
+        a.length()
+    } else {
+        (a + along * t).length()
+    }
 }
 
 fn merged(mut intervals: Vec<[f64; 2]>) -> Vec<[f64; 2]> {

@@ -149,7 +149,10 @@ fn choose(
     let estimate = choose::Estimate::new(&wedge.templates[0], max_volume);
     let ways = estimate.ways(&options);
     let choice = choose::best(&ways)?;
-    let hub = |c: &choose::Choice| c.hub.map_or(String::new(), |r| format!(" with a hub of {r:.3}"));
+    let hub = |c: &choose::Choice| {
+        c.hub
+            .map_or(String::new(), |r| format!(" with a hub of {r:.3}"))
+    };
     let list: Vec<String> = ways
         .iter()
         .map(|c| format!("{}{} {:.2}", c.order, hub(c), c.elements))

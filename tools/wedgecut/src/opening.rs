@@ -73,8 +73,7 @@ impl HubPlane {
         let normal = if mirror {
             DVec3::X
         } else {
-            let (cos, sin) =
-                Isometry::rotation(i64::from(turn.k()), 2 * turn.n()).cos_sin();
+            let (cos, sin) = Isometry::rotation(i64::from(turn.k()), 2 * turn.n()).cos_sin();
             DVec3::new(cos, sin, 0.0)
         };
         Self { normal, distance }
@@ -238,9 +237,7 @@ impl Opening {
         let x = p.0 + (q.0 - p.0) * t;
         if let (Side::Hub, Some(hub)) = (side, &self.hub) {
             // On the sides where both ends are.
-            let on = |side: Side| {
-                i8::from(!(p.1.of(side) == 0 && q.1.of(side) == 0))
-            };
+            let on = |side: Side| i8::from(!(p.1.of(side) == 0 && q.1.of(side) == 0));
             return self.put_on_hub(hub, x, Class::new(on(Side::A), on(Side::B)));
         }
         let other = if side == Side::A { Side::B } else { Side::A };
@@ -278,7 +275,10 @@ impl Opening {
             Side::A if self.is_half() => Class::new(0, 1),
             Side::A => Class::new(0, sign(r)),
             Side::B => Class::new(sign(r), 0),
-            Side::Hub => Class { hub: 0, ..Class::INSIDE },
+            Side::Hub => Class {
+                hub: 0,
+                ..Class::INSIDE
+            },
         };
         (self.point_on(side, r, p.z), class)
     }
@@ -296,10 +296,7 @@ mod tests {
     fn points_near_a_plane_are_moved_onto_it() {
         let opening = Opening::new(Isometry::rotation(1, 12), 1e-6);
         let (p, class) = opening.classify(DVec3::new(0.5, 3e-7, 1.0));
-        assert_eq!(
-            (p, class),
-            (DVec3::new(0.5, 0.0, 1.0), Class::new(0, 1))
-        );
+        assert_eq!((p, class), (DVec3::new(0.5, 0.0, 1.0), Class::new(0, 1)));
         let (c, s) = Isometry::rotation(1, 12).cos_sin();
         let (p, class) = opening.classify(DVec3::new(2.0 * c + 4e-7, 2.0 * s, 1.0));
         assert_eq!(class, Class::new(1, 0));

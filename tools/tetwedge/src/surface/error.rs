@@ -5,8 +5,7 @@ use kit::Failure;
 use thiserror::Error;
 
 /// What the user can do instead.
-const ADVICE: &str =
-    "leave periodic-surf out to keep the surface as it was cut, or cut at another --order, --hub or --start-angle of wedgecut";
+const ADVICE: &str = "leave periodic-surf out to keep the surface as it was cut, or cut at another --order, --hub or --start-angle of wedgecut";
 
 /// Why a wedge's surface could not be made. Places are canonical coordinates.
 #[derive(Debug, Error)]

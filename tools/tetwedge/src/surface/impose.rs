@@ -73,7 +73,9 @@ pub fn impose(document: &Document, index: usize, other: &Other<'_>) -> Result<Te
         match wall {
             Wall::Mirror(mirror) => {
                 let triangles = mirror.triangles.iter();
-                mirror.triangles = triangles.flat_map(|&t| pieces[t as usize].clone()).collect();
+                mirror.triangles = triangles
+                    .flat_map(|&t| pieces[t as usize].clone())
+                    .collect();
                 mirror.triangles.sort_unstable();
                 let projection = Projection::of(mirror);
                 let added = maker.added_between(&mirror.vertices);
@@ -183,7 +185,9 @@ impl Maker {
         for ([a, b], chain) in outline {
             let (Some(&p), Some(&q)) = (here.get(a), here.get(b)) else {
                 let p = other.template.vertices[*a as usize];
-                return Err(format!("the shared face has a corner without partner near {p}"));
+                return Err(format!(
+                    "the shared face has a corner without partner near {p}"
+                ));
             };
             let key = [p.min(q), p.max(q)];
             if !self.edges.contains_key(&key) {
@@ -219,9 +223,15 @@ impl Maker {
                     new
                 }
             });
-            pairs.extend(vertices.into_iter().zip(triangle.vertices).map(|(a, b)| [a, b]));
+            pairs.extend(
+                vertices
+                    .into_iter()
+                    .zip(triangle.vertices)
+                    .map(|(a, b)| [a, b]),
+            );
             let [a, b, c] = vertices;
-            hub.triangle_pairs.push([self.new.triangles.len() as u32, t]);
+            hub.triangle_pairs
+                .push([self.new.triangles.len() as u32, t]);
             let region = |r: u32| regions.map_or(r, |map| map.get(r));
             self.new.triangles.push(Triangle {
                 // Both faces look out of their template.
@@ -312,7 +322,9 @@ impl Maker {
             let (low, high) = (&self.edges[&[a, b]], self.edges.get(&key));
             let Some(high) = high.filter(|h| h.len() == low.len()) else {
                 let p = self.new.vertices[a as usize];
-                return Err(format!("the seam has a divided edge without image near {p}"));
+                return Err(format!(
+                    "the seam has a divided edge without image near {p}"
+                ));
             };
             let mut high = high.clone();
             if p > q {

@@ -147,7 +147,9 @@ impl Maker<'_> {
 
     /// The seam's pairs.
     fn seam_pairs(&self) -> impl Iterator<Item = [u32; 2]> + use<'_> {
-        self.seam.into_iter().flat_map(|s| s.vertex_pairs.iter().copied())
+        self.seam
+            .into_iter()
+            .flat_map(|s| s.vertex_pairs.iter().copied())
     }
 
     /// Takes over the input vertices where feature edges end, those on the axis and on facets that
@@ -349,7 +351,9 @@ impl Maker<'_> {
         for (new, &t) in (first..).zip(old) {
             self.of_triangle[t as usize] = new;
         }
-        let corners = old.iter().map(|&t| self.input.triangles[t as usize].vertices);
+        let corners = old
+            .iter()
+            .map(|&t| self.input.triangles[t as usize].vertices);
         corners
             .map(|t| t.map(|v| self.of_input[v as usize]))
             .collect()

@@ -1,0 +1,271 @@
+//! Hubs: the column around the axis as a template of its own, and the order that is chosen.
+
+use crate::generator::{Body, Gear, Impeller, Placement, Prism, Ratchet, Tessellation, Tsv};
+use crate::support::{EXACT_STL, encode, run};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use serde_json::Value;
+use tmesh::{Document, Wall};
+
+fn read(bytes: &[u8]) -> Document {
+    let document = tmesh::read(bytes).expect("a document");
+    let broken = tmesh::validate(&document);
+    assert!(broken.is_empty(), "{broken:?}");
+    document
+}
+
+fn tsv(order: u32) -> Body {
+    Tsv {
+        order,
+        core: 0.2,
+        thickness: 0.02,
+        height: 0.5,
+        radius: 1.0,
+        tessellation: Tessellation::Symmetric,
+    }
+    .build()
+}
+
+fn gear(teeth: u32) -> Body {
+    Gear {
+        order: teeth,
+        radius: 1.0,
+        bore: 0.0,
+        height: 0.5,
+        tessellation: Tessellation::Symmetric,
+    }
+    .build()
+}
+
+fn ratchet(order: u32) -> Body {
+    Ratchet {
+        order,
+        radius: 1.0,
+        bore: 0.0,
+        coating: 0.0,
+        height: 0.5,
+        tessellation: Tessellation::Asymmetric,
+    }
+    .build()
+}
+
+fn impeller(order: u32) -> Body {
+    Impeller {
+        order,
+        radius: 1.0,
+        bore: 0.0,
+        height: 0.5,
+        twist: 0.3,
+        layers: 3,
+        tessellation: Tessellation::Symmetric,
+    }
+    .build()
+}
+
+fn found(body: &Body) -> Vec<u8> {
+    run("symdetect", &["-q"], &encode(body, EXACT_STL)).success()
+}
+
+/// The seams of all templates: pairs equal under the rotation to the bit.
+fn check_seams(name: &str, document: &Document) {
+    for template in &document.templates {
+        for wall in &template.walls {
+            if let Wall::Seam(seam) = wall {
+                for &[a, b] in &seam.vertex_pairs {
+                    let [p, q] = [a, b].map(|v| template.vertices[v as usize]);
+                    assert_eq!(seam.rotation.apply(p), q, "{name}");
+                }
+            }
+        }
+    }
+}
+
+/// The hub's walls meet one copy of the wedge each.
+fn check_hub(name: &str, document: &Document, order: u32) {
+    assert_eq!(document.templates.len(), 2, "{name}");
+    let walls = &document.templates[1].walls;
+    let hubs = walls.iter().filter(|w| matches!(w, Wall::Hub(_))).count();
+    let copies = |t: u32| {
+        document
+            .instances
+            .iter()
+            .filter(|i| i.template == t)
+            .count()
+    };
+    assert_eq!(hubs * copies(1), copies(0), "{name}");
+    assert!(copies(0) == order as usize || copies(0) == 2 * order as usize);
+}
+
+/// Through all stages; the assembled mesh keeps all promises, as instances and expanded.
+fn mesh(name: &str, body: &Body, cut: &[&str], refine: bool, edge: &str) -> Document {
+    let cut = run("wedgecut", &[&["-q"], cut].concat(), &found(body)).success();
+    check_seams(name, &read(&cut));
+    let surface = if refine {
+        run("periodic-surf", &["-q", "--edge-length", edge], &cut).success()
+    } else {
+        cut
+    };
+    check_seams(name, &read(&surface));
+    let filled = run("tetwedge", &["-q", "--edge-length", edge], &surface).success();
+    let document = read(&filled);
+    check_seams(name, &document);
+    let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+    for bytes in [&filled, &whole] {
+        let checked = run("meshqual", &["-q", "--check", "--json", "-"], bytes);
+        assert_eq!(checked.code, 0, "{name}: {}", checked.stderr);
+        let report: Value = serde_json::from_slice(&checked.stdout).expect("JSON");
+        for (i, material) in body.materials.iter().enumerate() {
+            let regions = report["regions"].as_array().expect("regions");
+            let region = regions.iter().find(|r| r["name"] == material.name.as_str());
+            let region = region.or(regions.first()).expect("a region");
+            let volume = region["volume"].as_f64().expect("a volume");
+            assert!((volume / body.volume(i) - 1.0).abs() < 1e-9, "{name}");
+        }
+    }
+    document
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 16,
+        rng_seed: RngSeed::Fixed(21),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn hubs_of_any_radius_fit(
+        kind in 0..4_u32,
+        order in 5..40_u32,
+        rotation in any::<bool>(),
+        refine in any::<bool>(),
+        part in 0.1..0.9_f64,
+        seed in any::<u64>(),
+        scale in -6..6_i32,
+    ) {
+        // Radii without faces along them; some interfaces and horizontal faces cross the hub.
+        let (mut body, within) = match kind {
+            0 => (tsv(order), [0.05, 0.17]),
+            1 => (gear(order.min(16)), [0.1, 0.6]),
+            2 => (ratchet(order.min(16)), [0.1, 0.6]),
+            _ => (impeller(order.min(9)), [0.03, 0.12]),
+        };
+        let order = body.order;
+        let scale = 10.0_f64.powi(scale);
+        Placement { rotate: Some(seed), scale, jitter: 0.0 }.apply(&mut body);
+        let radius = (within[0] + part * (within[1] - within[0])) * scale;
+        let name = format!("kind {kind}, order {order}, radius {radius:e}, seed {seed}");
+        let (radius, used) = (format!("{radius:e}"), order.to_string());
+        let domain = if rotation { "rotation" } else { "auto" };
+        let cut = ["--hub", &radius, "--order", &used, "--domain", domain];
+        let edge = format!("{:e}", 0.3 * scale);
+        let document = mesh(&name, &body, &cut, refine, &edge);
+        check_hub(&name, &document, order);
+    }
+}
+
+#[test]
+fn a_hub_that_crosses_layers_and_holds_an_interface() {
+    // The hub's polygon is outside of the liner, so that core and liner are in the hub.
+    let document = mesh(
+        "wide hub",
+        &tsv(24),
+        &["--hub", "0.4", "--order", "24"],
+        false,
+        "0.3",
+    );
+    check_hub("wide hub", &document, 24);
+    let regions = |t: usize| {
+        let mut all: Vec<u32> = document.templates[t]
+            .tets
+            .iter()
+            .map(|t| t.region)
+            .collect();
+        all.sort_unstable();
+        all.dedup();
+        all.len()
+    };
+    assert_eq!((regions(0), regions(1)), (1, 3));
+}
+
+/// Smallest angles on the axis are not those of a wedge of 180/n degrees, and the count is near the
+/// whole body's (a wedge of the order found has seven times as many elements).
+#[test]
+fn high_orders_are_meshed_well() {
+    let body = tsv(64);
+    let quality = |cut: &[&str]| {
+        let cut = run("wedgecut", &[&["-q"], cut].concat(), &found(&body)).success();
+        let filled = run("tetwedge", &["-q"], &cut).success();
+        let checked = run("meshqual", &["-q", "--check", "--json", "-"], &filled).success();
+        let report: Value = serde_json::from_slice(&checked).expect("JSON");
+        let least = report["metrics"]["min_dihedral_deg"]["min"].as_f64();
+        (
+            report["tetrahedra"].as_u64().expect("a count"),
+            least.expect("an angle"),
+        )
+    };
+    let (count, least) = quality(&[]);
+    let (most, sharp) = quality(&["--hub", "none", "--order", "64"]);
+    assert!(2 * count < most, "{count} {most}");
+    assert!(least > 8.0 && sharp < 3.0, "{least} {sharp}");
+}
+
+#[test]
+fn orders_are_chosen_by_what_they_cost() {
+    let chosen = |body: &Body, cut: &[&str]| {
+        let cut = run("wedgecut", &[&["-q"], cut].concat(), &found(body)).success();
+        let document = read(&cut);
+        let notes = document.history.last().expect("history").notes.join("\n");
+        assert!(notes.contains("estimated elements"), "{notes}");
+        let mirrored = document.instances.iter().any(|i| i.isometry.mirrored());
+        let wedges = document
+            .instances
+            .iter()
+            .filter(|i| i.template == 0)
+            .count();
+        (
+            wedges / if mirrored { 2 } else { 1 },
+            document.templates.len(),
+        )
+    };
+    let prism = Prism {
+        order: 60,
+        radius: 1.0,
+        height: 1.0,
+        bore: 0.0,
+        tessellation: Tessellation::Symmetric,
+    }
+    .build();
+    // Plain and solid: wedges as wide as elements are.
+    let (order, _) = chosen(&prism, &[]);
+    assert!((4..=12).contains(&order), "{order}");
+    // Finer elements allow for narrower wedges.
+    let (fine, templates) = chosen(&prism, &["--edge-length", "0.02"]);
+    assert!(fine > order && templates == 2, "{fine} {order}");
+    let (_, templates) = chosen(&prism, &["--hub", "none"]);
+    assert_eq!(templates, 1);
+    assert_eq!(chosen(&prism, &["--order", "60"]), (60, 2));
+    // A thin liner makes for small elements anyway.
+    let (order, templates) = chosen(&tsv(60), &[]);
+    assert!(order >= 10 && templates == 2, "{order}");
+}
+
+#[test]
+fn hubs_that_cannot_be() {
+    let solid = found(&gear(12));
+    let cut = |arguments: &[&str], input: &[u8]| run("wedgecut", arguments, input);
+    cut(&["--hub", "2"], &solid).fails(1, &["no hub of radius 2", "farther", "--hub none"]);
+    cut(&["--hub", "0.1", "--order", "2"], &solid).fails(1, &["order 2", "too wide"]);
+    cut(&["--hub", "0"], &solid).fails(2, &["positive"]);
+    cut(&["--hub", "-1"], &solid).fails(2, &[]);
+    cut(&["--hub", "wide"], &solid).fails(2, &["auto"]);
+    let bored = Gear {
+        order: 12,
+        radius: 1.0,
+        bore: 0.5,
+        height: 0.5,
+        tessellation: Tessellation::Symmetric,
+    }
+    .build();
+    cut(&["--hub", "0.2"], &found(&bored)).fails(1, &["nothing of the body"]);
+}
