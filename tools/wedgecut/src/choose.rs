@@ -19,11 +19,9 @@ const GROWTH: f64 = 0.35;
 const SPAN: f64 = 1.2;
 /// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
 const ACCEPTED: f64 = 1.15;
-/// Elements of a whole body per cube of their size, about.
-const DENSITY: f64 = 5.0;
-/// Elements that a wedge has more than its part of the whole body, where it has few: what is small has
-/// more surface.
-const SURPLUS: f64 = 90.0;
+/// Elements beside a square of the boundary of their size, over those in a cube of it, where a size
+/// that was asked for limits them: wedges have more boundary than their part of the body.
+const SKIN: f64 = 0.45;
 /// Time for an element of the hub, which is meshed twice, over that for one of the wedge.
 const HUB_COST: f64 = 2.0;
 /// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
@@ -51,12 +49,15 @@ struct Sample {
 /// Body volume by radius and element size.
 pub struct Estimate {
     extent: f64,
-    /// Whether the size of elements is known.
-    sized: bool,
     /// Smallest size there is.
     least: f64,
     /// Volume of each class of radius and size.
     volume: Vec<[f64; SIZES]>,
+    /// For each class of radius, the section's area over the square of the size, where the size is one
+    /// that was asked for.
+    walls: Vec<f64>,
+    /// The same of the body's boundary.
+    skin: f64,
     /// Whether there is material on the axis.
     solid: bool,
     /// Radii blocked by steep faces, increasing, disjoint.
@@ -93,7 +94,8 @@ pub struct Options<'a> {
 impl Estimate {
     /// Looks at the section and the edges of a wedge of the order found. `max_volume` is the largest
     /// volume of an element in a region, model units cubed, where one will be asked for.
-    pub fn new(wedge: &Template, max_volume: impl Fn(u32) -> Option<f64>) -> Self {
+    /// `copies` of the wedge make the body.
+    pub fn new(wedge: &Template, copies: usize, max_volume: impl Fn(u32) -> Option<f64>) -> Self {
         let sections = sections(wedge);
         let mut extent = 0.0_f64;
         for p in &wedge.vertices {
@@ -111,12 +113,10 @@ impl Estimate {
         let least = sizes.fold(extent, f64::min).max(extent * 1e-6);
         let mut estimate = Self {
             extent,
-            sized: sections
-                .iter()
-                .flatten()
-                .all(|(_, r)| max_volume(*r).is_some()),
             least,
             volume: vec![[0.0; SIZES]; RADII],
+            walls: vec![0.0; RADII],
+            skin: 0.0,
             solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
             steep: steep(wedge),
         };
@@ -127,6 +127,7 @@ impl Estimate {
                 estimate.integrate(*corners, &samples, cap, weight);
             }
         }
+        estimate.skin = estimate.boundary(wedge, copies);
         estimate
     }
 
@@ -149,6 +150,9 @@ impl Estimate {
                 let volume = std::f64::consts::TAU * middle.x * area * weight;
                 let (radius, class) = (self.radius_class(middle.x), self.size_class(size));
                 self.volume[radius][class] += volume;
+                if size == cap {
+                    self.walls[radius] += area * weight / (size * size);
+                }
                 continue;
             }
             // Samples that can matter somewhere in the triangle.
@@ -161,6 +165,31 @@ impl Estimate {
             let half = 0.5 * (a + b);
             stack.push(([a, half, c], kept.clone()));
             stack.push(([half, b, c], kept));
+        }
+    }
+
+    /// Area of the body's boundary over the square of the size of elements, as far as their size is one
+    /// that was asked for.
+    fn boundary(&self, wedge: &Template, copies: usize) -> f64 {
+        let squares: f64 = self.walls.iter().sum();
+        let section: f64 = self
+            .classes()
+            .map(|(r, _, v)| v / (std::f64::consts::TAU * r))
+            .sum();
+        let outer = wedge
+            .triangles
+            .iter()
+            .filter(|t| t.marker != NO_MARKER && (t.front == OUTSIDE || t.back == OUTSIDE));
+        let area: f64 = outer
+            .map(|t| {
+                let [a, b, c] = geom::measure::corners(&wedge.vertices, t);
+                geom::measure::triangle_area(a, b, c)
+            })
+            .sum();
+        if section > 0.0 {
+            area * copies as f64 * squares / section
+        } else {
+            0.0
         }
     }
 
@@ -188,11 +217,12 @@ impl Estimate {
 
     /// Elements of the body meshed as a whole, up to a factor.
     fn whole(&self) -> f64 {
-        self.classes().map(|(_, size, v)| v / size.powi(3)).sum()
+        let inside: f64 = self.classes().map(|(_, size, v)| v / size.powi(3)).sum();
+        inside + SKIN * self.skin
     }
 
-    /// Elements of wedges and hubs, up to the same factor.
-    fn parts(&self, order: u32, mirror: bool, hub: Option<f64>) -> (f64, f64) {
+    /// Elements of wedges and hubs, up to the same factor; `copies` of each.
+    fn parts(&self, order: u32, mirror: bool, hub: Option<f64>, copies: [f64; 2]) -> (f64, f64) {
         let angle = opening(order, mirror);
         // Wide wedges have room for elements of any size, at the axis too.
         let tangent = if angle.to_degrees() < WIDE {
@@ -214,7 +244,18 @@ impl Estimate {
                 height += v / (std::f64::consts::TAU * r * self.extent / RADII as f64);
             }
         }
+        outer += SKIN * self.skin;
+        for (i, squares) in self.walls.iter().enumerate() {
+            if i >= self.radius_class(radius) {
+                outer += SKIN * 2.0 * copies[0] * squares;
+            } else {
+                inner += SKIN * 2.0 * copies[1] * squares;
+            }
+        }
         if let Some(hub) = hub {
+            let squares = self.walls[self.radius_class(hub)] / (self.extent / RADII as f64);
+            outer += SKIN * std::f64::consts::TAU * hub * squares;
+            inner += SKIN * std::f64::consts::TAU * hub * squares;
             // Layers between the hub's wall and steep faces.
             let corner = hub / (0.5 * angle).cos();
             let corner = if mirror { hub / angle.cos() } else { corner };
@@ -269,13 +310,6 @@ impl Estimate {
             None if options.no_hub || !self.solid => Vec::new(),
             None => self.radii(),
         };
-        let surplus = |copies: f64| {
-            if self.sized {
-                SURPLUS * copies / (DENSITY * whole)
-            } else {
-                0.0
-            }
-        };
         let mut ways = Vec::new();
         for &order in options.orders {
             let copies = f64::from(order) * if options.mirror { 2.0 } else { 1.0 };
@@ -283,11 +317,11 @@ impl Estimate {
             let narrow = angle.to_degrees() < WIDE && self.solid;
             let mut found: Vec<Choice> = Vec::new();
             if options.radius.is_none() && (!narrow || radii.is_empty()) {
-                let (outer, _) = self.parts(order, options.mirror, None);
+                let (outer, _) = self.parts(order, options.mirror, None, [copies, 0.0]);
                 found.push(Choice {
                     order,
                     hub: None,
-                    elements: outer / whole + surplus(copies),
+                    elements: outer / whole,
                     meshed: outer / whole / copies,
                 });
             }
@@ -295,11 +329,12 @@ impl Estimate {
                 let hub_copies =
                     f64::from((options.hub_order)(order)) * if options.mirror { 2.0 } else { 1.0 };
                 for &radius in &radii {
-                    let (outer, inner) = self.parts(order, options.mirror, Some(radius));
+                    let both = [copies, hub_copies];
+                    let (outer, inner) = self.parts(order, options.mirror, Some(radius), both);
                     found.push(Choice {
                         order,
                         hub: Some(radius),
-                        elements: (outer + inner) / whole + surplus(copies + hub_copies),
+                        elements: (outer + inner) / whole,
                         meshed: (outer / copies + HUB_COST * inner / hub_copies) / whole,
                     });
                 }

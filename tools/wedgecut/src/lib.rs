@@ -131,11 +131,14 @@ fn choose(
         Some(order) => vec![order],
         None => plan::divisors(symmetry.order),
     };
-    let with_hub = matches!(params.hub, Hub::Radius(_));
-    let orders: Vec<u32> = orders
-        .into_iter()
-        .filter(|&n| !with_hub || n >= plan::HUB_LEAST_ORDER)
-        .collect();
+    // A mesh without symmetry is not what a symmetric body is cut for.
+    let least = match params.hub {
+        _ if params.order.is_some() || (symmetry.order == 1) => 1,
+        Hub::Radius(_) => plan::HUB_LEAST_ORDER,
+        _ if mirror => 1,
+        _ => 2,
+    };
+    let orders: Vec<u32> = orders.into_iter().filter(|&n| n >= least).collect();
     let options = choose::Options {
         orders: &orders,
         mirror,
@@ -146,7 +149,7 @@ fn choose(
         },
         no_hub: params.hub == Hub::None,
     };
-    let estimate = choose::Estimate::new(&wedge.templates[0], max_volume);
+    let estimate = choose::Estimate::new(&wedge.templates[0], wedge.instances.len(), max_volume);
     let ways = estimate.ways(&options);
     let choice = choose::best(&ways)?;
     let hub = |c: &choose::Choice| {
