@@ -179,6 +179,10 @@ impl Job<'_> {
         if best.is_some_and(|b| b.axisymmetric || shared(b)) {
             return false;
         }
+        let radius = best.map_or(1.0, |b| b.radius);
+        if self.shape.largest_chord() < 0.1 * self.limits.tolerance * radius {
+            return false;
+        }
         let limits = Limits::new((1.0 + FACETS) * self.limits.tolerance);
         directions.iter().take(12).any(|&d| {
             let (shape, orders) = (self.shape, self.orders());

@@ -197,13 +197,25 @@ pub fn find_mirror_plane(
     };
     let start = frame_of(centre, normal)?;
     let radius = shape.radius(&start);
-    let adjusted = refine(
-        shape,
-        start,
-        &[canonical(VERTICAL)],
-        4_000,
-        limits.loose * radius,
-    );
+    // An adjustment only helps where much of the surface is a little off.
+    let motion = Motion::new(&start, VERTICAL);
+    let samples = &shape.samples.mixed[..200.min(shape.samples.mixed.len())];
+    let reach = limits.loose * radius;
+    let (mut off, mut far) = (0, 0);
+    for sample in samples {
+        match shape.nearest(motion.apply(sample.point), 0, &Target::Any, reach) {
+            Some(n) => off += usize::from(n.distance > 0.3 * limits.tolerance * radius),
+            None => far += 1,
+        }
+    }
+    if far as f64 > OUTLIERS * samples.len() as f64 {
+        return None;
+    }
+    let first = shape.verify_one(motion, limits.bound(radius), Depth::Quick);
+    if first.is_err() && 20 * (off + far) < samples.len() {
+        return None;
+    }
+    let adjusted = refine(shape, start, &[canonical(VERTICAL)], 4_000, reach);
     let frame = frame_of(adjusted.origin, adjusted.rotation.y_axis)?;
     let radius = shape.radius(&frame);
     let motion = Motion::new(&frame, VERTICAL);

@@ -61,9 +61,10 @@ pub struct Rotation {
 }
 
 impl Rotation {
-    /// Orders that stand out come before those that do not, high before low.
-    pub fn rank(&self) -> (bool, u32) {
-        (self.distinct, self.order)
+    /// High orders come before low ones; a body of revolution whose order does not stand out comes
+    /// between two and three: besides it there can only be half turns, unless the body is a ball.
+    pub fn rank(&self) -> u32 {
+        if self.distinct { 2 * self.order } else { 5 }
     }
 
     /// Whether this is the better find. `noise` is the deviation that is not worth a distinction.
@@ -90,7 +91,7 @@ const OUTLIERS: f64 = 0.12;
 /// Factor by which the deviations of all other orders exceed those of the facet count's divisors.
 const SEPARATION: f64 = 3.0;
 /// Places remembered where orders failed.
-const OBSTACLES: usize = 24;
+const OBSTACLES: usize = 32;
 /// Orders with many divisors, for bodies of revolution without a facet count.
 const COMPOSITE: [u32; 14] = [2, 4, 6, 12, 24, 36, 48, 60, 120, 180, 240, 360, 720, 840];
 
@@ -299,7 +300,14 @@ impl Search<'_> {
                 Ok((deviation, permutation)) => {
                     return found(n, permutation, deviation, axisymmetric, true);
                 }
-                Err(deviation) if obstacles.len() < OBSTACLES => obstacles.push(deviation.at),
+                Err(deviation) if obstacles.len() < OBSTACLES => {
+                    // Either end may be the place that has no counterpart.
+                    let near = self
+                        .shape
+                        .nearest(deviation.image, 0, &Target::Any, f64::INFINITY);
+                    obstacles.push(deviation.at);
+                    obstacles.extend(near.map(|n| n.point));
+                }
                 Err(_) => {}
             }
         }

@@ -250,6 +250,12 @@ impl Shape {
         f64::from(chords[triangle as usize])
     }
 
+    /// The largest [`Self::chord`].
+    pub fn largest_chord(&self) -> f64 {
+        let chords = self.chords.get_or_init(|| self.estimate_chords());
+        f64::from(chords.iter().copied().fold(0.0, f32::max))
+    }
+
     fn estimate_chords(&self) -> Vec<f32> {
         // Noted at vertices: the flat end of a round bore shares the error of the bore's edge.
         let mut at_vertex = vec![0.0_f32; self.vertices.len()];

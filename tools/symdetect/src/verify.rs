@@ -15,6 +15,8 @@ pub struct Deviation {
     pub value: f64,
     /// The sample whose image is that far off.
     pub at: DVec3,
+    /// Its image.
+    pub image: DVec3,
 }
 
 impl Deviation {
@@ -22,6 +24,7 @@ impl Deviation {
     pub const NONE: Self = Self {
         value: 0.0,
         at: DVec3::ZERO,
+        image: DVec3::ZERO,
     };
 
     /// The larger of two.
@@ -123,11 +126,15 @@ impl Shape {
             for i in range {
                 let (sample, operation) = job(i);
                 let (value, passes) = self.test(sample, operation, bound);
-                let at = sample.point;
+                let deviation = Deviation {
+                    value,
+                    at: sample.point,
+                    image: operation.motion.apply(sample.point),
+                };
                 if !passes {
-                    return Err(Deviation { value, at });
+                    return Err(deviation);
                 }
-                worst = worst.max(Deviation { value, at });
+                worst = worst.max(deviation);
             }
             Ok(worst)
         };
@@ -245,7 +252,7 @@ impl Shape {
             if !powers[n as usize - 1].after(permutation).is_identity() {
                 return Err(Deviation {
                     value: 1.0,
-                    at: DVec3::ZERO,
+                    ..Deviation::NONE
                 });
             }
             let operations: Vec<Operation> = (1..n)
