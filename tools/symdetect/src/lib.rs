@@ -8,9 +8,11 @@
 
 mod candidates;
 mod cli;
+mod complete;
 mod detect;
 mod eigen;
 mod error;
+mod findings;
 mod group;
 mod mirror;
 mod moments;
@@ -18,6 +20,7 @@ mod order;
 mod permutation;
 mod placement;
 mod refine;
+mod refusal;
 mod report;
 mod samples;
 mod shape;

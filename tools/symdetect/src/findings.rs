@@ -1,0 +1,220 @@
+//! What to say of the symmetry found: other axes, orders that do not hold, remarks.
+
+use crate::complete::Found;
+use crate::detect::{Detection, Job};
+use crate::error::{At, short};
+use crate::group::Flip;
+use crate::order::{Rotation, deviation_measured};
+use crate::placement;
+use crate::shape::Motion;
+use crate::verify::Depth;
+use glam::{DMat3, DVec3};
+use tmesh::{Axis, Isometry, OtherAxis, RejectedOrder, Symmetry};
+
+/// Other axes listed at most.
+const MOST_OTHER_AXES: usize = 64;
+/// Rejected orders listed at most.
+const MOST_REJECTED: usize = 16;
+/// Deviation, relative to the radius, beyond which a rejected order is not measured exactly.
+const FAR_OFF: f64 = 0.05;
+
+impl Job<'_> {
+    pub(crate) fn report(
+        &self,
+        found: Found,
+        rotations: &[Rotation],
+        log: &mut dyn FnMut(&str),
+    ) -> Detection {
+        let shape = self.shape;
+        let (frame, group) = (&found.frame, found.group);
+        let residual = found.verified.deviation.value / found.radius;
+        let other_axes = self.other_axes(&found, rotations);
+        let rejected = if group.order > 1 {
+            self.rejected(&found)
+        } else {
+            Vec::new()
+        };
+        log(&format!("{} orders rejected are listed", rejected.len()));
+        let mut notes = Vec::new();
+        if residual > self.params.tolerance {
+            notes.push(format!(
+                "beyond the tolerance of {:e} only as far as the facets of smooth surfaces explain",
+                self.params.tolerance
+            ));
+        }
+        if found.axisymmetric && !found.distinct {
+            notes.push(format!(
+                "a body of revolution whose facets have no common order; order {} stands for any",
+                group.order
+            ));
+        } else if found.axisymmetric {
+            notes.push(format!(
+                "a body of revolution with {} facets around the axis",
+                group.order
+            ));
+        }
+        if let Some(name) = self.polyhedral(&found, &other_axes) {
+            notes.push(format!(
+                "the whole point group is {name}, with {} axes; {} is the part about the main axis",
+                other_axes.len() + 1,
+                group.symbol()
+            ));
+        }
+        let regions = &shape.regions;
+        let centre = shape.to_world(frame.origin);
+        let symmetry = Symmetry {
+            group: group.symbol(),
+            order: group.order,
+            mirror: group.mirror,
+            horizontal_mirror: group.flip == Flip::Horizontal,
+            axis: Axis {
+                point: centre.to_array(),
+                direction: frame.rotation.z_axis.to_array(),
+            },
+            mirror_direction: frame.rotation.x_axis.to_array(),
+            residual,
+            tolerance: self.params.tolerance,
+            axisymmetric: found.axisymmetric,
+            radius: found.radius * shape.scale,
+            other_axes,
+            rejected,
+            rotation_regions: found.verified.rotation.pairs(regions),
+            mirror_regions: found.verified.mirror.pairs(regions),
+            horizontal_regions: if group.flip == Flip::Horizontal {
+                found.verified.flip.pairs(regions)
+            } else {
+                Vec::new()
+            },
+            promise: None,
+        };
+        if !symmetry.rotation_regions.is_empty() {
+            notes.push(format!(
+                "the rotation maps {} regions onto other ones",
+                symmetry.rotation_regions.len()
+            ));
+        }
+        notes.insert(
+            0,
+            format!(
+                "{} about {} through {}, residual {:.1e} of the radius {}",
+                symmetry.group,
+                At(frame.rotation.z_axis),
+                At(centre),
+                residual,
+                short(symmetry.radius)
+            ),
+        );
+        Detection {
+            symmetry,
+            notes,
+            asymmetric: None,
+        }
+    }
+
+    /// Further axes: half turns across the main one, and those of a polyhedral group.
+    fn other_axes(&self, found: &Found, rotations: &[Rotation]) -> Vec<OtherAxis> {
+        let z = found.frame.rotation.z_axis;
+        let mut axes: Vec<OtherAxis> = Vec::new();
+        let add = |axes: &mut Vec<OtherAxis>, d: DVec3, order: u32, residual: f64| {
+            let new = axes
+                .iter()
+                .all(|a| DVec3::from_array(a.direction).cross(d).length() > 2e-3);
+            if new && d.cross(z).length() > 2e-3 && axes.len() < MOST_OTHER_AXES {
+                let d = placement::forward(d);
+                axes.push(OtherAxis {
+                    direction: d.to_array(),
+                    order,
+                    residual,
+                });
+            }
+        };
+        let mut others: Vec<&Rotation> = rotations.iter().filter(|r| r.distinct).collect();
+        others.sort_by_key(|r| std::cmp::Reverse(r.order));
+        for r in others {
+            let residual = r.deviation.value / found.radius;
+            add(&mut axes, r.frame.rotation.z_axis, r.order, residual);
+        }
+        let half_turns = match (found.group.flip, found.group.mirror) {
+            (Flip::Horizontal, true) | (Flip::HalfTurn, _) => Some(0),
+            (Flip::Rotary, true) => Some(1),
+            _ => None,
+        };
+        if let Some(phase) = half_turns {
+            let n = found.group.order;
+            let residual = found.verified.deviation.value / found.radius;
+            for k in 0..n {
+                // Half turns lie along the mirrors, or between them.
+                let turn = Isometry::rotation(i64::from(2 * k + phase), 4 * n);
+                let d = found.frame.rotation * turn.apply(DVec3::X);
+                add(&mut axes, d, 2, residual);
+            }
+        }
+        axes
+    }
+
+    /// Name of the polyhedral group, if axes of order three or more point in several directions.
+    fn polyhedral(&self, found: &Found, axes: &[OtherAxis]) -> Option<String> {
+        let high: Vec<u32> = axes.iter().map(|a| a.order).filter(|&n| n >= 3).collect();
+        if high.is_empty() || found.group.order < 3 || found.axisymmetric {
+            return None;
+        }
+        let highest = high.iter().copied().max()?.max(found.group.order);
+        let letter = match highest {
+            3 => "T",
+            4 => "O",
+            5 => "I",
+            _ => return None,
+        };
+        let bound = self.limits.bound(found.radius);
+        let inversion = Motion::new(&found.frame, -DMat3::IDENTITY);
+        let suffix = if self
+            .shape
+            .verify_one(inversion, bound, Depth::Quick)
+            .is_ok()
+        {
+            "h"
+        } else if found.group.mirror && letter == "T" {
+            "d"
+        } else {
+            ""
+        };
+        Some(format!("{letter}{suffix}"))
+    }
+
+    /// Orders about the main axis that do not hold: small multiples of the one found, and the ones
+    /// that come nearest to holding.
+    fn rejected(&self, found: &Found) -> Vec<RejectedOrder> {
+        let n = found.group.order;
+        let most = self.params.max_order.max(n).min((4 * n).max(48)).min(768);
+        let most_off = FAR_OFF * found.radius;
+        let multiple = |m: u32| m == 2 * n || m == 3 * n;
+        let measured: Vec<RejectedOrder> = (2..=most)
+            .filter(|m| !n.is_multiple_of(*m))
+            // Of a body of revolution all others are alike.
+            .filter(|m| !found.axisymmetric || multiple(*m))
+            .map(|m| RejectedOrder {
+                order: m,
+                residual: deviation_measured(self.shape, &found.frame, m, 200, most_off).value
+                    / found.radius,
+            })
+            .filter(|r| r.residual > self.params.tolerance)
+            .collect();
+        let mut nearest = measured.clone();
+        nearest.sort_by(|a, b| {
+            a.residual
+                .total_cmp(&b.residual)
+                .then(a.order.cmp(&b.order))
+        });
+        let mut kept: Vec<RejectedOrder> = (measured.iter())
+            .filter(|r| multiple(r.order))
+            .cloned()
+            .collect();
+        for r in nearest {
+            if kept.len() < MOST_REJECTED && kept.iter().all(|k| k.order != r.order) {
+                kept.push(r);
+            }
+        }
+        kept.sort_by_key(|r| r.order);
+        kept
+    }
+}

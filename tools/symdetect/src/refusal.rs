@@ -1,0 +1,144 @@
+//! What to say of a body in which the symmetry asked for does not hold.
+
+use crate::detect::{Detection, Job};
+use crate::error::{At, Closest, Error};
+use crate::group::{Flip, Group};
+use crate::mirror::HORIZONTAL;
+use crate::order::{deviation_measured, powers};
+use crate::placement;
+use crate::refine::{Canonical, refine};
+use crate::shape::Motion;
+use crate::verify::{Bound, Operation};
+use glam::DVec3;
+use tmesh::{Axis, Frame, RejectedOrder, Symmetry};
+
+impl Job<'_> {
+    /// The operation that comes nearest to being a symmetry.
+    pub(crate) fn closest(&self, directions: &[DVec3]) -> Option<Closest> {
+        let shape = self.shape;
+        let mut best: Option<(f64, Frame, u32)> = None;
+        let samples = &shape.samples.mixed;
+        let target = shape.target_in_place();
+        let mirror = |frame: &Frame, count: usize| {
+            let operation = Operation {
+                motion: Motion::new(frame, HORIZONTAL),
+                target: target.clone(),
+            };
+            let open = Bound::plain(f64::MAX);
+            shape
+                .worst(count.min(samples.len()), open, |i| {
+                    (&samples[i], &operation)
+                })
+                .unwrap_or_else(|beyond| beyond)
+        };
+        for &d in directions.iter().take(16) {
+            let Some(frame) = Frame::from_axis(self.centre, d, d.any_orthogonal_vector()) else {
+                continue;
+            };
+            let radius = shape.radius(&frame).max(1e-12);
+            for n in 1..=self.params.max_order.min(16) {
+                let deviation = match n {
+                    1 => mirror(&frame, 300),
+                    n => deviation_measured(shape, &frame, n, 300, 0.2 * radius),
+                };
+                let residual = deviation.value / radius;
+                if best.as_ref().is_none_or(|b| residual < b.0) {
+                    best = Some((residual, frame, n));
+                }
+            }
+        }
+        let (_, frame, order) = best?;
+        let matrices = match order {
+            1 => vec![Canonical {
+                matrix: HORIZONTAL,
+                target: target.clone(),
+            }],
+            n => powers(n, &target),
+        };
+        let radius = shape.radius(&frame).max(1e-12);
+        let measure = |frame: &Frame| match order {
+            1 => mirror(frame, 3_000),
+            n => deviation_measured(shape, frame, n, 3_000, f64::MAX),
+        };
+        let adjusted = refine(shape, frame, &matrices, 4_000, self.limits.loose * radius);
+        let (as_is, better) = (measure(&frame), measure(&adjusted));
+        let (frame, deviation) = if better.value < as_is.value {
+            (adjusted, better)
+        } else {
+            (frame, as_is)
+        };
+        Some(Closest {
+            order,
+            residual: deviation.value / radius,
+            direction: At(frame.rotation.z_axis),
+            place: At(shape.to_world(deviation.at)),
+        })
+    }
+
+    /// Why an order asked for does not hold.
+    pub(crate) fn order_fails(&self, order: u32, directions: &[DVec3]) -> Error {
+        let shape = self.shape;
+        let measured = directions.iter().take(24).filter_map(|&d| {
+            let frame = Frame::from_axis(self.centre, d, d.any_orthogonal_vector())?;
+            let radius = shape.radius(&frame).max(1e-12);
+            let deviation = deviation_measured(shape, &frame, order, 3_000, f64::MAX);
+            Some((deviation.value / radius, deviation.at, frame))
+        });
+        let best = measured.min_by(|a, b| a.0.total_cmp(&b.0));
+        let (residual, at, frame) = best.unwrap_or((1.0, DVec3::ZERO, Frame::IDENTITY));
+        Error::OrderFails {
+            order,
+            tolerance: self.params.tolerance,
+            residual,
+            axis: At(frame.rotation.z_axis),
+            centre: At(shape.to_world(frame.origin)),
+            place: At(shape.to_world(at)),
+        }
+    }
+
+    pub(crate) fn asymmetric(&self, closest: Option<Closest>, reason: String) -> Detection {
+        let direction = self.params.axis.unwrap_or(DVec3::Z);
+        let frame = Frame::from_axis(self.centre, direction, direction.any_orthogonal_vector())
+            .unwrap_or(Frame::IDENTITY);
+        let radius = self.shape.radius(&frame);
+        let group = Group {
+            order: 1,
+            mirror: false,
+            flip: Flip::None,
+        };
+        let x = placement::reference(&frame, &group);
+        let rejected = closest
+            .filter(|c| c.order > 1)
+            .map(|c| RejectedOrder {
+                order: c.order,
+                residual: c.residual,
+            })
+            .into_iter()
+            .collect();
+        Detection {
+            symmetry: Symmetry {
+                group: group.symbol(),
+                order: 1,
+                mirror: false,
+                horizontal_mirror: false,
+                axis: Axis {
+                    point: self.shape.to_world(self.centre).to_array(),
+                    direction: frame.rotation.z_axis.to_array(),
+                },
+                mirror_direction: x.to_array(),
+                residual: 0.0,
+                tolerance: self.params.tolerance,
+                axisymmetric: false,
+                radius: radius * self.shape.scale,
+                other_axes: Vec::new(),
+                rejected,
+                rotation_regions: Vec::new(),
+                mirror_regions: Vec::new(),
+                horizontal_regions: Vec::new(),
+                promise: None,
+            },
+            notes: Vec::new(),
+            asymmetric: Some(reason),
+        }
+    }
+}
