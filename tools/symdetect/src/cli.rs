@@ -1,6 +1,6 @@
 //! The command line of `symdetect`.
 
-use crate::{Error, Params, Report, available_threads, detect};
+use crate::{Error, Params, Report, available_threads, detect, svg};
 use glam::DVec3;
 use kit::{Command, CommonArgs, Failure, Output, Session};
 use std::io::Write;
@@ -11,6 +11,7 @@ const EXAMPLES: &str = "\
 Examples:
   symdetect part.stl -o part.tmesh          find the symmetry
   symdetect part.stl --report part.json     and write what was found as JSON
+  symdetect part.stl --svg part.svg         and draw it; -v prints a table of all orders
   symdetect --order 12 part.stl | wedgecut  insist on order 12
   symdetect --axis 0,0,1 --center 5,0,0 part.stl";
 
@@ -57,6 +58,10 @@ pub struct Cli {
     /// Write what was found as JSON
     #[arg(long, value_name = "PATH")]
     report: Option<PathBuf>,
+
+    /// Draw what was found: the body, its axis and mirror planes, the deviation under every order
+    #[arg(long, value_name = "PATH")]
+    svg: Option<PathBuf>,
 }
 
 /// Half a step must still be a turn that can be stored.
@@ -97,6 +102,7 @@ impl Cli {
             order: self.order,
             max_order: self.max_order,
             allow_asymmetric: self.allow_asymmetric,
+            profile: self.report.is_some() || self.svg.is_some() || self.common.verbose > 0,
             threads: self.threads.map_or_else(available_threads, |n| n as usize),
         }
     }
@@ -126,11 +132,23 @@ impl Command for Cli {
         for note in &found.notes {
             session.note(note);
         }
-        for r in &found.symmetry.rejected {
-            session.detail(&format!("order {}: off by {:.2e}", r.order, r.residual));
+        if found.asymmetric.is_none() {
+            for line in found.summary() {
+                session.note(&line);
+            }
+        }
+        if session.is_verbose() {
+            for line in found.table() {
+                session.note(&line);
+            }
         }
         if let Some(path) = &self.report {
-            write_report(path, &Report::new(&document, &found.symmetry, &found.notes))?;
+            write_text(path, &json(&Report::new(&document, &found))?)?;
+        }
+        if let Some(path) = &self.svg {
+            let input = self.common.input.as_deref().and_then(Path::file_name);
+            let title = input.map_or("body".into(), |n| n.to_string_lossy());
+            write_text(path, &svg(&document, &found, &title))?;
         }
         document.symmetry = Some(found.symmetry);
         document.history.push(session.history_entry(found.notes));
@@ -138,9 +156,12 @@ impl Command for Cli {
     }
 }
 
-fn write_report(path: &Path, report: &Report) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(report)
-        .map_err(|e| Failure::Output(format!("cannot write the report: {e}")))?;
+fn json(report: &impl serde::Serialize) -> Result<String, Failure> {
+    serde_json::to_string_pretty(report)
+        .map_err(|e| Failure::Output(format!("cannot write the report: {e}")))
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
     let mut out = Output::create(Some(path), false)?;
     writeln!(out, "{text}").map_err(|e| out.failure(&e))?;
     out.commit()

@@ -5,12 +5,12 @@ use crate::group::{Flip, Group, Verified};
 use crate::mirror::{
     Found as MirrorFound, HALF_TURN, VERTICAL, find_flip, find_mirror_plane, find_turned,
 };
-use crate::order::{Rotation, powers};
+use crate::order::{Rotation, is_of_facets, powers};
 use crate::permutation::Permutation;
 use crate::placement;
 use crate::refine::{Canonical, refine};
-use crate::shape::Target;
-use crate::verify::{Bound, Depth, Deviation};
+use crate::shape::{Motion, Target};
+use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DVec3;
 use tmesh::{Frame, Isometry};
 
@@ -130,13 +130,35 @@ impl Job<'_> {
                 continue;
             }
             for frame in [found.frame, found.rough] {
-                if let Ok(verified) = group.verify(self.shape, &frame, bound, Depth::Full) {
+                if let Ok(verified) = group.verify(self.shape, &frame, bound, Depth::Full)
+                    && self.is_of_facets(group, &frame, &verified, bound.limit)
+                {
                     (found.frame, found.group, found.verified) = (frame, *group, verified);
                     return true;
                 }
             }
         }
         false
+    }
+
+    /// Whether what a group deviates by beyond the limit, if anything, looks like differences between
+    /// facets.
+    fn is_of_facets(&self, group: &Group, frame: &Frame, found: &Verified, limit: f64) -> bool {
+        let value = found.deviation.value;
+        let shape = self.shape;
+        if value <= limit {
+            return true;
+        }
+        let mirror = group.mirror.then_some((VERTICAL, &found.mirror));
+        let flip = group.flip_matrix().map(|m| (m, &found.flip));
+        (group.order < 2 || is_of_facets(shape, frame, group.order, value, limit))
+            && mirror.into_iter().chain(flip).all(|(matrix, regions)| {
+                let operation = Operation {
+                    motion: Motion::new(frame, matrix),
+                    target: shape.target(regions),
+                };
+                !shape.displaces(frame, &operation, limit)
+            })
     }
 
     /// Points the axis along its largest component, or as the user pointed it.

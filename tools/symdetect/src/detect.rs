@@ -5,6 +5,7 @@ use crate::candidates::{self, distinct};
 use crate::error::{At, Error};
 use crate::order::{FACETS, Limits, Rotation, find_rotation};
 use crate::shape::Shape;
+use crate::summary::OrderResidual;
 use crate::verify::Depth;
 use glam::DVec3;
 use std::ops::RangeInclusive;
@@ -19,6 +20,8 @@ pub struct Detection {
     pub symmetry: Symmetry,
     /// Remarks, a sentence each.
     pub notes: Vec<String>,
+    /// Residuals of all orders up to some, if [`Params::profile`] asked for them.
+    pub profile: Vec<OrderResidual>,
     /// Why the body counts as asymmetric, when [`Params::allow_asymmetric`] let it pass.
     pub asymmetric: Option<String>,
 }
@@ -146,16 +149,11 @@ impl Job<'_> {
     /// be the reason why it does not hold with the tolerance itself.
     fn facets_may_hide(&self, directions: &[DVec3], rotations: &[Rotation]) -> bool {
         let best = rotations.iter().max_by_key(|r| r.rank());
-        // Where the facets share the symmetry they cannot hide more of it.
-        let shared = |b: &Rotation| {
-            let small = 0.1 * self.limits.tolerance * b.radius;
-            b.deviation.value <= small.max(10.0 * self.noise(b.radius))
-        };
-        if best.is_some_and(|b| b.axisymmetric || shared(b)) {
+        if best.is_some_and(|b| b.axisymmetric) {
             return false;
         }
         let radius = best.map_or(1.0, |b| b.radius);
-        if self.shape.largest_chord() < 0.1 * self.limits.tolerance * radius {
+        if self.shape.facets().largest() < 0.1 * self.limits.tolerance * radius {
             return false;
         }
         let limits = Limits::new((1.0 + FACETS) * self.limits.tolerance);

@@ -7,14 +7,18 @@ use crate::group::Flip;
 use crate::order::{Rotation, deviation_measured};
 use crate::placement;
 use crate::shape::Motion;
+use crate::summary::OrderResidual;
 use crate::verify::Depth;
 use glam::{DMat3, DVec3};
-use tmesh::{Axis, Isometry, OtherAxis, RejectedOrder, Symmetry};
+use tmesh::{Axis, Frame, Isometry, OtherAxis, RejectedOrder, Symmetry};
 
 /// Other axes listed at most.
 const MOST_OTHER_AXES: usize = 64;
 /// Rejected orders listed at most.
 const MOST_REJECTED: usize = 16;
+/// Orders in a profile at least and at most.
+const FEWEST_PLOTTED: u32 = 24;
+const MOST_PLOTTED: u32 = 300;
 /// Deviation, relative to the radius, beyond which a rejected order is not measured exactly.
 const FAR_OFF: f64 = 0.05;
 
@@ -105,6 +109,7 @@ impl Job<'_> {
             ),
         );
         Detection {
+            profile: self.profile(frame, group.order),
             symmetry,
             notes,
             asymmetric: None,
@@ -181,6 +186,24 @@ impl Job<'_> {
         Some(format!("{letter}{suffix}"))
     }
 
+    /// Residuals of the orders up to twice the one that holds, and at least some.
+    pub(crate) fn profile(&self, frame: &Frame, holds: u32) -> Vec<OrderResidual> {
+        if !self.params.profile {
+            return Vec::new();
+        }
+        let radius = self.shape.radius(frame).max(1e-12);
+        let most = (2 * holds).clamp(FEWEST_PLOTTED, MOST_PLOTTED);
+        let measure = |order| OrderResidual {
+            order,
+            residual: deviation_measured(self.shape, frame, order, 600, radius)
+                .value
+                .min(radius)
+                / radius,
+            holds: holds.is_multiple_of(order),
+        };
+        (2..=most).map(measure).collect()
+    }
+
     /// Orders about the main axis that do not hold: small multiples of the one found, and the ones
     /// that come nearest to holding.
     fn rejected(&self, found: &Found) -> Vec<RejectedOrder> {
@@ -213,6 +236,11 @@ impl Job<'_> {
             if kept.len() < MOST_REJECTED && kept.iter().all(|k| k.order != r.order) {
                 kept.push(r);
             }
+        }
+        // So far only those near to holding are exact.
+        for r in kept.iter_mut().filter(|r| r.residual > FAR_OFF) {
+            let exact = deviation_measured(self.shape, &found.frame, r.order, 200, 1.0);
+            r.residual = exact.value / found.radius;
         }
         kept.sort_by_key(|r| r.order);
         kept

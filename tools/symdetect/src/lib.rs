@@ -10,8 +10,10 @@ mod candidates;
 mod cli;
 mod complete;
 mod detect;
+mod drawing;
 mod eigen;
 mod error;
+mod facets;
 mod findings;
 mod group;
 mod mirror;
@@ -24,6 +26,8 @@ mod refusal;
 mod report;
 mod samples;
 mod shape;
+mod summary;
+mod svg;
 mod verify;
 
 #[cfg(test)]
@@ -35,6 +39,8 @@ pub use cli::Cli;
 pub use detect::{Detection, detect};
 pub use error::{At, Closest, Error};
 pub use report::Report;
+pub use summary::OrderResidual;
+pub use svg::svg;
 
 use glam::DVec3;
 use tmesh::Document;
@@ -54,6 +60,8 @@ pub struct Params {
     pub max_order: u32,
     /// Whether a body without symmetry is passed on.
     pub allow_asymmetric: bool,
+    /// Whether residuals are measured order by order for a table or a plot.
+    pub profile: bool,
     /// Threads used at most; the result does not depend on it.
     pub threads: usize,
 }
@@ -67,6 +75,7 @@ impl Default for Params {
             order: None,
             max_order: 1024,
             allow_asymmetric: false,
+            profile: false,
             threads: available_threads(),
         }
     }

@@ -4,8 +4,9 @@ use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::samples::{Random, Sample};
 use crate::shape::{Motion, Shape, Target};
-use crate::verify::{Bound, Depth, Deviation, Operation, golden_rotations};
+use crate::verify::{Bound, Depth, Deviation, Operation, Place, golden_rotations};
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use std::ops::RangeInclusive;
 use tmesh::{Frame, Isometry};
 
@@ -78,14 +79,13 @@ impl Rotation {
 
 /// Samples in a scan over orders.
 const SCAN: usize = 96;
-/// What facets may add to the tolerance at most, in tolerances.
-pub const FACETS: f64 = 2.0;
-/// A deviation by this share of the tolerance counts as one of the tessellation.
-const NOTICEABLE: f64 = 0.05;
-/// Sectors around the axis, and in how many of them a tessellation must deviate to be taken for the
-/// reason; a feature of its own deviates in one or two.
-const SECTORS: usize = 6;
-const WIDESPREAD: usize = 5;
+/// What facets may add to the tolerance at most, in tolerances: the diagonal of the square around
+/// the circle of the radius, by which the exactness of drawings is commonly stated, is `2 sqrt 2`
+/// radii.
+pub const FACETS: f64 = 1.828;
+/// Share of the largest deviation that a place must have for it to count as deviating too: at nine
+/// in ten phases the corner of a facet is that share of the sagitta off another facet.
+const NOTICEABLE: f64 = 0.33;
 /// Share of samples that may be off while axis and centre are still rough.
 const OUTLIERS: f64 = 0.12;
 /// Factor by which the deviations of all other orders exceed those of the facet count's divisors.
@@ -261,7 +261,7 @@ impl Search<'_> {
         };
         let verify = |n| {
             let found = self.shape.verify_rotation(frame, n, bound, self.depth)?;
-            if found.0.value > limit && !self.is_widespread(frame, n, bound) {
+            if found.0.value > limit && !is_of_facets(self.shape, frame, n, found.0.value, limit) {
                 return Err(found.0);
             }
             Ok(found)
@@ -314,32 +314,6 @@ impl Search<'_> {
         None
     }
 
-    /// Whether the rotation of order `n` moves vertices all around the axis off the surface, rather
-    /// than those of a feature somewhere.
-    fn is_widespread(&self, frame: &Frame, n: u32, bound: Bound) -> bool {
-        let mut random = Random(u64::from(n));
-        let mut off = [false; SECTORS];
-        for sample in self.shape.samples.vertices.iter().take(8_000) {
-            let p = frame.to_canonical(sample.point);
-            let turn = libm::atan2(p.y, p.x) / std::f64::consts::TAU + 0.5;
-            let sector = ((turn * SECTORS as f64) as usize).min(SECTORS - 1);
-            // Other places deviate where one power of the rotation takes them to the feature.
-            off[sector] = off[sector]
-                || (0..3).all(|_| {
-                    let k = 1 + random.below(n as usize - 1) as i64;
-                    distance(
-                        self.shape,
-                        frame,
-                        Isometry::rotation(k, n),
-                        sample,
-                        bound.most(),
-                    )
-                    .is_none_or(|d| d > NOTICEABLE * bound.limit)
-                });
-        }
-        off.iter().filter(|o| **o).count() >= WIDESPREAD
-    }
-
     /// Whether one of a few powers of the rotation of order `n` maps a point off the surface.
     fn stumbles(&self, frame: &Frame, n: u32, point: DVec3, limit: f64) -> bool {
         let sample = Sample { point, triangle: 0 };
@@ -381,6 +355,67 @@ impl Search<'_> {
             })
         })
     }
+}
+
+/// Whether the deviations of up to `value` under the rotation of order `n` look like differences
+/// between facets, beyond each being explained by the facets there ([`crate::facets`]).
+pub fn is_of_facets(shape: &Shape, frame: &Frame, n: u32, value: f64, limit: f64) -> bool {
+    is_widespread(shape, frame, n, value)
+        && powers(n, &shape.target_in_place())
+            .into_iter()
+            .all(|power| {
+                let operation = Operation {
+                    motion: Motion::new(frame, power.matrix),
+                    target: power.target,
+                };
+                !shape.displaces(frame, &operation, limit)
+            })
+}
+
+/// Whether deviations are found at most places that are drawn as coarsely as the worst ones, as
+/// between facets, rather than at a feature. With more than two turns, at most images of the places
+/// where they are found at all.
+fn is_widespread(shape: &Shape, frame: &Frame, n: u32, value: f64) -> bool {
+    let parts = 6_u32.div_ceil(n);
+    // Half turns cannot tell images apart: a place and its only one deviate together.
+    let folds = if n == 2 { 1 } else { parts };
+    let sectors = n * parts;
+    // For each shell and part of a turn: sectors that are drawn coarsely, those that deviate.
+    let mut seen: FxHashMap<[u32; 2], [Vec<bool>; 2]> = FxHashMap::default();
+    let mut random = Random(u64::from(n));
+    let radius = shape.radius(frame);
+    let noticeable = NOTICEABLE * value;
+    for sample in shape.samples.mixed.iter().take(16_000) {
+        let corners = shape.triangles[sample.triangle as usize];
+        if shape.facets().around(corners) < noticeable {
+            continue;
+        }
+        let normal = shape.normals[sample.triangle as usize];
+        let place = Place::new(frame, sample.point, normal, radius);
+        let sector = ((place.turn * f64::from(sectors)) as u32).min(sectors - 1);
+        let key = [sector % folds, place.shell.into()];
+        let [coarse, off] = seen
+            .entry(key)
+            .or_insert_with(|| [(); 2].map(|()| vec![false; (sectors / folds) as usize]));
+        let sector = (sector / folds) as usize;
+        coarse[sector] = true;
+        if off[sector] {
+            continue;
+        }
+        // Places without a feature deviate where one power of the rotation takes them to it: that
+        // two different ones do needs features at two places.
+        let deviates = |k: u32| {
+            let step = Isometry::rotation(i64::from(k), n);
+            distance(shape, frame, step, sample, value).is_none_or(|d| d > noticeable)
+        };
+        let (first, step) = (random.below(n as usize - 1) as u32, (n - 1).div_ceil(3));
+        let tried = (0..n - 1)
+            .step_by(step as usize)
+            .map(|k| 1 + (first + k) % (n - 1));
+        off[sector] = tried.filter(|&k| deviates(k)).count() >= 2.min(n as usize - 1);
+    }
+    let count = |list: &[bool]| list.iter().filter(|x| **x).count();
+    (seen.values()).all(|[coarse, off]| count(off) == 0 || 2 * count(off) > count(coarse))
 }
 
 /// Distance of the image of a sample under an isometry of the frame from any triangle, if within

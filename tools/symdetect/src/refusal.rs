@@ -138,6 +138,7 @@ impl Job<'_> {
                 promise: None,
             },
             notes: Vec::new(),
+            profile: self.profile(&frame, 1),
             asymmetric: Some(reason),
         }
     }

@@ -1,5 +1,7 @@
 //! The JSON report.
 
+use crate::detect::Detection;
+use crate::summary::OrderResidual;
 use serde::Serialize;
 use tmesh::{Document, Symmetry};
 
@@ -13,6 +15,8 @@ pub struct Report<'a> {
     pub triangles: usize,
     /// Regions of the document.
     pub regions: Vec<ReportRegion<'a>>,
+    /// How far the body is off under each order about the axis.
+    pub orders: &'a [OrderResidual],
     /// Remarks, a sentence each.
     pub notes: &'a [String],
 }
@@ -28,9 +32,9 @@ pub struct ReportRegion<'a> {
 
 impl<'a> Report<'a> {
     /// The report on a document.
-    pub fn new(document: &'a Document, symmetry: &'a Symmetry, notes: &'a [String]) -> Self {
+    pub fn new(document: &'a Document, found: &'a Detection) -> Self {
         Self {
-            symmetry,
+            symmetry: &found.symmetry,
             triangles: document.templates.iter().map(|t| t.triangles.len()).sum(),
             regions: (document.regions.iter())
                 .map(|r| ReportRegion {
@@ -38,7 +42,8 @@ impl<'a> Report<'a> {
                     name: &r.name,
                 })
                 .collect(),
-            notes,
+            orders: &found.profile,
+            notes: &found.notes,
         }
     }
 }

@@ -1,10 +1,10 @@
 //! The body, made ready for symmetry tests: centred, scaled to unit size, sampled, and searchable.
 
+use crate::facets::Facets;
 use crate::moments::Moments;
 use crate::permutation::Permutation;
 use crate::samples::Samples;
 use geom::bvh::{Bvh, Nearest};
-use geom::edges::{Edges, apex_of};
 use glam::{DMat3, DVec3};
 use std::sync::OnceLock;
 use tmesh::{Frame, OUTSIDE, Template};
@@ -39,7 +39,7 @@ pub struct Shape {
     pub samples: Samples,
     all: Bvh,
     by_class: Vec<ClassSurface>,
-    chords: OnceLock<Vec<f32>>,
+    facets: OnceLock<Facets>,
 }
 
 /// The triangles of one class.
@@ -82,9 +82,6 @@ pub enum Target {
     /// Triangles of the class that the list gives for each class; [`NO_CLASS`] where there is none.
     Classes(Vec<u32>),
 }
-
-/// Cosine of the angle up to which two facets may belong to one smooth surface: 30 degrees.
-const SMOOTH: f64 = 0.866;
 
 /// No interface separates the two regions.
 pub const NO_CLASS: u32 = u32::MAX;
@@ -187,7 +184,7 @@ impl Shape {
             samples,
             all,
             by_class,
-            chords: OnceLock::new(),
+            facets: OnceLock::new(),
             vertices,
             triangles,
             normals,
@@ -241,48 +238,10 @@ impl Shape {
         }
     }
 
-    /// How far the smooth surface that a triangle may stand for can be from it, estimated from the
-    /// angles with its neighbours: for a strip of width `w` that turns by `a` at its edges, the
-    /// sagitta of the arc is `w a / 8`, and a twisted quadrangle is off its diagonal by `w a / 4`. The
-    /// largest such value of the triangles around its corners.
-    pub fn chord(&self, triangle: u32) -> f64 {
-        let chords = self.chords.get_or_init(|| self.estimate_chords());
-        f64::from(chords[triangle as usize])
-    }
-
-    /// The largest [`Self::chord`].
-    pub fn largest_chord(&self) -> f64 {
-        let chords = self.chords.get_or_init(|| self.estimate_chords());
-        f64::from(chords.iter().copied().fold(0.0, f32::max))
-    }
-
-    fn estimate_chords(&self) -> Vec<f32> {
-        // Noted at vertices: the flat end of a round bore shares the error of the bore's edge.
-        let mut at_vertex = vec![0.0_f32; self.vertices.len()];
-        let edges = Edges::new(&self.triangles);
-        for edge in 0..edges.len() {
-            let [u, v] = edges.around(edge) else { continue };
-            let (t, s) = (u.triangle as usize, v.triangle as usize);
-            let cosine = self.normals[t].dot(self.normals[s]);
-            if cosine < SMOOTH {
-                continue;
-            }
-            let angle = libm::acos(cosine.min(1.0));
-            let [a, b] = edges.ends[edge].map(|v| self.vertices[v as usize]);
-            for (t, corner) in [(t, u.corner), (s, v.corner)] {
-                let apex = self.vertices[apex_of(&self.triangles[t], corner) as usize];
-                let height = (apex - a).cross(b - a).length() / (b - a).length();
-                let chord = (0.25 * angle * height) as f32;
-                for &v in &self.triangles[t] {
-                    let most = &mut at_vertex[v as usize];
-                    *most = most.max(chord);
-                }
-            }
-        }
-        let of_triangle = |t: &[u32; 3]| t.map(|v| at_vertex[v as usize]);
-        (self.triangles.iter().map(of_triangle))
-            .map(|c| c[0].max(c[1]).max(c[2]))
-            .collect()
+    /// What the facets may hide.
+    pub fn facets(&self) -> &Facets {
+        let make = || Facets::new(&self.vertices, &self.triangles, &self.normals);
+        self.facets.get_or_init(make)
     }
 
     /// The target that a permutation of regions asks for.

@@ -161,38 +161,138 @@ fn nearly_symmetric_bodies_are_not_over_read() {
     }
 }
 
+/// What is wrong with the bore of a [`wheel`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Flaw {
+    None,
+    /// Half the difference of the diameters.
+    Oval(f64),
+    /// Half the largest deviation.
+    Eccentric(f64),
+    /// Depth of a groove, one in fifteen of the turn wide.
+    Groove(f64),
+    /// Depth of a dent as long as wide.
+    Dent(f64),
+    /// Depth of a groove in the outside.
+    Keyway(f64),
+}
+
+/// A wheel of `n` lobes, `per_lobe` facets each, around a cavity of the given radius with `facets`
+/// facets around that start at `phase`.
+fn wheel(
+    n: usize,
+    per_lobe: usize,
+    radius: f64,
+    facets: usize,
+    phase: f64,
+    flaw: Flaw,
+) -> Document {
+    let n_f = n as f64;
+    let lobed = move |a: f64, r: f64, z: f64| {
+        let keyway = match flaw {
+            Flaw::Keyway(depth) if (a - 1.0).abs() < 0.21 => depth,
+            _ => 0.0,
+        };
+        (r * (1.0 + 0.04 * (n_f * a).cos()) - keyway, z)
+    };
+    let mut body = bodies::profile(n * per_lobe, &[(0.96, 0.0), (0.96, 0.4)], lobed);
+    let rows: Vec<(f64, f64)> = (0..=4)
+        .map(|i| (radius, 0.1 + 0.05 * f64::from(i)))
+        .collect();
+    let mut bore = bodies::profile(facets, &rows, |a, r, z| {
+        let near = (a - 1.0).abs() < 0.21;
+        let change = match flaw {
+            Flaw::Oval(by) => by * (2.0 * (a + phase)).cos(),
+            Flaw::Eccentric(by) => by * (a + phase).cos(),
+            Flaw::Groove(depth) if near => depth,
+            Flaw::Dent(depth) if near && (z - 0.2).abs() < 0.06 => depth,
+            _ => 0.0,
+        };
+        (r + change, z)
+    });
+    let turned = glam::DMat3::from_rotation_z(phase);
+    // A void: its surface the other way around.
+    let (outer, inner) = (&mut body.templates[0], &mut bore.templates[0]);
+    let first = outer.vertices.len() as u32;
+    outer
+        .vertices
+        .extend(inner.vertices.iter().map(|p| turned * *p));
+    outer.triangles.extend(inner.triangles.iter().map(|t| {
+        let [a, b, c] = t.vertices.map(|v| v + first);
+        tmesh::Triangle {
+            vertices: [a, c, b],
+            ..*t
+        }
+    }));
+    body
+}
+
 #[test]
 fn facets_explain_a_bore_but_not_a_groove() {
-    // Thirteen lobes outside, a bore of 40 facets: twice the tolerance off, all around.
-    let lobed = |groove: f64| {
-        let wave = move |a: f64, r: f64, z: f64| {
-            let inside = (a - 1.0).abs() < 0.04;
-            (
-                r * (1.0 + 0.04 * (13.0 * a).cos()) - if inside { groove } else { 0.0 },
-                z,
-            )
-        };
-        let mut body = bodies::profile(13 * 12, &[(0.96, 0.0), (0.96, 0.4)], wave);
-        let bore = bodies::profile(40, &[(0.7, 0.1), (0.7, 0.3)], |_, r, z| (r, z));
-        // A void: its surface the other way around.
-        let (outer, inner) = (&mut body.templates[0], &bore.templates[0]);
-        let first = outer.vertices.len() as u32;
-        outer.vertices.extend(&inner.vertices);
-        outer.triangles.extend(inner.triangles.iter().map(|t| {
-            let [a, b, c] = t.vertices.map(|v| v + first);
-            tmesh::Triangle {
-                vertices: [a, c, b],
-                ..*t
-            }
-        }));
-        body
-    };
-    let found = find(&lobed(0.0));
+    // A bore of 40 facets: twice the tolerance off, all around.
+    let found = find(&wheel(13, 12, 0.7, 40, 0.0, Flaw::None));
     assert_eq!((found.order, found.mirror), (13, true));
-    assert!((1e-3..3e-3).contains(&found.residual), "{}", found.residual);
-    // Nothing is left but the mirror across the axis.
-    let grooved = find(&lobed(5e-3));
-    assert_eq!((grooved.group.as_str(), grooved.order), ("C1v", 1));
+    assert!(
+        (1e-3..2.9e-3).contains(&found.residual),
+        "{}",
+        found.residual
+    );
+    // Facets of the bore share two of the six turns: that does not hide the others.
+    let found = find(&wheel(6, 12, 0.5, 32, 0.0, Flaw::None));
+    assert_eq!((found.order, found.mirror), (6, true));
+    // Nothing is left but the mirror across the axis, if that.
+    let flawed = find(&wheel(13, 12, 0.7, 40, 0.0, Flaw::Groove(5e-3)));
+    assert!(flawed.order <= 2);
+}
+
+#[test]
+#[ignore = "a table over many bodies; run it with --release"]
+fn facets_and_flaws() {
+    let mut random = Random(11);
+    let flaws: [fn(f64) -> Flaw; 6] = [
+        |_| Flaw::None,
+        Flaw::Oval,
+        Flaw::Eccentric,
+        Flaw::Groove,
+        Flaw::Dent,
+        Flaw::Keyway,
+    ];
+    for flaw in flaws {
+        for size in [1.5e-3, 2e-3, 3e-3, 5e-3] {
+            let (mut read, mut all, mut worst) = (0, 0, 0.0_f64);
+            for n in [3, 5, 6, 10, 13] {
+                for facets in [16, 23, 40] {
+                    // The sagitta is at most 2.5e-3, as a drawing of that exactness has it.
+                    let sagitta = 1.0 - (std::f64::consts::PI / f64::from(facets)).cos();
+                    let radius = (2.5e-3 / sagitta).min(0.85) * (0.3 + 0.7 * random.unit());
+                    let by = match flaw(size) {
+                        // Twice that under the worst power.
+                        Flaw::Oval(s) | Flaw::Eccentric(s) => 0.5 * s,
+                        _ => size,
+                    };
+                    let phase = if all % 2 == 0 { 0.0 } else { random.unit() };
+                    let body = wheel(n, 12, radius, facets as usize, phase, flaw(by));
+                    let body = bodies::split_faces(&body, &mut random, 0.2);
+                    let placed = bodies::place(&body, &mut random, 1.0, 0.0);
+                    let found = find_with(&placed, &Params::default());
+                    all += 1;
+                    let right = found.as_ref().is_ok_and(|s| s.order == n as u32);
+                    read += u32::from(right);
+                    if right {
+                        worst = worst.max(found.map_or(0.0, |s| s.residual));
+                    } else if flaw(0.0) == Flaw::None {
+                        let what = found.map_or_else(|e| e.to_string(), |s| s.group);
+                        eprintln!("{n} lobes, {facets} facets, radius {radius}: {what}");
+                    }
+                }
+            }
+            let kind = flaw(size);
+            eprintln!("{kind:?}: {read} of {all} taken for symmetric, residual up to {worst:.1e}");
+            if flaw(0.0) == Flaw::None {
+                break;
+            }
+        }
+    }
 }
 
 #[test]

@@ -53,7 +53,7 @@ pub struct Bound {
     /// Anywhere.
     pub limit: f64,
     /// So much more at most where facets that stand for a smooth surface explain it
-    /// ([`Shape::chord`]).
+    /// ([`crate::facets`]).
     pub facets: f64,
 }
 
@@ -77,6 +77,37 @@ pub struct Operation {
     pub target: Target,
 }
 
+/// Where on a body a point is, roughly: points alike in this are of one neighbourhood.
+pub struct Place {
+    /// Angle about the axis, as a share of a full turn from 0 to 1.
+    pub turn: f64,
+    /// Shell around the axis, out of four.
+    pub shell: u8,
+    /// Which way the surface faces: outwards, along the turn, along the axis, and their opposites.
+    pub side: u8,
+}
+
+impl Place {
+    /// Of a point of the surface with the given normal.
+    pub fn new(frame: &Frame, point: DVec3, normal: DVec3, radius: f64) -> Self {
+        const SHELLS: f64 = 4.0;
+        let p = frame.to_canonical(point);
+        let outward = DVec3::new(p.x, p.y, 0.0).normalize_or_zero();
+        let n = frame.rotation.transpose() * normal;
+        let faces = [n.dot(outward), n.dot(DVec3::Z.cross(outward)), n.z];
+        let most = (1..3).fold(0, |best, i| match faces[i].abs() > faces[best].abs() {
+            true => i,
+            false => best,
+        });
+        let turn = libm::atan2(p.y, p.x) / std::f64::consts::TAU;
+        Self {
+            turn: turn - libm::floor(turn),
+            shell: (libm::hypot(p.x, p.y) / radius * SHELLS) as u8,
+            side: 2 * most as u8 + u8::from(faces[most] > 0.0),
+        }
+    }
+}
+
 /// Tests run between two looks at whether one failed.
 const BLOCK: usize = 1 << 15;
 /// Tests below which threads do not pay.
@@ -95,10 +126,9 @@ impl Shape {
         let find = |within| self.nearest(image, sample.triangle, &operation.target, within);
         // A little beyond the bound, so that what is found within it is found exactly.
         if let Some(n) = find(1.01 * bound.most()) {
-            let excess = n.distance - bound.limit;
-            let passes = excess <= 0.0
-                || (excess <= bound.facets
-                    && excess <= self.chord(sample.triangle).max(self.chord(n.triangle)));
+            let passes = n.distance <= bound.limit
+                || (n.distance <= bound.most()
+                    && n.distance - bound.limit <= self.explained(sample.triangle, n.triangle));
             return (n.distance, passes);
         }
         // Where many triangles are about equally far, an open search would visit them all.
@@ -110,6 +140,41 @@ impl Shape {
             within *= 4.0;
         }
         (find(f64::INFINITY).map_or(1.0, |n| n.distance), false)
+    }
+
+    /// The deviation between two triangles that facets explain: what they explain for both.
+    fn explained(&self, a: u32, b: u32) -> f64 {
+        let bulge = |t: u32| self.facets().around(self.triangles[t as usize]);
+        bulge(a).min(bulge(b))
+    }
+
+    /// Whether an operation displaces the surface of some neighbourhood by more than `limit` on
+    /// average. Differences between facets mostly cancel over a neighbourhood of several; what an
+    /// oval bore or an eccentric hub deviates by does not. A neighbourhood is what faces alike in one
+    /// sector and shell around the axis.
+    pub fn displaces(&self, frame: &Frame, operation: &Operation, limit: f64) -> bool {
+        const SECTORS: f64 = 6.0;
+        const FEWEST: f64 = 12.0;
+        let reach = 16.0 * limit;
+        let mut cells: FxHashMap<[u8; 3], (f64, f64)> = FxHashMap::default();
+        let radius = self.radius(frame);
+        for sample in self.samples.faces.iter().take(12_000) {
+            let image = operation.motion.apply(sample.point);
+            let Some(hit) = self.nearest(image, sample.triangle, &operation.target, reach) else {
+                continue;
+            };
+            let normal = self.normals[hit.triangle as usize];
+            let place = Place::new(frame, hit.point, normal, radius);
+            let sector = libm::floor(place.turn * SECTORS) as u8;
+            let cell = cells
+                .entry([sector, place.shell / 2, place.side])
+                .or_default();
+            cell.0 += (image - hit.point).dot(normal);
+            cell.1 += 1.0;
+        }
+        cells
+            .values()
+            .any(|&(sum, count)| count >= FEWEST && sum.abs() > limit * count)
     }
 
     /// Runs tests 0 to `count - 1`; `job` names sample and operation of each. Returns the largest
