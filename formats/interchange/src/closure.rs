@@ -1,8 +1,8 @@
 //! Whether a surface is closed, as a whole and solid by solid.
 
-use crate::ReadError;
 use crate::place::{counted, place};
 use crate::surface::Surface;
+use crate::{OddEdges, ReadError};
 use geom::edges::Edges;
 
 /// Edges with an odd number of triangles.
@@ -63,9 +63,16 @@ pub fn open_surface(surface: &Surface, edges: &Edges, odd: &[usize]) -> Option<R
     .flatten()
     .collect();
     (!parts.is_empty()).then(|| {
-        ReadError::BadSurface(format!(
-            "the surface is not closed: {}",
-            parts.join(" and ")
-        ))
+        let ends = |list: &[usize]| {
+            let points = |e: &usize| edges.ends[*e].map(|v| surface.points[v as usize]);
+            list.iter().map(points).collect()
+        };
+        ReadError::NotClosed {
+            message: format!("the surface is not closed: {}", parts.join(" and ")),
+            edges: Box::new(OddEdges {
+                open: ends(&open),
+                crowded: ends(&crowded),
+            }),
+        }
     })
 }

@@ -8,6 +8,7 @@ mod facet;
 mod format;
 mod grid;
 mod near;
+mod needles;
 mod obj;
 mod off;
 mod place;
@@ -28,7 +29,7 @@ mod vtu;
 mod weld;
 mod write;
 
-pub use error::ReadError;
+pub use error::{OddEdges, ReadError};
 pub use format::Format;
 pub use read::{Imported, read, sniff};
 pub use stream::{

@@ -4,6 +4,7 @@ use crate::closure::{groups_are_closed, odd_edges, open_surface};
 use crate::coincident::merge;
 use crate::document::{Labelled, check_scale, document, dropped, largest_coordinate, unique_names};
 use crate::near::near_points;
+use crate::needles;
 use crate::place::{counted, short};
 use crate::solids::{Labels, label};
 use crate::soup::Soup;
@@ -18,6 +19,9 @@ pub const NONE: u32 = u32::MAX;
 /// Points that differ by this many roundings of the largest coordinate are joined where the surface
 /// would stay open otherwise.
 const ROUNDINGS: f64 = 4.0;
+
+/// Gaps that are closed where that closes the whole surface, as shares of its size.
+const GAPS: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
 
 /// A welded surface whose triangles belong to solids.
 pub struct Surface {
@@ -64,7 +68,7 @@ impl Surface {
     }
 
     /// Drops triangles that name a point twice; returns how many.
-    fn drop_degenerate(&mut self) -> usize {
+    pub fn drop_degenerate(&mut self) -> usize {
         let before = self.triangles.len();
         let good = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[0] != t[2];
         if !self.triangles.iter().all(good) {
@@ -123,11 +127,22 @@ pub fn build(soup: Soup, format: &'static str) -> Result<Imported, ReadError> {
     }
     let mut odd = odd_edges(&edges);
     if !odd.is_empty()
-        && let Some(joined) = weld_near(&mut surface, &edges, &odd, relative_precision)
+        && let Some(joined) = close_gaps(&mut surface, &edges, &odd, relative_precision)
     {
         notices.push(joined);
         edges = Edges::new(&surface.triangles);
         odd = odd_edges(&edges);
+    }
+    if odd.is_empty() {
+        let rounding = relative_precision * largest_coordinate(&surface.points);
+        let removed = needles::remove(&mut surface, rounding);
+        if removed > 0 {
+            let (one, many) = ("triangle", "triangles");
+            let what = counted(removed, one, many);
+            notices.push(format!("{what} without area: removed"));
+            edges = Edges::new(&surface.triangles);
+            odd = odd_edges(&edges);
+        }
     }
     let several = surface.groups.len() > 1;
     let solids = if odd.is_empty() && several && groups_are_closed(&surface, &edges) {
@@ -186,34 +201,89 @@ fn used_groups(group_of: Vec<u32>, groups: Vec<String>) -> (Vec<u32>, Vec<String
     (group, kept)
 }
 
-/// Joins ends of odd edges that differ by rounding; says so if that did anything.
-fn weld_near(
+/// Joins ends of odd edges: those that differ by rounding, and if that does not close the surface,
+/// those within the smallest of a few shares of the size that does. Says so if that did anything.
+fn close_gaps(
     surface: &mut Surface,
     edges: &Edges,
     odd: &[usize],
     relative_precision: f64,
 ) -> Option<String> {
-    let tolerance = ROUNDINGS * relative_precision * largest_coordinate(&surface.points);
     let mut ends: Vec<u32> = odd.iter().flat_map(|&e| edges.ends[e]).collect();
     ends.sort_unstable();
     ends.dedup();
-    let joined = near_points(&surface.points, &ends, tolerance);
-    if joined.is_empty() {
-        return None;
+    let rounding = ROUNDINGS * relative_precision * largest_coordinate(&surface.points);
+    let by_rounding = joined(surface, &ends, rounding);
+    let is_closed = |triangles: &[[u32; 3]]| odd_edges(&Edges::new(triangles)).is_empty();
+    let rounded = by_rounding.as_ref().map(|(_, triangles)| triangles);
+    if rounded.is_none_or(|triangles| !is_closed(triangles)) {
+        let size = extent(surface);
+        // Gaps are small beside the edges along them.
+        let mut lengths: Vec<f64> = (odd.iter())
+            .map(|&e| {
+                let [a, b] = edges.ends[e].map(|v| surface.points[v as usize]);
+                (b - a).length()
+            })
+            .collect();
+        lengths.sort_by(f64::total_cmp);
+        let shortest = lengths.first().copied().unwrap_or(0.0);
+        for share in GAPS {
+            let gap = share * size;
+            if gap <= rounding || gap > 0.1 * shortest {
+                continue;
+            }
+            if let Some((count, triangles)) = joined(surface, &ends, gap)
+                && is_closed(&triangles)
+            {
+                surface.triangles = triangles;
+                surface.drop_degenerate();
+                return Some(format!(
+                    "{} to within {}, {share:e} of the size: joined, which closes the surface",
+                    counted(count, "point agrees", "points agree"),
+                    short(gap)
+                ));
+            }
+        }
     }
-    let mut new_id: Vec<u32> = (0..surface.points.len() as u32).collect();
-    for &(from, to) in &joined {
-        new_id[from as usize] = to;
-    }
-    for t in &mut surface.triangles {
-        *t = t.map(|v| new_id[v as usize]);
-    }
+    let (count, triangles) = by_rounding?;
+    surface.triangles = triangles;
     surface.drop_degenerate();
     Some(format!(
         "{} to within {} of each other, the rounding of the file: joined",
-        counted(joined.len(), "point agrees", "points agree"),
-        short(tolerance)
+        counted(count, "point agrees", "points agree"),
+        short(rounding)
     ))
+}
+
+/// The number of points among `ends` that others within `tolerance` stand for, and the triangles
+/// with those; `None` for none.
+fn joined(surface: &Surface, ends: &[u32], tolerance: f64) -> Option<(usize, Vec<[u32; 3]>)> {
+    let pairs = near_points(&surface.points, ends, tolerance);
+    if pairs.is_empty() {
+        return None;
+    }
+    let mut new_id: Vec<u32> = (0..surface.points.len() as u32).collect();
+    for &(from, to) in &pairs {
+        new_id[from as usize] = to;
+    }
+    let triangles = surface.triangles.iter();
+    let triangles = triangles.map(|t| t.map(|v| new_id[v as usize])).collect();
+    Some((pairs.len(), triangles))
+}
+
+/// Diagonal of the bounding box.
+fn extent(surface: &Surface) -> f64 {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for p in surface
+        .triangles
+        .iter()
+        .flatten()
+        .map(|v| surface.points[*v as usize])
+    {
+        low = low.min(p);
+        high = high.max(p);
+    }
+    (high - low).length()
 }
 
 /// Regions and markers from labels.

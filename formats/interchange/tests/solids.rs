@@ -260,6 +260,45 @@ fn rounding_is_welded_where_the_surface_would_be_open() {
 }
 
 #[test]
+fn gaps_are_closed_where_that_closes_the_surface() {
+    // Every corner of every facet somewhere else.
+    let mut facets = unit_cube([0.0; 3]);
+    for (i, facet) in facets.iter_mut().enumerate() {
+        for (j, x) in facet.iter_mut().flatten().enumerate() {
+            *x += 2e-5 * ((7 * i + 5 * j) % 11) as f64 / 11.0;
+        }
+    }
+    let imported = good(&binary_stl(b"", &facets), Stl);
+    let template = &imported.document.templates[0];
+    assert_eq!((template.vertices.len(), template.triangles.len()), (8, 12));
+    let said = &imported.notices[0];
+    assert!(said.contains("which closes the surface"), "{said}");
+    // Without a facet nothing closes it, and nothing is joined.
+    facets.pop();
+    let said = refused(&binary_stl(b"", &facets), Stl);
+    assert!(said.contains("open edges"), "{said}");
+}
+
+#[test]
+fn triangles_without_area_are_removed() {
+    // An edge divided on one side only, a triangle without area in between.
+    let mut facets = unit_cube([0.0; 3]);
+    let [a, b, c] = facets[0];
+    let middle = [0, 1, 2].map(|i| 0.5 * (a[i] + b[i]));
+    facets[0] = [a, middle, c];
+    facets.extend([[middle, b, c], [a, b, middle]]);
+    let imported = good(&binary_stl(b"", &facets), Stl);
+    assert_eq!(imported.notices, ["1 triangle without area: removed"]);
+    assert_eq!(regions(&imported), [(1, "region1", 1.0)]);
+    let template = &imported.document.templates[0];
+    assert_eq!((template.vertices.len(), template.triangles.len()), (9, 14));
+    for t in &template.triangles {
+        let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
+        assert!((b - a).cross(c - a).length() > 0.1);
+    }
+}
+
+#[test]
 fn pieces_of_one_solid_that_cross_are_read_with_a_warning() {
     let both = [unit_cube([0.0; 3]), unit_cube([0.5, 0.25, 0.125])].concat();
     let imported = good(&binary_stl(b"", &both), Stl);

@@ -96,11 +96,17 @@ impl Session {
             return Ok(document);
         }
         input.read_to_end(&mut head).map_err(read)?;
-        let Imported { document, notices } =
-            interchange::read(&head, format).map_err(|e: ReadError| e.to_string())?;
+        let Imported { document, notices } = interchange::read(&head, format).map_err(|error| {
+            let text = error.to_string();
+            if let ReadError::NotClosed { edges, .. } = error {
+                let _ = self.odd_edges.set(*edges);
+            }
+            text
+        })?;
         for notice in &notices {
             self.note(notice);
         }
+        let _ = self.notices.set(notices);
         Ok(document)
     }
 }

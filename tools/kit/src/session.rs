@@ -2,6 +2,7 @@
 
 use crate::CommonArgs;
 use indicatif::{ProgressBar, ProgressStyle};
+use interchange::OddEdges;
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::sync::OnceLock;
@@ -16,6 +17,10 @@ pub struct Session {
     begun: Instant,
     /// Chunks of the input, when it was a document.
     pub(crate) read: OnceLock<Vec<ChunkInfo>>,
+    /// What was said of the input when it was read.
+    pub(crate) notices: OnceLock<Vec<String>>,
+    /// Why the input could not be read, when its surface is not closed.
+    pub(crate) odd_edges: OnceLock<OddEdges>,
 }
 
 impl Session {
@@ -31,12 +36,24 @@ impl Session {
             common,
             begun: Instant::now(),
             read: OnceLock::new(),
+            notices: OnceLock::new(),
+            odd_edges: OnceLock::new(),
         }
     }
 
     /// The chunks that the input was made of; none when it was in a foreign format.
     pub fn chunks(&self) -> &[ChunkInfo] {
         self.read.get().map_or(&[], Vec::as_slice)
+    }
+
+    /// What the user was told about the input when it was read, a sentence each.
+    pub fn notices(&self) -> &[String] {
+        self.notices.get().map_or(&[], Vec::as_slice)
+    }
+
+    /// The edges that kept the input from being read, when its surface is not closed.
+    pub fn odd_edges(&self) -> Option<&OddEdges> {
+        self.odd_edges.get()
     }
 
     /// The tool's name.
