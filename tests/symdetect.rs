@@ -260,3 +260,118 @@ fn wrong_usage_and_bad_input() {
         &["folder.tmesh"],
     );
 }
+
+fn stl(document: &Document, path: &Path, change: impl Fn(&mut Vec<[DVec3; 3]>)) {
+    let template = &document.templates[0];
+    let corner = |v: u32| template.vertices[v as usize];
+    let mut facets: Vec<[DVec3; 3]> = (template.triangles.iter())
+        .map(|t| t.vertices.map(corner))
+        .collect();
+    change(&mut facets);
+    let mut text = "solid part\n".to_owned();
+    for facet in facets {
+        text += "facet normal 0 0 0\nouter loop\n";
+        for p in facet {
+            text += &format!("vertex {} {} {}\n", p.x, p.y, p.z);
+        }
+        text += "endloop\nendfacet\n";
+    }
+    std::fs::write(path, text + "endsolid part\n").unwrap();
+}
+
+#[test]
+fn defects_are_counted_and_placed() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = || -> Value {
+        let bytes = std::fs::read(folder.path().join("report.json")).unwrap();
+        serde_json::from_slice(&bytes).unwrap()
+    };
+    let body = wheel(7, false);
+    let path = folder.path().join("part.stl");
+    let arguments = ["part.stl", "--report", "report.json", "-o", "out.tmesh"];
+
+    // Two facets missing: their six edges, two of which they shared.
+    stl(&body, &path, |facets| {
+        facets.drain(0..2);
+    });
+    fails(&arguments, folder.path(), 3, &["4 open edges"]);
+    let found = report();
+    assert!(found["error"].as_str().unwrap().contains("not closed"));
+    let open = &found["defects"]["open_edges"];
+    assert_eq!(open["count"], 4);
+    assert_eq!(open["places"].as_array().unwrap().len(), 4);
+    assert_eq!(open["places"][0][0].as_array().unwrap().len(), 3);
+
+    // The top's middle pushed out through the bottom.
+    stl(&body, &path, |facets| {
+        for p in facets.iter_mut().flatten() {
+            if *p == DVec3::new(0.0, 0.0, 0.5) {
+                p.z = -0.4;
+            }
+        }
+    });
+    let run = symdetect(&arguments, folder.path());
+    assert!(run.status.success());
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(said.contains("crosses or touches itself at"), "{said}");
+    let crossings = &report()["defects"]["self_intersections"];
+    assert!(crossings["count"].as_u64().unwrap() > 10);
+    assert_eq!(crossings["at_least"], false);
+
+    // What was mended is in the report as well.
+    stl(&body, &path, |facets| {
+        facets[5].swap(0, 1);
+        facets.push(facets[9]);
+        facets.push(facets[9]);
+    });
+    assert!(symdetect(&arguments, folder.path()).status.success());
+    let found = report();
+    assert_eq!(found["group"], "C7v");
+    assert_eq!(found["defects"]["self_intersections"]["count"], 0);
+    let input = found["input"].to_string();
+    assert!(
+        input.contains("oriented against") && input.contains("twice"),
+        "{input}"
+    );
+
+    // A body without symmetry.
+    write(&dented(), &folder.path().join("part.tmesh"));
+    let arguments = ["part.tmesh", "--report", "report.json"];
+    fails(&arguments, folder.path(), 1, &["no symmetry"]);
+    assert!(report()["error"].as_str().unwrap().contains("no symmetry"));
+}
+
+#[test]
+fn draws_what_was_found() {
+    let folder = tempfile::tempdir().unwrap();
+    write(&wheel(7, false), &folder.path().join("wheel<7>.tmesh"));
+    let arguments = [
+        "wheel<7>.tmesh",
+        "--svg",
+        "wheel.svg",
+        "-v",
+        "-o",
+        "out.tmesh",
+    ];
+    let run = symdetect(&arguments, folder.path());
+    assert!(run.status.success());
+    let drawing = std::fs::read_to_string(folder.path().join("wheel.svg")).unwrap();
+    for part in [
+        "wheel&lt;7&gt;.tmesh: C7v",
+        "tolerance 1e-3",
+        "along the axis",
+        "</svg>",
+    ] {
+        assert!(drawing.contains(part), "no '{part}'");
+    }
+    assert_eq!(
+        drawing.matches("<line").count(),
+        7 + 1,
+        "mirror planes and the axis"
+    );
+    assert!(drawing.contains("order 7: ") && drawing.contains("order 24: "));
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(said.contains("7 mirror planes contain the axis"), "{said}");
+    let seventh = said.lines().find(|l| l.contains("     7  ")).unwrap();
+    assert!(seventh.ends_with("holds"), "{seventh}");
+}

@@ -1,11 +1,12 @@
 //! The command line of `symdetect`.
 
-use crate::{Error, Params, Report, available_threads, detect, svg};
+use crate::report::FailureReport;
+use crate::{Defects, Error, Params, Report, available_threads, detect, svg};
 use glam::DVec3;
 use kit::{Command, CommonArgs, Failure, Output, Session};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tmesh::MAX_TURN_DENOMINATOR;
+use tmesh::{Document, MAX_TURN_DENOMINATOR};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -64,6 +65,8 @@ pub struct Cli {
     svg: Option<PathBuf>,
 }
 
+/// Triangles up to which a surface is checked without a report being asked for.
+const ALWAYS_CHECKED: usize = 200_000;
 /// Half a step must still be a turn that can be stored.
 const MAX_ORDER: u32 = MAX_TURN_DENOMINATOR / 4;
 
@@ -117,6 +120,37 @@ impl From<Error> for Failure {
     }
 }
 
+impl Cli {
+    /// Defects of the surface, told to the user.
+    fn defects(&self, document: &Document, session: &Session) -> Defects {
+        let [template] = document.templates.as_slice() else {
+            return Defects::default();
+        };
+        if self.report.is_none() && template.triangles.len() > ALWAYS_CHECKED {
+            return Defects::default();
+        }
+        let defects = Defects::find(template);
+        for note in defects.notes() {
+            session.note(&note);
+        }
+        session.info("surface checked");
+        defects
+    }
+
+    /// Writes the report of a failure; what goes wrong with that is only told.
+    fn report_failure(&self, failure: &Failure, defects: &Defects, session: &Session) {
+        let Some(path) = &self.report else { return };
+        let report = FailureReport {
+            error: failure.to_string(),
+            defects,
+            input: session.notices(),
+        };
+        if let Err(e) = json(&report).and_then(|text| write_text(path, &text)) {
+            session.note(&e.to_string());
+        }
+    }
+}
+
 impl Command for Cli {
     fn common(&self) -> &CommonArgs {
         &self.common
@@ -124,8 +158,17 @@ impl Command for Cli {
 
     fn run(self, session: &Session) -> Result<(), Failure> {
         let params = self.params();
-        let mut document = session.read()?;
-        let found = detect(&document, &params, &mut |text| session.info(text))?;
+        let mut document = session.read().inspect_err(|failure| {
+            let defects = session.odd_edges().map(Defects::of_open);
+            self.report_failure(failure, &defects.unwrap_or_default(), session);
+        })?;
+        let defects = self.defects(&document, session);
+        let found = detect(&document, &params, &mut |text| session.info(text));
+        let found = found.map_err(|error| {
+            let failure = Failure::from(error);
+            self.report_failure(&failure, &defects, session);
+            failure
+        })?;
         if let Some(reason) = &found.asymmetric {
             session.note(&format!("passed on as C1: {reason}"));
         }
@@ -143,7 +186,10 @@ impl Command for Cli {
             }
         }
         if let Some(path) = &self.report {
-            write_text(path, &json(&Report::new(&document, &found))?)?;
+            write_text(
+                path,
+                &json(&Report::new(&document, &found, &defects, session.notices()))?,
+            )?;
         }
         if let Some(path) = &self.svg {
             let input = self.common.input.as_deref().and_then(Path::file_name);

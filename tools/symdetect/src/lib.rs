@@ -9,6 +9,7 @@
 mod candidates;
 mod cli;
 mod complete;
+mod defects;
 mod detect;
 mod drawing;
 mod eigen;
@@ -36,6 +37,7 @@ mod bodies;
 mod tests;
 
 pub use cli::Cli;
+pub use defects::{Defects, Places};
 pub use detect::{Detection, detect};
 pub use error::{At, Closest, Error};
 pub use report::Report;

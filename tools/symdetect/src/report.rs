@@ -1,5 +1,6 @@
 //! The JSON report.
 
+use crate::defects::Defects;
 use crate::detect::Detection;
 use crate::summary::OrderResidual;
 use serde::Serialize;
@@ -17,6 +18,10 @@ pub struct Report<'a> {
     pub regions: Vec<ReportRegion<'a>>,
     /// How far the body is off under each order about the axis.
     pub orders: &'a [OrderResidual],
+    /// Defects of the surface.
+    pub defects: &'a Defects,
+    /// What reading the input had to mend or leave, a sentence each.
+    pub input: &'a [String],
     /// Remarks, a sentence each.
     pub notes: &'a [String],
 }
@@ -32,7 +37,12 @@ pub struct ReportRegion<'a> {
 
 impl<'a> Report<'a> {
     /// The report on a document.
-    pub fn new(document: &'a Document, found: &'a Detection) -> Self {
+    pub fn new(
+        document: &'a Document,
+        found: &'a Detection,
+        defects: &'a Defects,
+        input: &'a [String],
+    ) -> Self {
         Self {
             symmetry: &found.symmetry,
             triangles: document.templates.iter().map(|t| t.triangles.len()).sum(),
@@ -43,7 +53,20 @@ impl<'a> Report<'a> {
                 })
                 .collect(),
             orders: &found.profile,
+            defects,
+            input,
             notes: &found.notes,
         }
     }
+}
+
+/// What `--report` writes when there is no symmetry to report.
+#[derive(Debug, Serialize)]
+pub struct FailureReport<'a> {
+    /// Why, as on standard error.
+    pub error: String,
+    /// Defects of the surface.
+    pub defects: &'a Defects,
+    /// What reading the input had to mend or leave, a sentence each.
+    pub input: &'a [String],
 }
