@@ -138,16 +138,62 @@ impl Kind {
     /// A body of radius about 1 and height 0.8, with lobes of the given depth and `per_lobe` facets
     /// around each.
     pub fn body(self, n: u32, per_lobe: usize, depth: f64) -> Document {
-        let layers = 8;
-        let points: Vec<(f64, f64)> = (0..=layers)
-            .map(|i| (1.0, 0.8 * f64::from(i) / f64::from(layers) - 0.4))
+        profile(n as usize * per_lobe, &levels(8), self.shape(n, depth))
+    }
+
+    /// The same body with `facets` and up to a quarter more facets around each of its levels, another
+    /// number for each and begun anywhere, so that nothing of the drawing is symmetric.
+    pub fn uneven_body(self, n: u32, facets: usize, depth: f64, random: &mut Random) -> Document {
+        let levels = levels(16);
+        let counts: Vec<(usize, f64)> = (levels.iter())
+            .map(|_| (facets + random.below(facets / 4), random.unit()))
             .collect();
+        let shape = self.shape(n, depth);
+        let (mut vertices, mut triangles, mut first) = (Vec::new(), Vec::new(), Vec::new());
+        for (&(r, z), &(count, phase)) in levels.iter().zip(&counts) {
+            first.push(vertices.len());
+            for i in 0..count {
+                let a = TAU * (i as f64 + phase) / count as f64;
+                let (r, z) = shape(a, r, z);
+                vertices.push(DVec3::new(r * a.cos(), r * a.sin(), z));
+            }
+        }
+        let id = |row: usize, i: usize| (first[row] + i % counts[row].0) as u32;
+        for row in 0..levels.len() - 1 {
+            let at = |row: usize, i: usize| (i as f64 + counts[row].1) / counts[row].0 as f64;
+            let (mut i, mut j) = (0, 0);
+            while i < counts[row].0 || j < counts[row + 1].0 {
+                let (a, b) = (id(row, i), id(row + 1, j));
+                let below = j == counts[row + 1].0
+                    || i < counts[row].0 && at(row, i + 1) < at(row + 1, j + 1);
+                if below {
+                    triangles.push([a, id(row, i + 1), b]);
+                    i += 1;
+                } else {
+                    triangles.push([a, id(row + 1, j + 1), b]);
+                    j += 1;
+                }
+            }
+        }
+        for (row, up) in [(0, false), (levels.len() - 1, true)] {
+            let middle = vertices.len() as u32;
+            vertices.push(DVec3::new(0.012, 0.007, levels[row].1));
+            for i in 0..counts[row].0 {
+                let (a, b) = (id(row, i), id(row, i + 1));
+                triangles.push(if up { [middle, a, b] } else { [middle, b, a] });
+            }
+        }
+        document(vertices, triangles)
+    }
+
+    /// Moves a point of a cylinder, given its angle, radius and height, to the body's surface.
+    fn shape(self, n: u32, depth: f64) -> impl Fn(f64, f64, f64) -> (f64, f64) {
         let n_f = f64::from(n);
         let saw = |t: f64| {
             let x = (t / TAU).rem_euclid(1.0);
             if x < 0.75 { x / 0.75 } else { (1.0 - x) / 0.25 }
         };
-        profile(n as usize * per_lobe, &points, |a, _, z| {
+        move |a, _, z| {
             let u = z / 0.4;
             let (wave, taper) = match self {
                 Self::Cn => (saw(n_f * a), 1.0 - 0.2 * u),
@@ -159,8 +205,15 @@ impl Kind {
                 Self::S2n => (u * (n_f * a).cos() + u * u * u * (n_f * a).sin(), 1.0),
             };
             ((1.0 - depth + depth * wave) * taper, z)
-        })
+        }
     }
+}
+
+/// Radius and height of the levels of a body.
+fn levels(layers: u32) -> Vec<(f64, f64)> {
+    (0..=layers)
+        .map(|i| (1.0, 0.8 * f64::from(i) / f64::from(layers) - 0.4))
+        .collect()
 }
 
 /// Puts a body somewhere, at some scale, with noise of the given share of the size on every

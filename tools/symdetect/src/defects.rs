@@ -1,5 +1,6 @@
 //! Defects of the surface that do not keep it from being read, with places.
 
+use crate::facets::Flats;
 use geom::contacts::{Search, contacts};
 use geom::edges::Edges;
 use glam::DVec3;
@@ -86,11 +87,20 @@ impl Defects {
                 _ => {}
             }
         }
+        // What lies in one plane and is joined along edges does not cross itself, and may be fans of
+        // many triangles around one point, all of which would have to be compared.
+        let normals: Vec<DVec3> = (triangles.iter())
+            .map(|t| {
+                let [a, b, c] = t.map(|v| template.vertices[v as usize]);
+                (b - a).cross(c - a).normalize_or_zero()
+            })
+            .collect();
+        let flats = Flats::new(&triangles, &normals, &edges);
         let mut found = Places::default();
         let search = contacts(
             &template.vertices,
             &triangles,
-            |t| t,
+            |t| flats.of[t as usize],
             |contact| {
                 found.add(contact.point.to_array());
                 found.count < COUNTED

@@ -110,9 +110,9 @@ fn smooth(edges: &Edges, edge: usize, normals: &[DVec3]) -> Option<(usize, usize
 }
 
 /// Triangles that lie in one plane and hang together.
-struct Flats {
+pub struct Flats {
     /// Flat of each triangle.
-    of: Vec<u32>,
+    pub of: Vec<u32>,
     /// Prefix offsets into `corners`, one more than there are flats.
     first: Vec<u32>,
     /// Some vertices of each flat.
@@ -121,7 +121,7 @@ struct Flats {
 
 impl Flats {
     /// Grows flats from their first triangle, so that they cannot creep around a bend. Linear.
-    fn new(triangles: &[[u32; 3]], normals: &[DVec3], edges: &Edges) -> Self {
+    pub fn new(triangles: &[[u32; 3]], normals: &[DVec3], edges: &Edges) -> Self {
         const NONE: u32 = u32::MAX;
         let mut beside = vec![[NONE; 3]; triangles.len()];
         for edge in 0..edges.len() {
@@ -145,7 +145,7 @@ impl Flats {
                 members.extend(triangles[t]);
                 for s in beside[t].into_iter().filter(|s| *s != NONE) {
                     let s = s as usize;
-                    if of[s] == NONE && normals[s].dot(normals[seed]).abs() > COPLANAR {
+                    if of[s] == NONE && normals[s].dot(normals[seed]) > COPLANAR {
                         of[s] = flat;
                         queue.push(s);
                     }

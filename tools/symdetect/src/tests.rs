@@ -4,6 +4,7 @@ use crate::bodies::{self, Kind};
 use crate::samples::Random;
 use crate::{Error, Params, detect};
 use glam::DVec3;
+use std::f64::consts::TAU;
 use tmesh::{Document, Symmetry, Template};
 
 fn find(body: &Document) -> Symmetry {
@@ -477,6 +478,58 @@ fn the_same_every_time() {
     };
     assert_eq!(with(1), with(1));
     assert_eq!(with(1), with(3));
+}
+
+#[test]
+fn rings_of_different_facets() {
+    let mut random = Random(12);
+    for (kind, n) in [(Kind::Dnd, 3), (Kind::Cnv, 5), (Kind::Cnh, 2)] {
+        let body = kind.uneven_body(n, 160, 0.12, &mut random);
+        let found = find(&bodies::place(&body, &mut random, 1.0, 1e-5));
+        assert_eq!(found.group, kind.symbol(n), "residual {}", found.residual);
+    }
+}
+
+#[test]
+#[ignore = "a table over many bodies; run it with --release"]
+fn confusion_of_drawings() {
+    let mut random = Random(13);
+    for noise in [0.0, 1e-6, 1e-5, 1e-4] {
+        let (mut right, mut all, mut worst) = (0, 0, 0.0_f64);
+        for kind in Kind::ALL {
+            for n in [2, 3, 5, 8, 16, 31, 64, 128, 256] {
+                let depth = (0.5 / f64::from(n)).clamp(4e-3, 0.12);
+                // The saw has corners, which are drawn with chords as well.
+                let bend = 1.0 + depth * f64::from(n * n);
+                let saw = matches!(kind, Kind::Cn | Kind::Cnh);
+                let facets = match saw {
+                    true => (TAU * 4.0 * depth * f64::from(n) / 6e-4) as usize,
+                    false => (TAU * (bend / 8.0 / 3e-4).sqrt()) as usize,
+                };
+                let body = kind.uneven_body(n, facets.max(40), depth, &mut random);
+                let body = match all % 2 {
+                    0 => body,
+                    _ => bodies::split_faces(&body, &mut random, 0.3),
+                };
+                let placed = bodies::place(&body, &mut random, 1.0, noise);
+                all += 1;
+                match find_with(&placed, &Params::default()) {
+                    Ok(s) if s.group == kind.symbol(n) => {
+                        right += 1;
+                        worst = worst.max(s.residual);
+                    }
+                    Ok(s) => eprintln!(
+                        "noise {noise:e}, {}: found {}, residual {:e}",
+                        kind.symbol(n),
+                        s.group,
+                        s.residual
+                    ),
+                    Err(e) => eprintln!("noise {noise:e}, {}: {e}", kind.symbol(n)),
+                }
+            }
+        }
+        eprintln!("noise {noise:e}: {right} of {all} right, residual up to {worst:.1e}");
+    }
 }
 
 #[test]
