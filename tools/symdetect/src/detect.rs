@@ -157,8 +157,17 @@ impl Job<'_> {
             return false;
         }
         let limits = Limits::new((1.0 + FACETS) * self.limits.tolerance);
+        let orders = match best {
+            Some(b) if self.params.order.is_none() => b.order + 1..=self.params.max_order,
+            _ => self.orders(),
+        };
+        // Besides an axis of order above two there is no other one, unless the body is isotropic.
+        let main = best.filter(|b| b.distinct && b.order > 2);
+        let main = main.filter(|_| !candidates::principal(self.shape).isotropic);
+        let main = main.map(|b| [b.frame.rotation.z_axis]);
+        let directions = main.as_ref().map_or(directions, |m| m.as_slice());
         directions.iter().take(12).any(|&d| {
-            let (shape, orders) = (self.shape, self.orders());
+            let (shape, orders) = (self.shape, orders.clone());
             find_rotation(shape, self.centre, d, false, orders, limits, Depth::Quick)
                 .is_some_and(|r| best.is_none_or(|b| r.rank() > b.rank()))
         })
