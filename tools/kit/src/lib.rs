@@ -11,6 +11,6 @@ mod session;
 
 pub use args::CommonArgs;
 pub use failure::Failure;
-pub use output::Output;
+pub use output::{Closed, Output};
 pub use run::{Command, main};
 pub use session::{Progress, Session};

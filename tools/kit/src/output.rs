@@ -5,7 +5,7 @@ use interchange::{Format, WriteError, write_document, write_text};
 use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 use tmesh::Document;
 
 /// Collects small writes; large ones pass through.
@@ -82,21 +82,53 @@ impl Output {
 
     /// Flushes, and moves a file to its final name.
     pub fn commit(self) -> Result<(), Failure> {
+        self.close()?.publish()
+    }
+
+    /// Flushes and closes, and leaves it to [`Closed::publish`] to move a file to its final name.
+    pub fn close(self) -> Result<Closed, Failure> {
         let fail = |e: io::Error| Failure::writing(&self.name, &e);
-        match self.target {
-            Target::Stdout(mut out) => out.flush().map_err(fail),
-            Target::Special(mut out) => out.flush().map_err(fail),
+        let file = match self.target {
+            Target::Stdout(mut out) => {
+                out.flush().map_err(fail)?;
+                None
+            }
+            Target::Special(mut out) => {
+                out.flush().map_err(fail)?;
+                None
+            }
             Target::File { file, path } => {
                 let file = file.into_inner().map_err(|e| fail(e.into_error()))?;
-                file.persist(path).map_err(|e| fail(e.error))?;
-                Ok(())
+                Some((file.into_temp_path(), path))
             }
-        }
+        };
+        Ok(Closed {
+            file,
+            name: self.name,
+        })
     }
 
     /// The failure that an error while writing here means.
     pub fn failure(&self, error: &io::Error) -> Failure {
         Failure::writing(&self.name, error)
+    }
+}
+
+/// An output that is whole, but not yet seen under its name.
+pub struct Closed {
+    file: Option<(TempPath, PathBuf)>,
+    name: String,
+}
+
+impl Closed {
+    /// Moves a file to its final name.
+    pub fn publish(self) -> Result<(), Failure> {
+        match self.file {
+            Some((file, path)) => file
+                .persist(path)
+                .map_err(|e| Failure::writing(&self.name, &e.error)),
+            None => Ok(()),
+        }
     }
 }
 
@@ -182,13 +214,35 @@ impl Session {
         fill: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
     ) -> Result<(), Failure> {
         let mut out = self.create_output(format)?;
-        fill(&mut out).map_err(|error| match error {
-            WriteError::Io(error) => out.failure(&error),
-            WriteError::NotAnOutput(_) => Failure::Usage(error.to_string()),
-            error => Failure::Impossible(error.to_string()),
-        })?;
+        fill(&mut out).map_err(|error| write_failure(error, &out))?;
         out.commit()?;
         self.info("written");
         Ok(())
+    }
+
+    /// Writes several files, one after another, and makes them appear under their names when all are
+    /// whole; `fill` gets their positions.
+    pub fn write_files(
+        &self,
+        paths: &[PathBuf],
+        mut fill: impl FnMut(usize, &mut dyn Write) -> Result<(), WriteError>,
+    ) -> Result<(), Failure> {
+        let mut closed = Vec::with_capacity(paths.len());
+        for (i, path) in paths.iter().enumerate() {
+            let mut out = Output::create(Some(path), false)?;
+            fill(i, &mut out).map_err(|error| write_failure(error, &out))?;
+            closed.push(out.close()?);
+        }
+        closed.into_iter().try_for_each(Closed::publish)?;
+        self.info(&format!("{} files written", paths.len()));
+        Ok(())
+    }
+}
+
+fn write_failure(error: WriteError, out: &Output) -> Failure {
+    match error {
+        WriteError::Io(error) => out.failure(&error),
+        WriteError::NotAnOutput(_) => Failure::Usage(error.to_string()),
+        error => Failure::Impossible(error.to_string()),
     }
 }
