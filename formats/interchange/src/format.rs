@@ -23,13 +23,25 @@ pub enum Format {
     Vtk,
     /// VTK XML unstructured grid.
     Vtu,
+    /// VTK XML unstructured grid in pieces, one per instance.
+    Pvtu,
+    /// Gmsh, version 4.1.
+    Msh,
+    /// Gmsh, version 2.2.
+    Msh2,
+    /// Medit.
+    Medit,
+    /// Abaqus and CalculiX input.
+    Inp,
+    /// TetGen mesh: files for nodes, elements and faces.
+    Node,
     /// A readable listing of a document.
     Text,
 }
 
 impl Format {
     /// All formats, in the order they are listed to users.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 16] = [
         Self::Tmesh,
         Self::Stl,
         Self::Obj,
@@ -39,6 +51,12 @@ impl Format {
         Self::Smesh,
         Self::Vtk,
         Self::Vtu,
+        Self::Pvtu,
+        Self::Msh,
+        Self::Msh2,
+        Self::Medit,
+        Self::Inp,
+        Self::Node,
         Self::Text,
     ];
 
@@ -54,12 +72,22 @@ impl Format {
             Self::Smesh => "smesh",
             Self::Vtk => "vtk",
             Self::Vtu => "vtu",
+            Self::Pvtu => "pvtu",
+            Self::Msh => "msh",
+            Self::Msh2 => "msh2",
+            Self::Medit => "mesh",
+            Self::Inp => "inp",
+            Self::Node => "node",
             Self::Text => "txt",
         }
     }
 
     /// The format with this name, in any case.
     pub fn from_name(name: &str) -> Option<Self> {
+        // Every file of a TetGen mesh stands for all of them.
+        if ["ele", "face"].iter().any(|n| n.eq_ignore_ascii_case(name)) {
+            return Some(Self::Node);
+        }
         Self::ALL
             .into_iter()
             .find(|f| f.name().eq_ignore_ascii_case(name))
@@ -72,6 +100,9 @@ impl Format {
 
     /// Whether its bytes are not text.
     pub fn is_binary(self) -> bool {
-        matches!(self, Self::Tmesh | Self::Stl | Self::Vtk | Self::Vtu)
+        matches!(
+            self,
+            Self::Tmesh | Self::Stl | Self::Vtk | Self::Vtu | Self::Msh | Self::Msh2
+        )
     }
 }

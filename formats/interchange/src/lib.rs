@@ -7,6 +7,7 @@ mod error;
 mod facet;
 mod format;
 mod grid;
+mod middles;
 mod near;
 mod needles;
 mod obj;
@@ -18,6 +19,7 @@ mod poly;
 mod polygon;
 mod read;
 mod segments;
+pub mod sides;
 mod solids;
 mod soup;
 mod stl;
@@ -31,12 +33,13 @@ mod write;
 
 pub use error::{OddEdges, ReadError};
 pub use format::Format;
+pub use middles::{Middles, TooManyPoints, second_order};
 pub use read::{Imported, read, sniff};
 pub use stream::{
-    MeshStream, PointSink, TetBlock, TetRegionBlock, TetRegionSink, TetSink, TriangleBlock,
-    TriangleSink,
+    Coupling, Label, MeshStream, Patch, PatchBlock, PatchSink, PointSink, Side, TetBlock,
+    TetRegionBlock, TetRegionSink, TetSink, TriangleBlock, TriangleSink,
 };
 pub use write::{
-    Plain, Surface, WriteError, WriteOptions, parse_promise, promise_title, size_estimate, write,
-    write_document, write_text,
+    Plain, Surface, WriteError, WriteOptions, file_parts, parse_promise, placed_side,
+    promise_title, size_estimate, write, write_document, write_part, write_pieces, write_text,
 };

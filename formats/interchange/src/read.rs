@@ -65,6 +65,12 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Imported, ReadError> {
         Format::Off => surface::build(off::read(bytes)?, "off"),
         Format::Vtk => grid::build(vtk::read(bytes)?, "vtk"),
         Format::Vtu => grid::build(vtu::read(bytes)?, "vtu"),
-        Format::Text => Err(ReadError::NotAnInput(format.name())),
+        Format::Pvtu
+        | Format::Msh
+        | Format::Msh2
+        | Format::Medit
+        | Format::Inp
+        | Format::Node
+        | Format::Text => Err(ReadError::NotAnInput(format.name())),
     }
 }

@@ -242,7 +242,9 @@ impl Session {
 fn write_failure(error: WriteError, out: &Output) -> Failure {
     match error {
         WriteError::Io(error) => out.failure(&error),
-        WriteError::NotAnOutput(_) => Failure::Usage(error.to_string()),
+        WriteError::NotAnOutput(_) | WriteError::SeveralFiles(_) | WriteError::NoSecondOrder(_) => {
+            Failure::Usage(error.to_string())
+        }
         error => Failure::Impossible(error.to_string()),
     }
 }

@@ -3,11 +3,15 @@
 use crate::numbering::{Numbering, NumberingError};
 use crate::promise::{is_trivial, promise};
 use glam::DVec3;
+use interchange::sides::{by_label, face_tets, marker_label};
 use interchange::{
-    MeshStream, PointSink, TetBlock, TetRegionBlock, TetRegionSink, TetSink, TriangleBlock,
-    TriangleSink, promise_title,
+    Label, MeshStream, Middles, Patch, PatchBlock, PatchSink, PointSink, TetBlock, TetRegionBlock,
+    TetRegionSink, TetSink, TriangleBlock, TriangleSink, placed_side, promise_title,
 };
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
 use std::io;
+use std::ops::Range;
 use tmesh::{Document, Instance, Isometry, Marker, OUTSIDE, Promise, Region, Tet, Triangle, Wall};
 
 /// Elements per block.
@@ -19,12 +23,22 @@ const BLOCK: usize = 8192;
 /// Triangles on closed walls are left out unless the regions on their two sides differ: then they
 /// are interfaces, and come once. Elements of orientation-reversing instances are turned over.
 pub struct Assembled<'a> {
-    document: &'a Document,
-    numbering: Numbering,
+    pub(crate) document: &'a Document,
+    pub(crate) numbering: Numbering,
     promise: Promise,
     /// Triangles of each template that are on no closed wall, increasing.
     kept: Vec<Vec<u32>>,
+    /// The same by label.
+    labelled: Vec<BTreeMap<Label, Vec<u32>>>,
+    /// Whether an instance has interfaces on closed walls.
+    has_interfaces: Vec<bool>,
     triangle_count: u64,
+    patches: Vec<Patch>,
+    /// Position of each instance's first tetrahedron.
+    first_tet: Vec<u64>,
+    /// Tetrahedra that triangles are faces of, per template.
+    sides: OnceCell<Vec<Vec<(u32, u8)>>>,
+    middles: Option<&'a Middles>,
 }
 
 impl<'a> Assembled<'a> {
@@ -33,20 +47,64 @@ impl<'a> Assembled<'a> {
     /// # Errors
     /// See [`Numbering::new`].
     pub fn new(document: &'a Document) -> Result<Self, NumberingError> {
+        Self::of_order(document, None)
+    }
+
+    /// The assembled mesh of a document that [`interchange::second_order`] made, with its middles.
+    ///
+    /// # Errors
+    /// See [`Numbering::new`].
+    pub fn of_order(
+        document: &'a Document,
+        middles: Option<&'a Middles>,
+    ) -> Result<Self, NumberingError> {
         let mut mesh = Self {
             document,
             numbering: Numbering::new(document)?,
             promise: promise(document),
             kept: Vec::new(),
+            labelled: Vec::new(),
+            has_interfaces: Vec::new(),
             triangle_count: 0,
+            patches: Vec::new(),
+            first_tet: Vec::new(),
+            sides: OnceCell::new(),
+            middles,
         };
         mesh.kept = mesh.triangles_off_walls();
+        let marker = |t: usize, i: u32| document.templates[t].triangles[i as usize].marker;
+        let lists = mesh.kept.iter().enumerate();
+        mesh.labelled = lists
+            .map(|(t, list)| by_label(list.iter().map(|&i| (i, marker_label(marker(t, i))))))
+            .collect();
+        let mut counts: BTreeMap<Label, u64> = BTreeMap::new();
+        let mut first_tet = 0;
         for (i, instance) in document.instances.iter().enumerate() {
-            let mut count = mesh.kept[instance.template as usize].len() as u64;
-            mesh.interfaces(i, &mut |_, _, _| count += 1);
-            mesh.triangle_count += count;
+            let t = instance.template as usize;
+            for (&label, list) in &mesh.labelled[t] {
+                *counts.entry(label).or_default() += list.len() as u64;
+            }
+            let mut any = false;
+            mesh.interfaces(i, &mut |triangle, _, _| {
+                *counts.entry(marker_label(marker(t, triangle))).or_default() += 1;
+                any = true;
+            });
+            mesh.has_interfaces.push(any);
+            mesh.first_tet.push(first_tet);
+            first_tet += document.templates[t].tets.len() as u64;
         }
+        mesh.triangle_count = counts.values().sum();
+        let patches = counts.into_iter();
+        mesh.patches = patches
+            .map(|(label, triangles)| Patch { label, triangles })
+            .collect();
         Ok(mesh)
+    }
+
+    fn sides(&self) -> &[Vec<(u32, u8)>] {
+        let templates = self.document.templates.iter();
+        self.sides
+            .get_or_init(|| templates.map(face_tets).collect())
     }
 
     /// The symmetry the mesh has by construction.
@@ -138,7 +196,7 @@ impl<'a> Assembled<'a> {
         }
     }
 
-    fn place_regions(&self, instance: &Instance, tets: &[Tet], regions: &mut Vec<u32>) {
+    pub(crate) fn place_regions(&self, instance: &Instance, tets: &[Tet], regions: &mut Vec<u32>) {
         regions.clear();
         if instance.region_map == 0 {
             regions.extend(tets.iter().map(|tet| tet.region));
@@ -148,14 +206,103 @@ impl<'a> Assembled<'a> {
         }
     }
 
-    fn world(&self, isometry: Isometry) -> impl Fn(DVec3) -> DVec3 + use<> {
+    /// Gives the tetrahedra of some instances, with ids of the whole mesh or, when `local`, of the
+    /// template.
+    pub(crate) fn give_tets(
+        &self,
+        instances: Range<usize>,
+        local: bool,
+        sink: &mut TetSink<'_>,
+    ) -> io::Result<()> {
+        let mut ids = Vec::new();
+        let mut vertices = Vec::with_capacity(BLOCK);
+        let mut regions = Vec::with_capacity(BLOCK);
+        let mut middles = Vec::new();
+        for i in instances {
+            let instance = &self.document.instances[i];
+            let tets = &self.document.templates[instance.template as usize].tets;
+            if tets.is_empty() {
+                continue;
+            }
+            self.point_ids(i, local, &mut ids);
+            let reversed = instance.isometry.reverses_orientation();
+            for (chunk, part) in tets.chunks(BLOCK).enumerate() {
+                middles.clear();
+                if let Some(all) = self.middles {
+                    let at = chunk * BLOCK;
+                    let of_part = &all.tets[instance.template as usize][at..at + part.len()];
+                    middles.extend(of_part.iter().map(|&middles| {
+                        let turned = if reversed {
+                            Middles::reversed(middles)
+                        } else {
+                            middles
+                        };
+                        turned.map(|v| ids[v as usize])
+                    }));
+                }
+                vertices.clear();
+                let mapped = part.iter().map(|tet| tet.vertices.map(|v| ids[v as usize]));
+                if reversed {
+                    vertices.extend(mapped.map(|[a, b, c, d]| [a, b, d, c]));
+                } else {
+                    vertices.extend(mapped);
+                }
+                self.place_regions(instance, part, &mut regions);
+                sink(&TetBlock {
+                    vertices: &vertices,
+                    middles: &middles,
+                    regions: &regions,
+                    instance: i as u32,
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn point_ids(&self, instance: usize, local: bool, ids: &mut Vec<u32>) {
+        if local {
+            let template = self.document.instances[instance].template as usize;
+            ids.clear();
+            ids.extend(0..self.document.templates[template].vertices.len() as u32);
+        } else {
+            self.numbering.ids(instance, ids);
+        }
+    }
+
+    /// Gives the regions of the tetrahedra of some instances.
+    pub(crate) fn give_regions(
+        &self,
+        instances: Range<usize>,
+        sink: &mut TetRegionSink<'_>,
+    ) -> io::Result<()> {
+        let mut regions = Vec::with_capacity(BLOCK);
+        for i in instances {
+            let instance = &self.document.instances[i];
+            let tets = &self.document.templates[instance.template as usize].tets;
+            for part in tets.chunks(BLOCK) {
+                self.place_regions(instance, part, &mut regions);
+                sink(&TetRegionBlock {
+                    regions: &regions,
+                    instance: i as u32,
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn world(&self, isometry: Isometry) -> impl Fn(DVec3) -> DVec3 + use<> {
         let placed = isometry.placed();
         let frame = self.document.frame;
         move |p| frame.to_world(placed.apply(p))
     }
 
     /// World position of a vertex of an instance, the same for all copies of the point.
-    fn position(&self, instance: usize, vertex: u32, own: &impl Fn(DVec3) -> DVec3) -> DVec3 {
+    pub(crate) fn position(
+        &self,
+        instance: usize,
+        vertex: u32,
+        own: &impl Fn(DVec3) -> DVec3,
+    ) -> DVec3 {
         let (owner, vertex) = self.numbering.owner(instance, vertex);
         let place = &self.document.instances[owner];
         let p = self.document.templates[place.template as usize].vertices[vertex as usize];
@@ -166,15 +313,31 @@ impl<'a> Assembled<'a> {
         }
     }
 
-    fn give_triangles<const CORNERS: bool>(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
+    /// Number of triangles of one instance.
+    pub(crate) fn triangles_of(&self, instance: usize) -> u64 {
+        let template = self.document.instances[instance].template;
+        let mut count = self.kept[template as usize].len() as u64;
+        self.interfaces(instance, &mut |_, _, _| count += 1);
+        count
+    }
+
+    /// Gives the triangles of some instances, with ids of the whole mesh or, when `local`, of the
+    /// template.
+    pub(crate) fn give_triangles<const CORNERS: bool>(
+        &self,
+        instances: Range<usize>,
+        local: bool,
+        sink: &mut TriangleSink<'_>,
+    ) -> io::Result<()> {
         let mut ids = Vec::new();
         let mut block = Block::default();
-        for (i, instance) in self.document.instances.iter().enumerate() {
+        for i in instances {
+            let instance = &self.document.instances[i];
             let triangles = &self.document.templates[instance.template as usize].triangles;
             if triangles.is_empty() {
                 continue;
             }
-            self.numbering.ids(i, &mut ids);
+            self.point_ids(i, local, &mut ids);
             let reversed = instance.isometry.reverses_orientation();
             let world = self.world(instance.isometry);
             let mut add = |block: &mut Block, t: u32, sides: Option<[u32; 2]>| {
@@ -184,6 +347,15 @@ impl<'a> Assembled<'a> {
                 let stored = [triangle.front, triangle.back];
                 let placed = stored.map(|region| self.document.placed_region(instance, region));
                 block.vertices.push(turned.map(|v| ids[v as usize]));
+                if let Some(all) = self.middles {
+                    let middles = all.triangles[instance.template as usize][t as usize];
+                    let turned = if reversed {
+                        Middles::turned(middles)
+                    } else {
+                        middles
+                    };
+                    block.middles.push(turned.map(|v| ids[v as usize]));
+                }
                 if CORNERS {
                     let corners = turned.map(|v| self.position(i, v, &world));
                     block.corners.push(corners);
@@ -280,56 +452,75 @@ impl MeshStream for Assembled<'_> {
     }
 
     fn tets(&self, sink: &mut TetSink<'_>) -> io::Result<()> {
-        let mut ids = Vec::new();
-        let mut vertices = Vec::with_capacity(BLOCK);
-        let mut regions = Vec::with_capacity(BLOCK);
-        for (i, instance) in self.document.instances.iter().enumerate() {
-            let tets = &self.document.templates[instance.template as usize].tets;
-            if tets.is_empty() {
-                continue;
-            }
-            self.numbering.ids(i, &mut ids);
-            let reversed = instance.isometry.reverses_orientation();
-            for part in tets.chunks(BLOCK) {
-                vertices.clear();
-                let mapped = part.iter().map(|tet| tet.vertices.map(|v| ids[v as usize]));
-                if reversed {
-                    vertices.extend(mapped.map(|[a, b, c, d]| [a, b, d, c]));
-                } else {
-                    vertices.extend(mapped);
-                }
-                self.place_regions(instance, part, &mut regions);
-                sink(&TetBlock {
-                    vertices: &vertices,
-                    regions: &regions,
-                    instance: i as u32,
-                })?;
-            }
-        }
-        Ok(())
+        self.give_tets(0..self.document.instances.len(), false, sink)
     }
 
     fn tet_regions(&self, sink: &mut TetRegionSink<'_>) -> io::Result<()> {
-        let mut regions = Vec::with_capacity(BLOCK);
+        self.give_regions(0..self.document.instances.len(), sink)
+    }
+
+    fn triangles(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
+        self.give_triangles::<false>(0..self.document.instances.len(), false, sink)
+    }
+
+    fn facets(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
+        self.give_triangles::<true>(0..self.document.instances.len(), false, sink)
+    }
+
+    fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
+    fn patch(&self, patch: usize, sides: bool, sink: &mut PatchSink<'_>) -> io::Result<()> {
+        let label = self.patches[patch].label;
+        let (mut vertices, mut middles, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+        let mut interfaces = Vec::new();
         for (i, instance) in self.document.instances.iter().enumerate() {
-            let tets = &self.document.templates[instance.template as usize].tets;
-            for part in tets.chunks(BLOCK) {
-                self.place_regions(instance, part, &mut regions);
-                sink(&TetRegionBlock {
-                    regions: &regions,
-                    instance: i as u32,
+            let t = instance.template as usize;
+            let triangles = &self.document.templates[t].triangles;
+            let kept = self.labelled[t].get(&label).map_or(&[][..], Vec::as_slice);
+            interfaces.clear();
+            if self.has_interfaces[i] {
+                self.interfaces(i, &mut |triangle, _, _| {
+                    if marker_label(triangles[triangle as usize].marker) == label {
+                        interfaces.push(triangle);
+                    }
+                });
+            }
+            let reversed = instance.isometry.reverses_orientation();
+            for part in kept.chunks(BLOCK).chain(interfaces.chunks(BLOCK)) {
+                vertices.clear();
+                middles.clear();
+                faces.clear();
+                for &at in part {
+                    let triangle = &triangles[at as usize];
+                    let inward = triangle.back == OUTSIDE && triangle.front != OUTSIDE;
+                    let turn = reversed != inward;
+                    let [a, b, c] = triangle.vertices;
+                    let turned = if turn { [a, c, b] } else { [a, b, c] };
+                    vertices.push(turned.map(|v| self.numbering.id(i, v)));
+                    if let Some(all) = self.middles {
+                        let ids = all.triangles[t][at as usize];
+                        let turned = if turn { Middles::turned(ids) } else { ids };
+                        middles.push(turned.map(|v| self.numbering.id(i, v)));
+                    }
+                    if sides {
+                        let side = self.sides()[t][at as usize];
+                        faces.push(placed_side(side, self.first_tet[i], reversed));
+                    }
+                }
+                sink(&PatchBlock {
+                    vertices: &vertices,
+                    middles: &middles,
+                    sides: &faces,
                 })?;
             }
         }
         Ok(())
     }
 
-    fn triangles(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
-        self.give_triangles::<false>(sink)
-    }
-
-    fn facets(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
-        self.give_triangles::<true>(sink)
+    fn is_second_order(&self) -> bool {
+        self.middles.is_some()
     }
 }
 
@@ -337,6 +528,7 @@ impl MeshStream for Assembled<'_> {
 #[derive(Default)]
 struct Block {
     vertices: Vec<[u32; 3]>,
+    middles: Vec<[u32; 3]>,
     corners: Vec<[DVec3; 3]>,
     markers: Vec<u32>,
     front: Vec<u32>,
@@ -353,6 +545,7 @@ impl Block {
         self.walls.resize(self.vertices.len(), 0);
         let given = sink(&TriangleBlock {
             vertices: &self.vertices,
+            middles: &self.middles,
             corners: &self.corners,
             markers: &self.markers,
             front: &self.front,
@@ -361,6 +554,7 @@ impl Block {
             instance: instance as u32,
         });
         self.vertices.clear();
+        self.middles.clear();
         self.corners.clear();
         self.markers.clear();
         self.front.clear();

@@ -1,10 +1,18 @@
 //! The command line of `rotassemble`.
 
-use crate::{Assembled, NumberingError, sector, write_expanded};
+use crate::{
+    Assembled, NumberingError, Piece, TableFormat, sector, sort_by_region, write_expanded,
+    write_pairs,
+};
 use clap::ValueEnum;
-use interchange::{Format, MeshStream, Plain, Surface, WriteError, WriteOptions};
+use interchange::{
+    Format, MeshStream, Middles, Plain, Surface, WriteError, WriteOptions, file_parts,
+    second_order, write_part, write_pieces,
+};
 use kit::{Command, CommonArgs, Failure, Progress, Session};
 use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use tmesh::Document;
 
 /// Assemble the whole mesh from the instances of a meshed wedge
 ///
@@ -39,6 +47,23 @@ pub struct Cli {
     /// regions as well
     #[arg(long, value_name = "WHICH", default_value = "boundary")]
     surface: SurfaceArg,
+
+    /// Elements with a point in the middle of each edge; edges stay straight (vtk, vtu, pvtu, msh,
+    /// msh2, inp)
+    #[arg(long, conflicts_with = "instances")]
+    second_order: bool,
+
+    /// Write numbers as text (msh, msh2)
+    #[arg(long)]
+    ascii: bool,
+
+    /// Compress the arrays (vtu, pvtu)
+    #[arg(long)]
+    compress: bool,
+
+    /// Of a sector, also write the table of coupled nodes and faces: JSON, or CSV by the extension
+    #[arg(long, value_name = "PATH", requires = "sector")]
+    pairs: Option<PathBuf>,
 }
 
 const EXAMPLES: &str = "\
@@ -51,6 +76,13 @@ Examples:
       The whole mesh as one template, checked.
   rotassemble a.tet.tmesh --sector -o wedge.vtk --boundary
       One wedge, in its place, with its walls labelled.
+  rotassemble a.tet.tmesh --sector -o wedge.inp --pairs pairs.json
+      For cyclic-symmetric analysis: one wedge with sets, tie and number of sectors, and the table
+      of coupled nodes, counted as in the mesh file.
+  rotassemble a.tet.tmesh -o a.msh
+      For Gmsh and what reads its files: regions and markers are physical groups.
+  rotassemble a.tet.tmesh -o a.pvtu
+      For parallel readers: a file per instance in the folder a, with ids of the whole mesh.
   rotassemble a.wedge.tmesh -o whole.stl
       Before meshing: the surface, as its wedges make it up.
   rotassemble a.tet.tmesh --to txt
@@ -87,27 +119,57 @@ impl Command for Cli {
                 SurfaceArg::Boundary => Surface::Boundary,
                 SurfaceArg::All => Surface::All,
             },
+            ascii: self.ascii,
+            compress: self.compress,
         };
+        let listed = self.instances || format == Format::Text;
+        if self.second_order && (as_is || listed) {
+            return Err(Failure::Usage(format!(
+                "{} has first-order elements only; --second-order goes with other formats",
+                format.name()
+            )));
+        }
         let mut document = session.read()?;
         document.history.push(session.history_entry(Vec::new()));
         if self.sector {
             document = sector(document);
         }
-        let listed = self.instances || format == Format::Text;
+        if matches!(format, Format::Msh | Format::Inp) {
+            sort_by_region(&mut document);
+        }
+        let mut middles = None;
+        if self.second_order {
+            let added = second_order(document).map_err(|e| Failure::Impossible(e.to_string()))?;
+            (document, middles) = (added.0, Some(added.1));
+        }
+        let middles = middles.as_ref();
+        if let Some(path) = &self.pairs {
+            let plain = plain(&document, middles)?;
+            let table = match path.extension() {
+                Some(e) if e.eq_ignore_ascii_case("csv") => TableFormat::Csv,
+                _ => TableFormat::Json,
+            };
+            session.write_files(std::slice::from_ref(path), |_, out| {
+                let first = first_id(format);
+                Ok(write_pairs(&plain, &document, first, table, out)?)
+            })?;
+        }
         if listed || (self.sector && as_is) {
             return session.write_in(&document, format);
         }
-        let mesh = Assembled::new(&document).map_err(|error| match error {
+        let mesh = Assembled::of_order(&document, middles).map_err(|error| match error {
             NumberingError::TooManyPoints { .. } => Failure::Impossible(error.to_string()),
             error => Failure::Input(error.to_string()),
         })?;
+        if format == Format::Pvtu {
+            return write_pvtu(session, &mesh, &document, &options);
+        }
         // Nothing to assemble: the walls are worth keeping.
         if document.instances.len() <= document.templates.len() && !mesh.is_welded() {
             if as_is {
                 return session.write_in(&document, format);
             }
-            let plain = Plain::new(&document).map_err(|e| Failure::Impossible(e.to_string()))?;
-            return write_mesh(session, &plain, format, &options);
+            return write_mesh(session, &plain(&document, middles)?, format, &options);
         }
         session.info(&format!(
             "{} instances make {} points, {} tetrahedra",
@@ -125,6 +187,74 @@ impl Command for Cli {
     }
 }
 
+fn plain<'a>(document: &'a Document, middles: Option<&'a Middles>) -> Result<Plain<'a>, Failure> {
+    Plain::of_order(document, middles).map_err(|e| Failure::Impossible(e.to_string()))
+}
+
+/// Number of the first node and element in files of a format.
+fn first_id(format: Format) -> u64 {
+    match format {
+        Format::Msh | Format::Msh2 | Format::Medit | Format::Inp | Format::Node => 1,
+        _ => 0,
+    }
+}
+
+/// The path to write several files beside.
+fn output_path(session: &Session, format: Format) -> Result<&Path, Failure> {
+    let path = session.common().output.as_deref();
+    let path = path.filter(|p| *p != Path::new("-") && p.file_name().is_some());
+    path.ok_or_else(|| Failure::Usage(WriteError::SeveralFiles(format.name()).to_string()))
+}
+
+/// A file that lists the pieces, and in the folder beside it a piece for each instance.
+fn write_pvtu(
+    session: &Session,
+    mesh: &Assembled<'_>,
+    document: &Document,
+    options: &WriteOptions,
+) -> Result<(), Failure> {
+    let path = output_path(session, Format::Pvtu)?;
+    let folder = path.with_extension("");
+    let stem = folder.file_name().unwrap_or_default().to_string_lossy();
+    if folder == path {
+        return Err(Failure::Usage(format!(
+            "the pieces of {} go into a folder named as it is without extension; give it the \
+             extension .pvtu",
+            path.display()
+        )));
+    }
+    if document.instances.is_empty() {
+        let sentence = "the document has no instances, so there are no pieces to write";
+        return Err(Failure::Impossible(sentence.to_owned()));
+    }
+    let mut sources = Vec::new();
+    let mut paths = Vec::new();
+    for i in 0..document.instances.len() {
+        let name = format!("{stem}_{i}.vtu");
+        paths.push(folder.join(&name));
+        sources.push(format!("{stem}/{name}"));
+    }
+    paths.push(path.to_owned());
+    let fresh = !folder.exists();
+    std::fs::create_dir_all(&folder)
+        .map_err(|e| Failure::writing(&folder.display().to_string(), &e))?;
+    let progress = session.progress(paths.len() as u64, "writing");
+    let written = session.write_files(&paths, |i, out| {
+        progress.set(i as u64);
+        let piece = Piece::new(mesh, i.min(sources.len().saturating_sub(1)));
+        if i < sources.len() {
+            interchange::write(&piece, Format::Vtu, options, out)
+        } else {
+            write_pieces(&piece, options.boundary, &sources, out)
+        }
+    });
+    if written.is_err() && fresh {
+        // Empty unless something else put files there.
+        let _ = std::fs::remove_dir(&folder);
+    }
+    written
+}
+
 fn write_mesh(
     session: &Session,
     mesh: &dyn MeshStream,
@@ -132,6 +262,12 @@ fn write_mesh(
     options: &WriteOptions,
 ) -> Result<(), Failure> {
     let size = interchange::size_estimate(mesh, format, options);
+    let parts = file_parts(format);
+    if !parts.is_empty() {
+        let path = output_path(session, format)?;
+        let paths: Vec<PathBuf> = parts.iter().map(|p| path.with_extension(p)).collect();
+        return session.write_files(&paths, |i, out| write_part(mesh, format, i, out));
+    }
     write_stream(session, format, size, |out| {
         interchange::write(mesh, format, options, out)
     })

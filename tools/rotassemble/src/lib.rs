@@ -8,6 +8,8 @@ mod cli;
 mod expand;
 mod numbering;
 mod orbit;
+mod pairs;
+mod piece;
 mod promise;
 mod sector;
 
@@ -15,4 +17,6 @@ pub use assembled::Assembled;
 pub use cli::Cli;
 pub use expand::write_expanded;
 pub use numbering::{Numbering, NumberingError};
-pub use sector::sector;
+pub use pairs::{TableFormat, write_pairs};
+pub use piece::Piece;
+pub use sector::{sector, sort_by_region};

@@ -169,6 +169,14 @@ impl Numbering {
         );
     }
 
+    /// The global id of one vertex of the instance's template.
+    pub fn id(&self, instance: usize, vertex: u32) -> u32 {
+        let template = &self.templates[self.template_of[instance]];
+        let group = &template.groups[template.group[vertex as usize] as usize];
+        let slot = group.slot[self.slot[instance] as usize];
+        self.classes[group.class].start[slot as usize] + template.index[vertex as usize]
+    }
+
     /// Blocks of vertices that the instance owns, in the order of their ids: visiting the instances
     /// in order gives every point once, with ids 0, 1, 2, ...
     pub fn owned(&self, instance: usize) -> impl Iterator<Item = &[u32]> {

@@ -18,3 +18,13 @@ pub fn sector(document: Document) -> Document {
         ..document
     }
 }
+
+/// Puts the tetrahedra of each region of a template together, in the order of region ids, for
+/// formats that list elements by region. The order within a region stays.
+pub fn sort_by_region(document: &mut Document) {
+    for template in &mut document.templates {
+        if !template.tets.is_sorted_by_key(|tet| tet.region) {
+            template.tets.sort_by_key(|tet| tet.region);
+        }
+    }
+}

@@ -110,6 +110,7 @@ fn the_same_input_gives_the_same_bytes() {
         let options = WriteOptions {
             boundary: true,
             surface: Surface::All,
+            ..WriteOptions::default()
         };
         let [a, b] = [0; 2].map(|_| written(&Assembled::new(&document).unwrap(), format, options));
         assert!(a == b);

@@ -59,6 +59,11 @@ impl<'a> ByteSink<'a> {
         Ok(())
     }
 
+    /// Appends formatted text.
+    pub fn write_fmt(&mut self, text: std::fmt::Arguments<'_>) -> io::Result<()> {
+        Write::write_fmt(&mut Formatted(self), text)
+    }
+
     /// Appends text.
     pub fn text(&mut self, text: &str) -> io::Result<()> {
         self.bytes(text.as_bytes())
@@ -135,6 +140,20 @@ impl<'a> ByteSink<'a> {
             self.records(&block[..step], |()| record)?;
             left -= step as u64;
         }
+        Ok(())
+    }
+}
+
+/// Takes formatted text piece by piece.
+struct Formatted<'a, 'b>(&'a mut ByteSink<'b>);
+
+impl Write for Formatted<'_, '_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.bytes(bytes)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
 }

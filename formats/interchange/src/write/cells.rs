@@ -1,6 +1,6 @@
 //! What goes into the VTK formats beside points and connectivity: integer arrays on cells, and names.
 
-use super::title::MAX_TITLE;
+use super::title::one_line;
 use crate::MeshStream;
 use std::io;
 use tmesh::OUTSIDE;
@@ -31,6 +31,15 @@ impl Cells {
 
     pub fn count(self) -> u64 {
         self.tets + self.triangles
+    }
+
+    /// Points of a tetrahedron and of a triangle.
+    pub fn corners(self, mesh: &dyn MeshStream) -> [u64; 2] {
+        if mesh.is_second_order() {
+            [10, 6]
+        } else {
+            [4, 3]
+        }
     }
 }
 
@@ -136,11 +145,4 @@ pub fn name_fields(mesh: &dyn MeshStream, cells: Cells) -> Vec<(&'static str, St
     }
     fields.retain(|(_, text)| !text.is_empty());
     fields
-}
-
-/// Text without line ends and other control characters, of at most [`MAX_TITLE`] bytes.
-pub fn one_line(text: &str) -> String {
-    let mut line = text.replace(|c: char| c.is_control(), " ");
-    line.truncate(line.floor_char_boundary(MAX_TITLE));
-    line
 }

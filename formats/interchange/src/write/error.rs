@@ -28,4 +28,12 @@ pub enum WriteError {
     /// A surface format, and no surface.
     #[error("the mesh has no surface triangles, so there is nothing to write as {0}")]
     NoSurface(&'static str),
+    /// A format of several files, and one place to write to.
+    #[error(
+        "a mesh in the format {0} is several files; give a path with rotassemble -o, such as mesh.{0}"
+    )]
+    SeveralFiles(&'static str),
+    /// Second-order elements in a format that is written with first-order ones only.
+    #[error("{0} is written with first-order elements only")]
+    NoSecondOrder(&'static str),
 }

@@ -2,19 +2,28 @@
 
 mod bytes;
 mod cells;
+mod couplings;
 mod error;
+mod inp;
+mod medit;
+mod msh;
+mod msh2;
 mod plain;
+mod spool;
 mod stl;
+mod tags;
+mod tetgen;
 mod text;
 mod title;
 mod vtk;
 mod vtu;
 
 pub use error::WriteError;
-pub use plain::Plain;
+pub use plain::{Plain, placed_side};
 pub use stl::Surface;
 pub use text::write_text;
 pub use title::{parse_promise, promise_title};
+pub use vtu::write_pieces;
 
 use crate::{Format, MeshStream};
 use std::io::Write;
@@ -28,6 +37,10 @@ pub struct WriteOptions {
     pub boundary: bool,
     /// Which triangles an STL file gets.
     pub surface: Surface,
+    /// Write numbers as text, where a format has both forms.
+    pub ascii: bool,
+    /// Compress the arrays of a VTU file.
+    pub compress: bool,
 }
 
 /// Writes a mesh in a foreign format.
@@ -42,18 +55,54 @@ pub fn write(
 ) -> Result<(), WriteError> {
     match format {
         Format::Vtk => vtk::write(mesh, options.boundary, out),
-        Format::Vtu => vtu::write(mesh, options.boundary, out),
+        Format::Vtu => vtu::write(mesh, options.boundary, options.compress, out),
         Format::Stl => stl::write(mesh, options.surface, out),
+        Format::Msh => msh::write(mesh, options.ascii, out),
+        Format::Msh2 => msh2::write(mesh, options.ascii, out),
+        Format::Medit => medit::write(mesh, out),
+        Format::Inp => inp::write(mesh, out),
+        Format::Node | Format::Pvtu => Err(WriteError::SeveralFiles(format.name())),
         other => Err(WriteError::NotAnOutput(other.name())),
     }
 }
 
-/// Bytes that [`write()`] produces, to within a few kilobytes: for progress bars.
+/// Extensions of the files that a mesh in this format consists of; none for formats that are one
+/// file, or whose files are not known beforehand.
+pub fn file_parts(format: Format) -> &'static [&'static str] {
+    match format {
+        Format::Node => &tetgen::PARTS,
+        _ => &[],
+    }
+}
+
+/// Writes one of the files that a mesh consists of, by its position in [`file_parts`].
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_part(
+    mesh: &dyn MeshStream,
+    format: Format,
+    part: usize,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    match format {
+        Format::Node => tetgen::write_part(mesh, part, out),
+        other => Err(WriteError::NotAnOutput(other.name())),
+    }
+}
+
+/// Bytes that [`write()`] produces, for progress bars: to within a few kilobytes where the format is
+/// binary and not compressed.
 pub fn size_estimate(mesh: &dyn MeshStream, format: Format, options: &WriteOptions) -> u64 {
     match format {
         Format::Vtk => vtk::size_estimate(mesh, options.boundary),
-        Format::Vtu => vtu::size_estimate(mesh, options.boundary),
+        Format::Vtu => vtu::size_estimate(mesh, options.boundary, options.compress),
         Format::Stl => stl::size_estimate(mesh),
+        Format::Msh => msh::size_estimate(mesh, options.ascii),
+        Format::Msh2 => msh2::size_estimate(mesh, options.ascii),
+        Format::Medit => medit::size_estimate(mesh),
+        Format::Inp => inp::size_estimate(mesh),
+        Format::Node => tetgen::size_estimate(mesh),
         _ => 0,
     }
 }
@@ -70,7 +119,7 @@ pub fn write_document(
 ) -> Result<(), WriteError> {
     let options = WriteOptions {
         boundary: true,
-        surface: Surface::Boundary,
+        ..WriteOptions::default()
     };
     match format {
         Format::Tmesh => Ok(tmesh::write(document, out)?),
@@ -143,9 +192,22 @@ mod tests {
             let mut bytes = Vec::new();
             let result = write_document(&document, format, &mut bytes);
             match format {
-                Format::Tmesh | Format::Text | Format::Vtk | Format::Vtu | Format::Stl => {
+                Format::Tmesh
+                | Format::Text
+                | Format::Vtk
+                | Format::Vtu
+                | Format::Stl
+                | Format::Msh
+                | Format::Msh2
+                | Format::Medit
+                | Format::Inp => {
                     result.unwrap();
                     assert!(!bytes.is_empty());
+                }
+                Format::Node | Format::Pvtu => {
+                    let error = result.unwrap_err().to_string();
+                    assert!(error.contains("several files"), "{error}");
+                    assert!(bytes.is_empty());
                 }
                 _ => {
                     let name = format.name();
@@ -161,11 +223,17 @@ mod tests {
     fn sizes_are_estimated_well() {
         let document = test_document();
         let mesh = Plain::new(&document).unwrap();
-        for format in [Format::Vtk, Format::Vtu, Format::Stl] {
+        for format in [
+            Format::Vtk,
+            Format::Vtu,
+            Format::Stl,
+            Format::Msh,
+            Format::Msh2,
+        ] {
             for boundary in [false, true] {
                 let options = WriteOptions {
                     boundary,
-                    surface: Surface::Boundary,
+                    ..WriteOptions::default()
                 };
                 let mut bytes = Vec::new();
                 write(&mesh, format, &options, &mut bytes).unwrap();

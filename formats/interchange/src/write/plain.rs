@@ -1,12 +1,19 @@
 //! A document as it is stored: each template once, nothing welded.
 
 use super::WriteError;
+use super::couplings::{axis_edges, couplings};
 use super::title::document_title;
-use crate::stream::{PointSink, TetRegionSink, TetSink, TriangleSink};
-use crate::{MeshStream, TetBlock, TetRegionBlock, TriangleBlock};
+use crate::sides::{NONE, by_label, face_tets, marker_label};
+use crate::stream::{PatchSink, PointSink, TetRegionSink, TetSink, TriangleSink};
+use crate::{
+    Coupling, Label, MeshStream, Middles, Patch, PatchBlock, Side, TetBlock, TetRegionBlock,
+    TriangleBlock,
+};
 use glam::DVec3;
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use tmesh::{Document, Instance, Isometry, Marker, Region, Wall};
+use tmesh::{Document, Instance, Isometry, Marker, OUTSIDE, Region, Wall};
 
 /// Elements per block.
 const BLOCK: usize = 8192;
@@ -22,6 +29,14 @@ pub struct Plain<'a> {
     wall_names: Vec<String>,
     /// Wall per triangle of each template, numbered as in [`MeshStream::wall_names`] plus one.
     walls: Vec<Vec<u32>>,
+    patches: Vec<Patch>,
+    /// Triangles by label, per template.
+    labelled: Vec<BTreeMap<Label, Vec<u32>>>,
+    /// Tetrahedra that triangles are faces of, per template.
+    sides: OnceCell<Vec<Vec<(u32, u8)>>>,
+    couplings: Vec<Coupling>,
+    axis_edges: Vec<[u32; 2]>,
+    middles: Option<&'a Middles>,
 }
 
 impl<'a> Plain<'a> {
@@ -30,6 +45,17 @@ impl<'a> Plain<'a> {
     /// # Errors
     /// More points in all templates together than `u32` can number.
     pub fn new(document: &'a Document) -> Result<Self, WriteError> {
+        Self::of_order(document, None)
+    }
+
+    /// The view of a document that [`crate::second_order`] made, with its middles.
+    ///
+    /// # Errors
+    /// As [`Plain::new`].
+    pub fn of_order(
+        document: &'a Document,
+        middles: Option<&'a Middles>,
+    ) -> Result<Self, WriteError> {
         let mut shown = Vec::new();
         let mut first = Vec::new();
         let mut count = 0_u64;
@@ -62,13 +88,46 @@ impl<'a> Plain<'a> {
             }
         }
         let (wall_names, walls) = label_walls(document);
+        let labelled: Vec<_> = document
+            .templates
+            .iter()
+            .zip(&walls)
+            .map(|(template, walls)| {
+                let labels = template.triangles.iter().zip(walls);
+                by_label((0..).zip(labels.map(|(triangle, &wall)| match wall {
+                    0 => marker_label(triangle.marker),
+                    wall => Label::Wall(wall - 1),
+                })))
+            })
+            .collect();
+        let mut counts: BTreeMap<Label, u64> = BTreeMap::new();
+        for (&label, list) in labelled.iter().flatten() {
+            *counts.entry(label).or_default() += list.len() as u64;
+        }
+        let patches = counts
+            .into_iter()
+            .map(|(label, triangles)| Patch { label, triangles })
+            .collect();
+        let isometries: Vec<Isometry> = shown.iter().map(|(i, _)| i.isometry).collect();
         Ok(Self {
+            couplings: couplings(document, &isometries, &first),
+            axis_edges: axis_edges(document, &first, middles),
             document,
             shown,
             first,
             wall_names,
             walls,
+            patches,
+            labelled,
+            sides: OnceCell::new(),
+            middles,
         })
+    }
+
+    fn sides(&self) -> &[Vec<(u32, u8)>] {
+        let templates = self.document.templates.iter();
+        self.sides
+            .get_or_init(|| templates.map(face_tets).collect())
     }
 
     fn world(&self, template: usize) -> impl Fn(DVec3) -> DVec3 + use<> {
@@ -78,7 +137,7 @@ impl<'a> Plain<'a> {
     }
 
     fn give_triangles<const CORNERS: bool>(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
-        let (mut vertices, mut corners) = (Vec::new(), Vec::new());
+        let (mut vertices, mut corners, mut middles) = (Vec::new(), Vec::new(), Vec::new());
         let (mut markers, mut front, mut back) = (Vec::new(), Vec::new(), Vec::new());
         for (t, template) in self.document.templates.iter().enumerate() {
             let (instance, index) = self.shown[t];
@@ -89,9 +148,18 @@ impl<'a> Plain<'a> {
                 .triangles
                 .chunks(BLOCK)
                 .zip(self.walls[t].chunks(BLOCK));
-            for (part, walls) in parts {
+            for (chunk, (part, walls)) in parts.enumerate() {
                 vertices.clear();
                 corners.clear();
+                middles.clear();
+                if let Some(all) = self.middles {
+                    let at = chunk * BLOCK;
+                    let ids = &all.triangles[t][at..at + part.len()];
+                    middles.extend(ids.iter().map(|&ids| {
+                        let turned = if reversed { Middles::turned(ids) } else { ids };
+                        turned.map(|v| first + v)
+                    }));
+                }
                 for triangle in part {
                     let [a, b, c] = triangle.vertices;
                     let turned = if reversed { [a, c, b] } else { [a, b, c] };
@@ -108,6 +176,7 @@ impl<'a> Plain<'a> {
                 back.extend(part.iter().map(|t| placed(t.back)));
                 sink(&TriangleBlock {
                     vertices: &vertices,
+                    middles: &middles,
                     corners: &corners,
                     markers: &markers,
                     front: &front,
@@ -121,37 +190,50 @@ impl<'a> Plain<'a> {
     }
 }
 
-/// Names of all walls, the two faces of a seam apart, and the wall of each triangle.
+/// Names of all walls, the two faces of a seam apart, and the wall of each triangle. The faces of a
+/// seam are `wall-a` and `wall-b` as the two mirror walls of a wedge are; names that come again, in
+/// another template, get its number.
 fn label_walls(document: &Document) -> (Vec<String>, Vec<Vec<u32>>) {
-    let mut names = Vec::new();
+    let mut names: Vec<String> = Vec::new();
     let mut labels: Vec<Vec<u32>> = document
         .templates
         .iter()
         .map(|t| vec![0; t.triangles.len()])
         .collect();
+    let mut seen = BTreeSet::new();
     for (t, template) in document.templates.iter().enumerate() {
+        let mut add = |name: String| {
+            let mut unique = name.clone();
+            let mut number = t + 1;
+            while !seen.insert(unique.clone()) {
+                unique = format!("{name}-{number}");
+                number += 1;
+            }
+            names.push(unique);
+            names.len() as u32
+        };
         for wall in &template.walls {
-            let next = names.len() as u32 + 1;
             match wall {
                 Wall::Mirror(w) => {
-                    names.push(w.name.clone());
+                    let label = add(w.name.clone());
                     w.triangles
                         .iter()
-                        .for_each(|&i| labels[t][i as usize] = next);
+                        .for_each(|&i| labels[t][i as usize] = label);
                 }
                 Wall::Seam(w) => {
-                    names.extend([format!("{}-a", w.name), format!("{}-b", w.name)]);
+                    let base = if w.name == "seam" { "wall" } else { &w.name };
+                    let [a, b] = ["a", "b"].map(|face| add(format!("{base}-{face}")));
                     for &[low, high] in &w.triangle_pairs {
-                        labels[t][low as usize] = next;
-                        labels[t][high as usize] = next + 1;
+                        labels[t][low as usize] = a;
+                        labels[t][high as usize] = b;
                     }
                 }
                 Wall::Hub(w) => {
                     // The face as each of the two templates sees it.
-                    names.push(w.name.clone());
+                    let label = add(w.name.clone());
                     for &[here, there] in &w.triangle_pairs {
-                        labels[t][here as usize] = next;
-                        labels[w.other as usize][there as usize] = next;
+                        labels[t][here as usize] = label;
+                        labels[w.other as usize][there as usize] = label;
                     }
                 }
             }
@@ -206,12 +288,25 @@ impl MeshStream for Plain<'_> {
     }
 
     fn tets(&self, sink: &mut TetSink<'_>) -> io::Result<()> {
-        let (mut vertices, mut regions) = (Vec::new(), Vec::new());
+        let (mut vertices, mut regions, mut middles) = (Vec::new(), Vec::new(), Vec::new());
         for (t, template) in self.document.templates.iter().enumerate() {
             let (instance, index) = self.shown[t];
             let reversed = instance.isometry.reverses_orientation();
             let first = self.first[t];
-            for part in template.tets.chunks(BLOCK) {
+            for (chunk, part) in template.tets.chunks(BLOCK).enumerate() {
+                middles.clear();
+                if let Some(all) = self.middles {
+                    let at = chunk * BLOCK;
+                    let ids = &all.tets[t][at..at + part.len()];
+                    middles.extend(ids.iter().map(|&ids| {
+                        let turned = if reversed {
+                            Middles::reversed(ids)
+                        } else {
+                            ids
+                        };
+                        turned.map(|v| first + v)
+                    }));
+                }
                 vertices.clear();
                 vertices.extend(part.iter().map(|tet| {
                     let [a, b, c, d] = tet.vertices.map(|v| first + v);
@@ -222,6 +317,7 @@ impl MeshStream for Plain<'_> {
                 regions.extend(part.iter().map(|tet| placed(tet.region)));
                 sink(&TetBlock {
                     vertices: &vertices,
+                    middles: &middles,
                     regions: &regions,
                     instance: index,
                 })?;
@@ -254,4 +350,77 @@ impl MeshStream for Plain<'_> {
     fn facets(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
         self.give_triangles::<true>(sink)
     }
+
+    fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
+    fn patch(&self, patch: usize, sides: bool, sink: &mut PatchSink<'_>) -> io::Result<()> {
+        let label = self.patches[patch].label;
+        let mut first_tet = 0;
+        let (mut vertices, mut middles, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+        for (t, template) in self.document.templates.iter().enumerate() {
+            let reversed = self.shown[t].0.isometry.reverses_orientation();
+            let first = self.first[t];
+            let list = self.labelled[t].get(&label);
+            for part in list.map_or(&[][..], Vec::as_slice).chunks(BLOCK) {
+                vertices.clear();
+                middles.clear();
+                faces.clear();
+                for &i in part {
+                    let triangle = &template.triangles[i as usize];
+                    let inward = triangle.back == OUTSIDE && triangle.front != OUTSIDE;
+                    let turn = reversed != inward;
+                    let [a, b, c] = triangle.vertices.map(|v| first + v);
+                    vertices.push(if turn { [a, c, b] } else { [a, b, c] });
+                    if let Some(all) = self.middles {
+                        let ids = all.triangles[t][i as usize].map(|v| first + v);
+                        middles.push(if turn { Middles::turned(ids) } else { ids });
+                    }
+                    if sides {
+                        faces.push(placed_side(
+                            self.sides()[t][i as usize],
+                            first_tet,
+                            reversed,
+                        ));
+                    }
+                }
+                sink(&PatchBlock {
+                    vertices: &vertices,
+                    middles: &middles,
+                    sides: &faces,
+                })?;
+            }
+            first_tet += template.tets.len() as u64;
+        }
+        Ok(())
+    }
+
+    fn is_second_order(&self) -> bool {
+        self.middles.is_some()
+    }
+
+    fn couplings(&self) -> &[Coupling] {
+        &self.couplings
+    }
+
+    fn axis_edges(&self) -> &[[u32; 2]] {
+        &self.axis_edges
+    }
+}
+
+/// A triangle's side as it is in a mesh where the template's tetrahedra begin at `first_tet`, with the
+/// last two vertices of each swapped when `reversed`.
+pub fn placed_side((tet, opposite): (u32, u8), first_tet: u64, reversed: bool) -> Side {
+    let opposite = match opposite {
+        2 if reversed => 3,
+        3 if reversed => 2,
+        other => other,
+    };
+    let tet = if tet == NONE {
+        Side::NONE
+    } else {
+        first_tet + u64::from(tet)
+    };
+    Side { tet, opposite }
 }

@@ -101,6 +101,13 @@ pub fn document_title(document: &Document) -> String {
     }
 }
 
+/// Text without line ends and other control characters, of at most [`MAX_TITLE`] bytes.
+pub fn one_line(text: &str) -> String {
+    let mut line = text.replace(|c: char| c.is_control(), " ");
+    line.truncate(line.floor_char_boundary(MAX_TITLE));
+    line
+}
+
 fn shortest(x: f64) -> String {
     let (plain, exponent) = (format!("{x}"), format!("{x:e}"));
     if exponent.len() < plain.len() {

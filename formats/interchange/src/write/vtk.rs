@@ -8,12 +8,14 @@
 
 use super::WriteError;
 use super::bytes::{ByteSink, Order};
-use super::cells::{CellArray, Cells, Values, name_fields, one_line};
+use super::cells::{CellArray, Cells, Values, name_fields};
+use super::title::one_line;
 use crate::MeshStream;
 use std::io::Write;
 
-const TRIANGLE: u32 = 5;
-const TETRA: u32 = 10;
+/// Cell types of first and second order.
+const TRIANGLE: [u32; 2] = [5, 22];
+const TETRA: [u32; 2] = [10, 24];
 const LIMIT: u64 = i32::MAX as u64;
 
 pub fn write(mesh: &dyn MeshStream, boundary: bool, out: &mut dyn Write) -> Result<(), WriteError> {
@@ -36,15 +38,23 @@ pub fn write(mesh: &dyn MeshStream, boundary: bool, out: &mut dyn Write) -> Resu
 
     sink.text(&format!("POINTS {} double\n", mesh.point_count()))?;
     mesh.points(&mut |points| sink.points(Order::Big, points))?;
-    let integers = 5 * cells.tets + 4 * cells.triangles;
+    let second = usize::from(mesh.is_second_order());
+    let [tet, triangle] = cells.corners(mesh);
+    let integers = (tet + 1) * cells.tets + (triangle + 1) * cells.triangles;
     sink.text(&format!("\nCELLS {} {integers}\n", cells.count()))?;
-    mesh.tets(&mut |block| sink.counted::<4, 20>(block.vertices))?;
+    mesh.tets(&mut |block| match second {
+        0 => sink.counted::<4, 20>(block.vertices),
+        _ => sink.counted::<10, 44>(&block.all_points()),
+    })?;
     if cells.triangles > 0 {
-        mesh.triangles(&mut |block| sink.counted::<3, 16>(block.vertices))?;
+        mesh.triangles(&mut |block| match second {
+            0 => sink.counted::<3, 16>(block.vertices),
+            _ => sink.counted::<6, 28>(&block.all_points()),
+        })?;
     }
     sink.text(&format!("\nCELL_TYPES {}\n", cells.count()))?;
-    sink.repeat(TETRA.to_be_bytes(), cells.tets)?;
-    sink.repeat(TRIANGLE.to_be_bytes(), cells.triangles)?;
+    sink.repeat(TETRA[second].to_be_bytes(), cells.tets)?;
+    sink.repeat(TRIANGLE[second].to_be_bytes(), cells.triangles)?;
 
     sink.text(&format!("\nCELL_DATA {}\n", cells.count()))?;
     sink.text("SCALARS region int 1\nLOOKUP_TABLE default\n")?;
@@ -63,7 +73,11 @@ pub fn write(mesh: &dyn MeshStream, boundary: bool, out: &mut dyn Write) -> Resu
 pub fn size_estimate(mesh: &dyn MeshStream, boundary: bool) -> u64 {
     let cells = Cells::of(mesh, boundary);
     let arrays = if cells.triangles > 0 { 6 } else { 1 };
-    24 * mesh.point_count() + 24 * cells.tets + 20 * cells.triangles + 4 * arrays * cells.count()
+    let [tet, triangle] = cells.corners(mesh);
+    24 * mesh.point_count()
+        + 4 * (tet + 2) * cells.tets
+        + 4 * (triangle + 2) * cells.triangles
+        + 4 * arrays * cells.count()
 }
 
 fn write_array(
@@ -232,6 +246,12 @@ mod tests {
             unreachable!("refused before")
         }
         fn facets(&self, _: &mut crate::TriangleSink<'_>) -> std::io::Result<()> {
+            unreachable!("refused before")
+        }
+        fn patches(&self) -> &[crate::Patch] {
+            self.0.patches()
+        }
+        fn patch(&self, _: usize, _: bool, _: &mut crate::PatchSink<'_>) -> std::io::Result<()> {
             unreachable!("refused before")
         }
     }

@@ -3,25 +3,196 @@
 //! Format: "VTK File Formats", section "XML File Formats". Little-endian; each appended array is
 //! preceded by its size in bytes as `UInt64`. Sizes are known beforehand, so arrays are streamed.
 //! Field data, as in the legacy format: `region_names`, `marker_names`, `wall_names`, characters
-//! with a line `id name` each; and `title` (see [`crate::promise_title`]).
+//! with a line `id name` each; and `title` (see [`crate::promise_title`]). Compressed arrays wait in a
+//! temporary file until their sizes are known.
 
 use super::WriteError;
 use super::bytes::{ByteSink, Order};
-use super::cells::{CellArray, Cells, Values, name_fields, one_line};
+use super::cells::{CellArray, Cells, Values, name_fields};
+use super::spool::Spool;
+use super::title::one_line;
 use crate::MeshStream;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-const TRIANGLE: u8 = 5;
-const TETRA: u8 = 10;
+/// Cell types of first and second order.
+const TRIANGLE: [u8; 2] = [5, 22];
+const TETRA: [u8; 2] = [10, 24];
 
-/// Integers of 32 bits where they suffice for connectivity and offsets, else of 64.
-fn wide(mesh: &dyn MeshStream, cells: Cells) -> bool {
-    let corners = 4 * cells.tets + 3 * cells.triangles;
-    corners.max(mesh.point_count()) > i32::MAX as u64
+/// Name of the array of points' ids in the mesh that the file is a piece of.
+const POINT_IDS: &str = "GlobalPointIds";
+
+/// What the numbers of a file are.
+struct Layout<'a> {
+    mesh: &'a dyn MeshStream,
+    cells: Cells,
+    /// Integers of 32 bits where they suffice for connectivity and offsets, else of 64.
+    wide: bool,
 }
 
-fn arrays(cells: Cells) -> &'static [CellArray] {
+/// An array of the file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Array {
+    Points,
+    Connectivity,
+    Offsets,
+    Types,
+    Cell(CellArray),
+    PointIds,
+}
+
+impl<'a> Layout<'a> {
+    fn new(mesh: &'a dyn MeshStream, boundary: bool) -> Self {
+        let cells = Cells::of(mesh, boundary);
+        let [tet, triangle] = cells.corners(mesh);
+        let corners = tet * cells.tets + triangle * cells.triangles;
+        Self {
+            mesh,
+            cells,
+            wide: corners.max(mesh.point_count()) > i32::MAX as u64,
+        }
+    }
+
+    fn arrays(&self) -> Vec<Array> {
+        let mut all = vec![
+            Array::Points,
+            Array::Connectivity,
+            Array::Offsets,
+            Array::Types,
+        ];
+        all.extend(cell_arrays(self.cells).iter().map(|&a| Array::Cell(a)));
+        if self.mesh.point_ids().is_some() {
+            all.push(Array::PointIds);
+        }
+        all
+    }
+
+    /// VTK's name of the number type, name and number of components, and size in bytes.
+    fn describe(&self, array: Array) -> (&'static str, &'static str, u64, u64) {
+        let (integer, width) = if self.wide {
+            ("Int64", 8)
+        } else {
+            ("Int32", 4)
+        };
+        let [tet, triangle] = self.cells.corners(self.mesh);
+        let corners = tet * self.cells.tets + triangle * self.cells.triangles;
+        let (points, count) = (self.mesh.point_count(), self.cells.count());
+        match array {
+            Array::Points => ("Float64", "Points", 3, 24 * points),
+            Array::Connectivity => (integer, "connectivity", 1, width * corners),
+            Array::Offsets => (integer, "offsets", 1, width * count),
+            Array::Types => ("UInt8", "types", 1, count),
+            Array::Cell(array) => ("Int32", array.name(), 1, 4 * count),
+            Array::PointIds => ("Int64", POINT_IDS, 1, 8 * points),
+        }
+    }
+
+    fn write(&self, array: Array, sink: &mut ByteSink<'_>) -> io::Result<()> {
+        let (mesh, cells) = (self.mesh, self.cells);
+        let second = usize::from(mesh.is_second_order());
+        match array {
+            Array::Points => mesh.points(&mut |points| sink.points(Order::Little, points)),
+            Array::Connectivity => {
+                mesh.tets(&mut |block| match second {
+                    0 => sink.integers(self.wide, block.vertices.as_flattened()),
+                    _ => sink.integers(self.wide, block.all_points().as_flattened()),
+                })?;
+                if cells.triangles == 0 {
+                    return Ok(());
+                }
+                mesh.triangles(&mut |block| match second {
+                    0 => sink.integers(self.wide, block.vertices.as_flattened()),
+                    _ => sink.integers(self.wide, block.all_points().as_flattened()),
+                })
+            }
+            Array::Offsets => self.write_offsets(sink),
+            Array::Types => {
+                sink.repeat([TETRA[second]], cells.tets)?;
+                sink.repeat([TRIANGLE[second]], cells.triangles)
+            }
+            Array::Cell(array) => array.stream(mesh, cells, &mut |values| match values {
+                Values::Each(values) => sink.u32s(Order::Little, values),
+                Values::Same(value, count) => sink.repeat(value.to_le_bytes(), count),
+            }),
+            Array::PointIds => sink.integers(true, mesh.point_ids().unwrap_or_default()),
+        }
+    }
+
+    /// Ends of the cells in the connectivity array.
+    fn write_offsets(&self, sink: &mut ByteSink<'_>) -> io::Result<()> {
+        let mut block = [0_u64; 4096];
+        let mut end = 0;
+        let [tet, triangle] = self.cells.corners(self.mesh);
+        for (corners, count) in [(tet, self.cells.tets), (triangle, self.cells.triangles)] {
+            let mut left = count;
+            while left > 0 {
+                let step = left.min(block.len() as u64) as usize;
+                for offset in &mut block[..step] {
+                    end += corners;
+                    *offset = end;
+                }
+                sink.integers(self.wide, &block[..step])?;
+                left -= step as u64;
+            }
+        }
+        Ok(())
+    }
+
+    /// Everything before the numbers; `offsets` says where each array begins among them.
+    fn header(&self, arrays: &[Array], offsets: &[u64], compressed: bool) -> String {
+        let mut xml = String::new();
+        let mesh = self.mesh;
+        let compressor = if compressed {
+            " compressor=\"vtkZLibDataCompressor\""
+        } else {
+            ""
+        };
+        let _ = writeln!(
+            xml,
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
+             byte_order=\"LittleEndian\" header_type=\"UInt64\"{compressor}>\n  <UnstructuredGrid>"
+        );
+        xml += "    <FieldData>\n";
+        text_array(&mut xml, "title", &one_line(&mesh.title()));
+        for (name, text) in name_fields(mesh, self.cells) {
+            text_array(&mut xml, name, &text);
+        }
+        xml += "    </FieldData>\n";
+        let _ = writeln!(
+            xml,
+            "    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
+            mesh.point_count(),
+            self.cells.count()
+        );
+        let mut open = "";
+        for (&array, offset) in arrays.iter().zip(offsets) {
+            let (section, attributes) = match array {
+                Array::Points => ("Points", String::new()),
+                Array::Connectivity | Array::Offsets | Array::Types => ("Cells", String::new()),
+                Array::Cell(_) => ("CellData", " Scalars=\"region\"".to_owned()),
+                Array::PointIds => ("PointData", format!(" GlobalIds=\"{POINT_IDS}\"")),
+            };
+            if section != open {
+                if !open.is_empty() {
+                    let _ = writeln!(xml, "      </{open}>");
+                }
+                let _ = writeln!(xml, "      <{section}{attributes}>");
+                open = section;
+            }
+            let (kind, name, components, _) = self.describe(array);
+            let _ = writeln!(
+                xml,
+                "        <DataArray type=\"{kind}\" Name=\"{name}\" \
+                 NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>"
+            );
+        }
+        let _ = writeln!(xml, "      </{open}>");
+        xml += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
+        xml
+    }
+}
+
+fn cell_arrays(cells: Cells) -> &'static [CellArray] {
     if cells.triangles > 0 {
         &CellArray::ALL
     } else {
@@ -29,107 +200,96 @@ fn arrays(cells: Cells) -> &'static [CellArray] {
     }
 }
 
-pub fn write(mesh: &dyn MeshStream, boundary: bool, out: &mut dyn Write) -> Result<(), WriteError> {
-    let cells = Cells::of(mesh, boundary);
-    let wide = wide(mesh, cells);
+const FOOTER: &str = "\n  </AppendedData>\n</VTKFile>\n";
+
+pub fn write(
+    mesh: &dyn MeshStream,
+    boundary: bool,
+    compress: bool,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let layout = Layout::new(mesh, boundary);
+    let arrays = layout.arrays();
+    let mut offsets = Vec::with_capacity(arrays.len());
+    let mut offset = 0;
+    if compress {
+        let mut spool = Spool::new()?;
+        for &array in &arrays {
+            offsets.push(offset);
+            spool.begin();
+            let mut sink = ByteSink::new(&mut spool);
+            layout.write(array, &mut sink)?;
+            sink.finish()?;
+            offset += spool.end()?;
+        }
+        out.write_all(layout.header(&arrays, &offsets, true).as_bytes())?;
+        spool.write(out)?;
+        out.write_all(FOOTER.as_bytes())?;
+        return Ok(out.flush()?);
+    }
+    for &array in &arrays {
+        offsets.push(offset);
+        offset += 8 + layout.describe(array).3;
+    }
     let mut sink = ByteSink::new(out);
-    sink.text(&header(mesh, cells, wide))?;
-
-    let width = if wide { 8 } else { 4 };
-    sink.bytes(&(24 * mesh.point_count()).to_le_bytes())?;
-    mesh.points(&mut |points| sink.points(Order::Little, points))?;
-
-    sink.bytes(&(width * (4 * cells.tets + 3 * cells.triangles)).to_le_bytes())?;
-    mesh.tets(&mut |block| sink.integers(wide, block.vertices.as_flattened()))?;
-    if cells.triangles > 0 {
-        mesh.triangles(&mut |block| sink.integers(wide, block.vertices.as_flattened()))?;
+    sink.text(&layout.header(&arrays, &offsets, false))?;
+    for &array in &arrays {
+        sink.bytes(&layout.describe(array).3.to_le_bytes())?;
+        layout.write(array, &mut sink)?;
     }
-
-    sink.bytes(&(width * cells.count()).to_le_bytes())?;
-    write_offsets(cells, wide, &mut sink)?;
-
-    sink.bytes(&cells.count().to_le_bytes())?;
-    sink.repeat([TETRA], cells.tets)?;
-    sink.repeat([TRIANGLE], cells.triangles)?;
-
-    for array in arrays(cells) {
-        sink.bytes(&(4 * cells.count()).to_le_bytes())?;
-        array.stream(mesh, cells, &mut |values| match values {
-            Values::Each(values) => sink.u32s(Order::Little, values),
-            Values::Same(value, count) => sink.repeat(value.to_le_bytes(), count),
-        })?;
-    }
-    sink.text("\n  </AppendedData>\n</VTKFile>\n")?;
+    sink.text(FOOTER)?;
     Ok(sink.finish()?)
 }
 
-pub fn size_estimate(mesh: &dyn MeshStream, boundary: bool) -> u64 {
-    let cells = Cells::of(mesh, boundary);
-    let width = if wide(mesh, cells) { 8 } else { 4 };
-    24 * mesh.point_count()
-        + width * (5 * cells.tets + 4 * cells.triangles)
-        + (1 + 4 * arrays(cells).len() as u64) * cells.count()
+pub fn size_estimate(mesh: &dyn MeshStream, boundary: bool, compress: bool) -> u64 {
+    let layout = Layout::new(mesh, boundary);
+    let arrays = layout.arrays();
+    let size: u64 = arrays.iter().map(|&a| layout.describe(a).3).sum();
+    if compress { size / 4 } else { size }
 }
 
-/// Ends of the cells in the connectivity array.
-fn write_offsets(cells: Cells, wide: bool, sink: &mut ByteSink<'_>) -> io::Result<()> {
-    let mut block = [0_u64; 4096];
-    let mut end = 0;
-    for (corners, count) in [(4, cells.tets), (3, cells.triangles)] {
-        let mut left = count;
-        while left > 0 {
-            let step = left.min(block.len() as u64) as usize;
-            for offset in &mut block[..step] {
-                end += corners;
-                *offset = end;
-            }
-            sink.integers(wide, &block[..step])?;
-            left -= step as u64;
-        }
-    }
-    Ok(())
-}
-
-fn header(mesh: &dyn MeshStream, cells: Cells, wide: bool) -> String {
-    let mut xml = String::new();
-    let mut offset = 0_u64;
-    let mut appended = |kind: &str, name: &str, components: u64, bytes: u64| {
-        let line = format!(
-            "        <DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
-             format=\"appended\" offset=\"{offset}\"/>\n"
-        );
-        offset += 8 + bytes;
-        line
-    };
-    let (integer, width) = if wide { ("Int64", 8) } else { ("Int32", 4) };
-    let corners = 4 * cells.tets + 3 * cells.triangles;
-    xml += "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" \
-            byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <UnstructuredGrid>\n";
-    xml += "    <FieldData>\n";
-    text_array(&mut xml, "title", &one_line(&mesh.title()));
-    for (name, text) in name_fields(mesh, cells) {
-        text_array(&mut xml, name, &text);
-    }
-    xml += "    </FieldData>\n";
-    let _ = writeln!(
-        xml,
-        "    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">",
-        mesh.point_count(),
-        cells.count()
+/// Writes the file that lists the pieces of a mesh. `piece` is any of them, which shows the arrays;
+/// `sources` are their paths, seen from the file.
+pub fn write_pieces(
+    piece: &dyn MeshStream,
+    boundary: bool,
+    sources: &[String],
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let layout = Layout::new(piece, boundary);
+    let mut xml = String::from(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" \
+         byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  \
+         <PUnstructuredGrid GhostLevel=\"0\">\n",
     );
-    xml += "      <Points>\n";
-    xml += &appended("Float64", "Points", 3, 24 * mesh.point_count());
-    xml += "      </Points>\n      <Cells>\n";
-    xml += &appended(integer, "connectivity", 1, width * corners);
-    xml += &appended(integer, "offsets", 1, width * cells.count());
-    xml += &appended("UInt8", "types", 1, cells.count());
-    xml += "      </Cells>\n      <CellData Scalars=\"region\">\n";
-    for array in arrays(cells) {
-        xml += &appended("Int32", array.name(), 1, 4 * cells.count());
+    let mut section = |name: &str, attributes: &str, wanted: &dyn Fn(Array) -> bool| {
+        let _ = writeln!(xml, "    <{name}{attributes}>");
+        for array in layout.arrays().into_iter().filter(|&a| wanted(a)) {
+            let (kind, name, components, _) = layout.describe(array);
+            let _ = writeln!(
+                xml,
+                "      <PDataArray type=\"{kind}\" Name=\"{name}\" \
+                 NumberOfComponents=\"{components}\"/>"
+            );
+        }
+        let _ = writeln!(xml, "    </{name}>");
+    };
+    section("PPoints", "", &|a| a == Array::Points);
+    section("PCellData", " Scalars=\"region\"", &|a| {
+        matches!(a, Array::Cell(_))
+    });
+    let ids = format!(" GlobalIds=\"{POINT_IDS}\"");
+    section("PPointData", &ids, &|a| a == Array::PointIds);
+    for source in sources {
+        let source = source
+            .replace('&', "&amp;")
+            .replace('"', "&quot;")
+            .replace('<', "&lt;");
+        let _ = writeln!(xml, "    <Piece Source=\"{source}\"/>");
     }
-    xml += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n  \
-            <AppendedData encoding=\"raw\">\n_";
-    xml
+    xml += "  </PUnstructuredGrid>\n</VTKFile>\n";
+    out.write_all(xml.as_bytes())?;
+    Ok(out.flush()?)
 }
 
 /// Text as the codes of its bytes: not every reader knows arrays of strings.
@@ -186,7 +346,7 @@ mod tests {
     fn arrays_are_where_the_header_says() {
         let document = test_document();
         let mut bytes = Vec::new();
-        write(&Plain::new(&document).unwrap(), true, &mut bytes).unwrap();
+        write(&Plain::new(&document).unwrap(), true, false, &mut bytes).unwrap();
         let arrays = arrays_of(&bytes);
         let names: Vec<&str> = arrays.iter().map(|a| a.1.as_str()).collect();
         let expected = [
@@ -230,7 +390,7 @@ mod tests {
     fn only_tetrahedra_unless_asked_for() {
         let document = test_document();
         let mut bytes = Vec::new();
-        write(&Plain::new(&document).unwrap(), false, &mut bytes).unwrap();
+        write(&Plain::new(&document).unwrap(), false, false, &mut bytes).unwrap();
         let arrays = arrays_of(&bytes);
         assert_eq!(arrays.len(), 6);
         assert_eq!(arrays[3].2, [10]);

@@ -1,0 +1,116 @@
+//! The table of a sector's coupled nodes and faces.
+
+use glam::DVec3;
+use interchange::{Coupling, MeshStream};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+use tmesh::{Document, Wall};
+
+/// How the table is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableFormat {
+    /// One object.
+    Json,
+    /// A line per pair.
+    Csv,
+}
+
+/// Writes pairs of nodes and faces of all couplings of a sector, with maps, mirror planes and the axis.
+///
+/// Ids are those of the mesh file, which counts from `first_id`. The residual of a pair is the
+/// distance of the low node's image from the high node, model units.
+///
+/// # Errors
+/// Fails when writing fails.
+pub fn write_pairs(
+    mesh: &dyn MeshStream,
+    document: &Document,
+    first_id: u64,
+    format: TableFormat,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let mut points: Vec<DVec3> = Vec::new();
+    mesh.points(&mut |block| {
+        points.extend(block);
+        Ok(())
+    })?;
+    let residual = |coupling: &Coupling, [low, high]: [u32; 2]| {
+        let [low, high] = [low, high].map(|v| points[v as usize]);
+        (coupling.apply(low) - high).length()
+    };
+    let node = |v: u32| u64::from(v) + first_id;
+    if format == TableFormat::Csv {
+        writeln!(out, "coupling,kind,low,high,residual")?;
+        for coupling in mesh.couplings() {
+            let name = csv(&coupling.name);
+            for &pair in &coupling.points {
+                let kind = if pair[0] == pair[1] { "axis" } else { "node" };
+                let [low, high] = pair.map(node);
+                let residual = residual(coupling, pair);
+                writeln!(out, "{name},{kind},{low},{high},{residual:?}")?;
+            }
+            for pair in &coupling.triangles {
+                let [low, high] = pair.map(|t| t + first_id);
+                writeln!(out, "{name},face,{low},{high},")?;
+            }
+        }
+        return out.flush();
+    }
+    let wall = |at: u32| mesh.wall_names().get(at as usize).cloned();
+    let couplings = mesh.couplings().iter().map(|coupling| {
+        let rows = coupling.matrix.transpose().to_cols_array_2d();
+        let [a, b] = coupling.axis.map(|p| p.to_array());
+        let nodes = coupling.points.iter();
+        let residuals = nodes.clone().map(|&pair| residual(coupling, pair));
+        json!({
+            "name": coupling.name,
+            "low": wall(coupling.low),
+            "high": wall(coupling.high),
+            "sectors": coupling.sectors,
+            "rotation": {
+                "matrix": rows,
+                "translation": coupling.translation.to_array(),
+                "axis": [a, b],
+                "angle_deg": coupling.sectors.map(|n| 360.0 / f64::from(n)),
+            },
+            "nodes": nodes.clone().map(|p| p.map(node)).collect::<Vec<_>>(),
+            "residuals": residuals.clone().collect::<Vec<_>>(),
+            "max_residual": residuals.fold(0.0, f64::max),
+            "faces": coupling.triangles.iter().map(|p| p.map(|t| t + first_id)).collect::<Vec<_>>(),
+        })
+    });
+    let frame = document.frame;
+    let mirrors = document.templates.iter().flat_map(|t| &t.walls);
+    let mirrors = mirrors.filter_map(|wall| match wall {
+        Wall::Mirror(wall) => {
+            let point = frame.to_world(wall.plane.normal * wall.plane.offset);
+            let normal = frame.rotation * wall.plane.normal;
+            Some(json!({
+                "name": wall.name,
+                "point": point.to_array(),
+                "normal": normal.to_array(),
+            }))
+        }
+        _ => None,
+    });
+    let axis: BTreeSet<u32> = mesh.axis_edges().iter().flatten().copied().collect();
+    let table: Value = json!({
+        "first_id": first_id,
+        "couplings": couplings.collect::<Vec<_>>(),
+        "mirrors": mirrors.collect::<Vec<_>>(),
+        "axis": axis.into_iter().map(node).collect::<Vec<_>>(),
+    });
+    serde_json::to_writer(&mut *out, &table)?;
+    writeln!(out)?;
+    out.flush()
+}
+
+/// A field of a line.
+fn csv(name: &str) -> String {
+    if name.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", name.replace('"', "\"\""))
+    } else {
+        name.to_owned()
+    }
+}
