@@ -1,20 +1,22 @@
 //! From an unstructured grid, as the VTK formats hold it, to a document.
 
-use crate::document::{Labelled, check_scale, document};
+use crate::document::{Labelled, check_scale, document, dropped};
 use crate::place::counted;
 use crate::polygon::Polygons;
 use crate::soup::Group;
-use crate::{Imported, ReadError, parse_promise, surface};
+use crate::{Imported, ReadError, parse_promise, skin, surface};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 use tmesh::{Axis, Document, Marker, OUTSIDE, Promise, Region, Symmetry, Template, Tet, Triangle};
 
-const TRIANGLE: u8 = 5;
+pub const TRIANGLE: u8 = 5;
 const TRIANGLE_STRIP: u8 = 6;
 const POLYGON: u8 = 7;
 const QUADRILATERAL: u8 = 9;
-const TETRA: u8 = 10;
+pub const TETRA: u8 = 10;
+const QUADRATIC_TRIANGLE: u8 = 22;
+const QUADRATIC_TETRA: u8 = 24;
 
 /// Points and cells with integers on them.
 #[derive(Debug, Default)]
@@ -43,6 +45,78 @@ impl Grid {
         &self.connectivity[begin..self.ends[i]]
     }
 
+    /// Adds a cell.
+    pub fn add(&mut self, kind: u8, corners: &[u32]) {
+        self.types.push(kind);
+        self.connectivity.extend(corners);
+        self.ends.push(self.connectivity.len());
+    }
+
+    /// Replaces triangles and tetrahedra of second order by those of their corners, and drops points
+    /// that nothing names then. Returns how many there were.
+    fn keep_corners(&mut self, format: &'static str) -> Result<usize, ReadError> {
+        let curved = |kind: u8| matches!(kind, QUADRATIC_TRIANGLE | QUADRATIC_TETRA);
+        let count = self.types.iter().filter(|&&t| curved(t)).count();
+        if count == 0 {
+            return Ok(0);
+        }
+        let old = std::mem::take(self);
+        self.connectivity.reserve(old.connectivity.len());
+        let mut begin = 0;
+        for (i, (&kind, &end)) in old.types.iter().zip(&old.ends).enumerate() {
+            let (kind, wanted, corners) = match kind {
+                QUADRATIC_TRIANGLE => (TRIANGLE, Some(6), 3),
+                QUADRATIC_TETRA => (TETRA, Some(10), 4),
+                kind => (kind, None, usize::MAX),
+            };
+            let cell = old.connectivity.get(begin..end);
+            let Some(cell) = cell.filter(|c| wanted.is_none_or(|n| c.len() == n)) else {
+                return Err(ReadError::Malformed {
+                    format,
+                    reason: format!("cell {i} has the wrong number of points"),
+                });
+            };
+            self.add(kind, &cell[..cell.len().min(corners)]);
+            begin = end;
+        }
+        let types = std::mem::take(&mut self.types);
+        let ends = std::mem::take(&mut self.ends);
+        let connectivity = std::mem::take(&mut self.connectivity);
+        *self = Self {
+            types,
+            ends,
+            connectivity,
+            ..old
+        };
+        self.drop_unused_points();
+        Ok(count)
+    }
+
+    /// Drops points that no cell names.
+    pub fn drop_unused_points(&mut self) {
+        let mut used = vec![false; self.points.len()];
+        for &v in &self.connectivity {
+            if let Some(u) = used.get_mut(v as usize) {
+                *u = true;
+            }
+        }
+        let mut next = 0;
+        let new_id: Vec<u32> = used
+            .iter()
+            .map(|&u| {
+                next += u32::from(u);
+                next.saturating_sub(1)
+            })
+            .collect();
+        for v in &mut self.connectivity {
+            if let Some(&id) = new_id.get(*v as usize) {
+                *v = id;
+            }
+        }
+        let mut used = used.into_iter();
+        self.points.retain(|_| used.next() == Some(true));
+    }
+
     /// Whether an array is there with one value per cell.
     fn array(&self, name: &str) -> Option<&[u32]> {
         let values = self.cell_data.get(name)?;
@@ -69,9 +143,18 @@ impl Grid {
 /// # Errors
 /// Cells that name missing points or have another shape; a surface that is not closed.
 pub fn build(grid: Grid, format: &'static str) -> Result<Imported, ReadError> {
+    let mut grid = grid;
+    let mut notices = Vec::new();
+    let curved = grid.keep_corners(format)?;
+    if curved > 0 {
+        let (one, many) = ("element of second order is", "elements of second order are");
+        notices.push(format!(
+            "{} read by their corners",
+            counted(curved, one, many)
+        ));
+    }
     check(&grid, format)?;
     check_scale(&grid.points)?;
-    let mut notices = Vec::new();
     let count = |kind: u8| grid.types.iter().filter(|&&t| t == kind).count();
     let (tets, triangles) = (count(TETRA), count(TRIANGLE));
     let sides = grid.array("front").zip(grid.array("back"));
@@ -88,6 +171,7 @@ pub fn build(grid: Grid, format: &'static str) -> Result<Imported, ReadError> {
     let mut regions = grid.names("region_names");
     let mut markers = grid.names("marker_names");
     let mut others = 0;
+    let mut bare = Vec::new();
     for i in 0..grid.types.len() {
         match (grid.types[i], grid.cell(i), sides) {
             (TETRA, &[a, b, c, d], _) => {
@@ -121,7 +205,24 @@ pub fn build(grid: Grid, format: &'static str) -> Result<Imported, ReadError> {
                     }
                 }
             }
+            (TRIANGLE, &[a, b, c], None) if marker.is_some() => {
+                let marker = marker.map_or(OUTSIDE, |m| m[i]);
+                bare.push(([a, b, c], marker));
+                name(&mut markers, marker, "marker");
+            }
             _ => others += 1,
+        }
+    }
+    if !bare.is_empty() {
+        let (triangles, inside) = skin::surface(&template.tets, &bare);
+        template.triangles = triangles;
+        if inside > 0 {
+            notices.push(dropped(
+                inside,
+                "triangle",
+                "triangles",
+                "with the same region on both sides",
+            ));
         }
     }
     if others > 0 {
@@ -243,7 +344,7 @@ fn check(grid: &Grid, format: &'static str) -> Result<(), ReadError> {
                 other => {
                     return malformed(format!(
                         "cell {i} has the type {other}; only vertices, lines, triangles, quadrilaterals, \
-                     polygons and linear tetrahedra are read"
+                     polygons and tetrahedra are read"
                     ));
                 }
             },

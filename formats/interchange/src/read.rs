@@ -1,6 +1,6 @@
 //! Reading a whole file, and telling its format from its first bytes.
 
-use crate::{Format, ReadError, grid, obj, off, plc, ply, poly, stl, surface, vtk, vtu};
+use crate::{Format, ReadError, grid, msh, obj, off, plc, ply, poly, stl, surface, vtk, vtu};
 use std::path::Path;
 use tmesh::Document;
 
@@ -25,6 +25,9 @@ pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
     }
     if vtu::looks_like(head) {
         return Some(Format::Vtu);
+    }
+    if msh::looks_like(head) {
+        return Some(Format::Msh);
     }
     if stl::looks_ascii(head) || stl::looks_binary(head) {
         return Some(Format::Stl);
@@ -65,12 +68,9 @@ pub fn read(bytes: &[u8], format: Format) -> Result<Imported, ReadError> {
         Format::Off => surface::build(off::read(bytes)?, "off"),
         Format::Vtk => grid::build(vtk::read(bytes)?, "vtk"),
         Format::Vtu => grid::build(vtu::read(bytes)?, "vtu"),
-        Format::Pvtu
-        | Format::Msh
-        | Format::Msh2
-        | Format::Medit
-        | Format::Inp
-        | Format::Node
-        | Format::Text => Err(ReadError::NotAnInput(format.name())),
+        Format::Msh | Format::Msh2 => msh::read(bytes),
+        Format::Pvtu | Format::Medit | Format::Inp | Format::Node | Format::Text => {
+            Err(ReadError::NotAnInput(format.name()))
+        }
     }
 }

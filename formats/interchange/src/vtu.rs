@@ -1,4 +1,5 @@
-//! VTK XML unstructured grid: ASCII, base64 and raw appended arrays, not compressed; one piece.
+//! VTK XML unstructured grid: ASCII, base64 and raw appended arrays, plain or compressed with zlib; one
+//! piece.
 //!
 //! Format: "VTK File Formats", section "XML File Formats".
 
@@ -6,7 +7,9 @@ use crate::ReadError;
 use crate::grid::Grid;
 use crate::soup::{DOUBLE, SINGLE};
 use crate::tokens::{number, shown};
+use flate2::{Decompress, FlushDecompress, Status};
 use glam::DVec3;
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
 /// Whether the bytes begin like a file of this format.
@@ -36,11 +39,16 @@ pub fn read(bytes: &[u8]) -> Result<Grid, ReadError> {
             shown(found.as_bytes())
         )));
     }
-    if root.get("compressor").is_some_and(|c| !c.is_empty()) {
-        return Err(malformed(
-            "compressed arrays are not supported; write it uncompressed",
-        ));
-    }
+    let compressed = match root.get("compressor") {
+        None | Some("") => false,
+        Some("vtkZLibDataCompressor") => true,
+        Some(other) => {
+            return Err(malformed(format!(
+                "arrays compressed by {} are not read; those by zlib are",
+                shown(other.as_bytes())
+            )));
+        }
+    };
     let big = root.get("byte_order") == Some("BigEndian");
     let wide = root.get("header_type") == Some("UInt64");
     let appended = find(bytes, b"<AppendedData", root.end);
@@ -62,6 +70,8 @@ pub fn read(bytes: &[u8]) -> Result<Grid, ReadError> {
         appended,
         big,
         wide,
+        compressed,
+        budget: Cell::new(bytes.len().saturating_mul(EXPANSION).saturating_add(SLACK)),
     };
     reader.grid(root.end)
 }
@@ -77,7 +87,15 @@ struct Reader<'a> {
     appended: Appended<'a>,
     big: bool,
     wide: bool,
+    compressed: bool,
+    /// Bytes that compressed arrays may still expand to.
+    budget: Cell<usize>,
 }
+
+/// All arrays together expand to no more than this many times the file, and [`SLACK`] bytes: more than
+/// any mesh does, and little enough for memory.
+const EXPANSION: usize = 30;
+const SLACK: usize = 1 << 22;
 
 impl Reader<'_> {
     fn grid(&self, mut at: usize) -> Result<Grid, ReadError> {
@@ -197,6 +215,13 @@ impl Reader<'_> {
     /// Numbers of a block: its size in bytes, then the bytes.
     fn block(&self, data: &[u8], kind: Kind, name: &str) -> Result<Vec<f64>, ReadError> {
         let header = if self.wide { 8 } else { 4 };
+        if self.compressed {
+            let items = self.inflate(data, header, name)?;
+            return Ok(items
+                .chunks_exact(kind.size())
+                .map(|b| kind.value(b, self.big))
+                .collect());
+        }
         let header_kind = Kind::Unsigned(header);
         let items = data.split_at_checked(header).and_then(|(size, rest)| {
             let size = header_kind.value(size, self.big);
@@ -211,6 +236,59 @@ impl Reader<'_> {
             .chunks_exact(kind.size())
             .map(|b| kind.value(b, self.big))
             .collect())
+    }
+}
+
+impl Reader<'_> {
+    /// Bytes of a compressed block: the number of parts, the size of a part, that of the last one if it is
+    /// smaller, the compressed sizes; then the parts.
+    fn inflate(&self, data: &[u8], header: usize, name: &str) -> Result<Vec<u8>, ReadError> {
+        let beyond = || malformed(format!("array '{name}' goes beyond the end of the file"));
+        let number = |i: usize| {
+            let at = i.checked_mul(header)?;
+            let bytes = data.get(at..at.checked_add(header)?)?;
+            Some(Kind::Unsigned(header).value(bytes, self.big) as usize)
+        };
+        let head = number(0).zip(number(1)).zip(number(2));
+        let ((parts, size), last) = head.ok_or_else(beyond)?;
+        if parts > data.len() / header {
+            return Err(beyond());
+        }
+        let total = match (parts, last) {
+            (0, _) => Some(0),
+            (n, 0) => n.checked_mul(size),
+            (n, last) => (n - 1).checked_mul(size).and_then(|t| t.checked_add(last)),
+        };
+        let left = total.and_then(|total| self.budget.get().checked_sub(total));
+        let (Some(total), Some(left)) = (total, left) else {
+            return Err(malformed(format!(
+                "array '{name}' claims to expand to more than {EXPANSION} times the file"
+            )));
+        };
+        self.budget.set(left);
+        let mut at = (3 + parts) * header;
+        let mut out = Vec::with_capacity(total);
+        let damaged = || malformed(format!("array '{name}' is not compressed as it says"));
+        for part in 0..parts {
+            let compressed = number(3 + part).ok_or_else(beyond)?;
+            let end = at.checked_add(compressed).ok_or_else(beyond)?;
+            let bytes = data.get(at..end).ok_or_else(beyond)?;
+            let expected = if part + 1 == parts && last != 0 {
+                last
+            } else {
+                size
+            };
+            let before = out.len();
+            // Never more than the total is written, for there is no capacity for it.
+            let status = Decompress::new(true)
+                .decompress_vec(bytes, &mut out, FlushDecompress::Finish)
+                .map_err(|_| damaged())?;
+            if status == Status::BufError || out.len() - before != expected {
+                return Err(damaged());
+            }
+            at = end;
+        }
+        Ok(out)
     }
 }
 

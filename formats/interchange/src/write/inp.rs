@@ -61,7 +61,8 @@ pub fn write(mesh: &dyn MeshStream, out: &mut dyn Write) -> Result<(), WriteErro
     let mut next = 1_u64;
     mesh.points(&mut |points| {
         for p in points {
-            sink.write_fmt(format_args!("{next}, {:?}, {:?}, {:?}\n", p.x, p.y, p.z))?;
+            let [x, y, z] = p.to_array().map(coordinate);
+            sink.write_fmt(format_args!("{next}, {x}, {y}, {z}\n"))?;
             next += 1;
         }
         Ok(())
@@ -107,6 +108,20 @@ pub fn write(mesh: &dyn MeshStream, out: &mut dyn Write) -> Result<(), WriteErro
 pub fn size_estimate(mesh: &dyn MeshStream) -> u64 {
     let tet = if mesh.is_second_order() { 80 } else { 36 };
     60 * mesh.point_count() + tet * mesh.tet_count() + 22 * mesh.triangle_count()
+}
+
+/// A number in at most 20 characters, all that CalculiX reads of one; 14 significant digits where the
+/// shortest exact form is longer.
+fn coordinate(x: f64) -> String {
+    let exact = format!("{x:?}");
+    if exact.len() <= 20 {
+        return exact;
+    }
+    let digits = format!("{x:.13e}");
+    if digits.len() <= 20 {
+        return digits;
+    }
+    format!("{x:.12e}")
 }
 
 fn heading(title: &str) -> String {
@@ -284,11 +299,47 @@ fn write_ties(mesh: &dyn MeshStream, names: &[String], sink: &mut ByteSink<'_>) 
         ))?;
     }
     for ((coupling, n, ..), tie) in seams.iter().zip(&tied) {
-        let [a, b] = coupling.axis;
+        let points = coupling.axis.map(|p| p.to_array().map(coordinate));
+        let points = points.as_flattened().join(", ");
         sink.text(&format!(
-            "*CYCLIC SYMMETRY MODEL, N={n}, TIE={tie}\n{:?}, {:?}, {:?}, {:?}, {:?}, {:?}\n",
-            a.x, a.y, a.z, b.x, b.y, b.z
+            "*CYCLIC SYMMETRY MODEL, N={n}, TIE={tie}\n{points}\n"
         ))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_fit_their_field() {
+        for x in [
+            0.0,
+            1.0 / 3.0,
+            -0.060_699_450_194_871_274,
+            -1.0 / 3e17,
+            -1.0 / 3e200,
+        ] {
+            let text = coordinate(x);
+            assert!(text.len() <= 20, "{text}");
+            let back: f64 = text.parse().unwrap();
+            assert!((back - x).abs() <= 1e-12 * x.abs(), "{text}");
+        }
+        assert_eq!(coordinate(0.25), "0.25");
+    }
+
+    #[test]
+    fn names_fit_and_are_unique() {
+        let names = ["liner/copper", "Liner_copper", "3rd", "all-nodes", "a b"];
+        let fitted = fitting(names.iter().map(|n| Some((*n).to_owned())));
+        let expected = [
+            "liner_copper",
+            "Liner_copper-2",
+            "n3rd",
+            "all-nodes-2",
+            "a_b",
+        ];
+        assert_eq!(fitted, expected);
+    }
 }
