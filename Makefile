@@ -10,7 +10,7 @@ PREFIX ?= /usr/local
 DESTDIR ?=
 TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
 TOOLS := symdetect wedgecut periodic-surf tetwedge rotassemble meshqual
-# Python with meshio and vtk: reads meshes independently of this project, in tests only.
+# Python with meshio, vtk and gmsh: reads meshes independently of this project, in tests only.
 REFEREE := $(TARGET)/referee
 
 .PHONY: help setup build demo test check fmt lint install clean

@@ -1,0 +1,83 @@
+//! Running the tools.
+
+use crate::generator::{self, Body, Encoding};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// ASCII STL with all digits.
+pub const EXACT_STL: Encoding = Encoding::StlAscii { digits: None };
+
+/// A body in a file format.
+pub fn encode(body: &Body, encoding: Encoding) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    generator::write(body, encoding, &mut bytes).expect("the encoding can hold the body");
+    bytes
+}
+
+#[track_caller]
+fn run(tool: &str, path: &str, arguments: &[&str], input: &Path, output: &Path) {
+    let result = Command::new(path)
+        .arg("-q")
+        .args(arguments)
+        .arg(input)
+        .arg("-o")
+        .arg(output)
+        .stdin(Stdio::null())
+        .output()
+        .expect("it runs");
+    let errors = String::from_utf8_lossy(&result.stderr);
+    assert!(result.status.success(), "{tool}: {errors}");
+}
+
+/// Takes a surface through all stages up to the mesh of a wedge; returns its path.
+#[track_caller]
+pub fn mesh(folder: &Path, surface: &[u8], cut: &[&str]) -> PathBuf {
+    let path = |name: &str| folder.join(name);
+    let input = path("surface");
+    std::fs::write(&input, surface).expect("a file");
+    let mut before = input;
+    for (tool, binary, arguments, name) in [
+        (
+            "symdetect",
+            env!("CARGO_BIN_EXE_symdetect"),
+            &[][..],
+            "detected.tmesh",
+        ),
+        (
+            "wedgecut",
+            env!("CARGO_BIN_EXE_wedgecut"),
+            cut,
+            "wedge.tmesh",
+        ),
+        (
+            "periodic-surf",
+            env!("CARGO_BIN_EXE_periodic-surf"),
+            &[],
+            "surface.tmesh",
+        ),
+        (
+            "tetwedge",
+            env!("CARGO_BIN_EXE_tetwedge"),
+            &[],
+            "mesh.tmesh",
+        ),
+    ] {
+        let after = path(name);
+        run(tool, binary, arguments, &before, &after);
+        before = after;
+    }
+    before
+}
+
+/// Runs `rotassemble`, which must succeed.
+#[track_caller]
+pub fn rotassemble(input: &Path, arguments: &[&str]) {
+    let result = Command::new(env!("CARGO_BIN_EXE_rotassemble"))
+        .arg("-q")
+        .args(arguments)
+        .arg(input)
+        .output()
+        .expect("it runs");
+    let errors = String::from_utf8_lossy(&result.stderr);
+    assert!(result.status.success(), "{arguments:?}: {errors}");
+}
