@@ -141,7 +141,11 @@ fn surfaces_and_listings() {
 fn the_format_follows_the_extension() {
     let folder = tempfile::tempdir().unwrap();
     let input = bytes(&wedge().document());
-    let heads: [(&str, &[u8]); 5] = [
+    let heads: [(&str, &[u8]); 9] = [
+        ("a.msh", b"$MeshFormat\n4.1 1 8\n"),
+        ("a.msh2", b"$MeshFormat\n2.2 1 8\n"),
+        ("a.mesh", b"MeshVersionFormatted 2\n"),
+        ("a.inp", b"*HEADING\nsymtet C6v order=6"),
         ("a.vtk", b"# vtk DataFile Version 3.0\n"),
         ("a.vtu", b"<?xml version=\"1.0\"?>\n<VTKFile"),
         ("a.tmesh", &tmesh::MAGIC),
@@ -194,7 +198,9 @@ fn failures() {
 fn a_full_disk_is_reported() {
     if Path::new("/dev/full").exists() {
         let input = bytes(&wedge().document());
-        for format in ["vtk", "vtu", "tmesh", "stl", "txt"] {
+        for format in [
+            "vtk", "vtu", "tmesh", "stl", "txt", "msh", "msh2", "mesh", "inp",
+        ] {
             fails(
                 &["--to", format, "-o", "/dev/full"],
                 &input,
@@ -233,4 +239,158 @@ fn a_reader_that_leaves_ends_it_quietly() {
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
+}
+
+/// A wedge of a body without mirror planes.
+fn chiral() -> Structured {
+    Structured {
+        mirror: false,
+        ..wedge()
+    }
+}
+
+#[test]
+fn meshes_of_several_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let input = bytes(&wedge().document());
+    succeeds(&["-o", &path("a.ele")], &input);
+    let count = |name: &str| -> usize {
+        let text = fs::read_to_string(path(name)).unwrap();
+        let first = text.split_whitespace().next().unwrap();
+        first.parse().unwrap()
+    };
+    let whole = succeeds(&["--to", "tmesh"], &input);
+    let whole = &tmesh::read(whole.as_slice()).unwrap().templates[0];
+    assert_eq!(count("a.node"), whole.vertices.len());
+    assert_eq!(count("a.ele"), whole.tets.len());
+    assert_eq!(count("a.face"), whole.triangles.len());
+
+    succeeds(&["-o", &path("b.pvtu"), "--compress"], &input);
+    let list = fs::read_to_string(path("b.pvtu")).unwrap();
+    assert_eq!(list.matches("<Piece Source=\"b/b_").count(), 12);
+    assert_eq!(fs::read_dir(path("b")).unwrap().count(), 12);
+
+    let sentence = "is several files; give a path with rotassemble -o, such as mesh.";
+    for format in ["node", "pvtu"] {
+        fails(&["--to", format], &input, 2, sentence);
+        fails(&["--to", format, "-o", "-"], &input, 2, sentence);
+    }
+    // A folder that cannot be made leaves nothing behind.
+    fs::write(path("c"), "").unwrap();
+    fails(&["-o", &path("c.pvtu")], &input, 4, "cannot write");
+    assert!(!Path::new(&path("c.pvtu")).exists());
+}
+
+#[test]
+fn the_table_of_pairs() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let document = chiral().document();
+    let input = bytes(&document);
+    let tmesh::Wall::Seam(seam) = &document.templates[0].walls[0] else {
+        panic!("a seam");
+    };
+    let (csv, json) = (path("p.csv"), path("p.json"));
+    succeeds(&["--sector", "--to", "vtk", "--pairs", &csv], &input);
+    let text = fs::read_to_string(csv).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("coupling,kind,low,high,residual"));
+    let mut nodes = Vec::new();
+    let mut faces = 0;
+    for line in lines {
+        let fields: Vec<&str> = line.split(',').collect();
+        let pair = [fields[2], fields[3]].map(|f| f.parse::<u32>().unwrap());
+        if fields[1] == "face" {
+            faces += 1;
+            continue;
+        }
+        assert_eq!(fields[1] == "axis", pair[0] == pair[1]);
+        assert!(fields[4].parse::<f64>().unwrap() < 1e-14);
+        nodes.push(pair);
+    }
+    assert_eq!(nodes, seam.vertex_pairs);
+    assert_eq!(faces, seam.triangle_pairs.len());
+
+    // Counted as in the mesh file.
+    succeeds(&["--sector", "--to", "inp", "--pairs", &json], &input);
+    let table: serde_json::Value = serde_json::from_slice(&fs::read(json).unwrap()).unwrap();
+    assert_eq!(table["first_id"], 1);
+    let first = &table["couplings"][0]["nodes"][0];
+    assert_eq!(first[0], seam.vertex_pairs[0][0] + 1);
+    assert_eq!(table["couplings"][0]["rotation"]["angle_deg"], 60.0);
+    assert_eq!(table["axis"][0], document.templates[0].axis[0] + 1);
+
+    let mirrored = path("m.json");
+    let input = bytes(&wedge().document());
+    succeeds(&["--sector", "--to", "inp", "--pairs", &mirrored], &input);
+    let table: serde_json::Value = serde_json::from_slice(&fs::read(mirrored).unwrap()).unwrap();
+    assert_eq!(table["couplings"], serde_json::json!([]));
+    assert_eq!(table["mirrors"][0]["name"], "wall-a");
+    fails(&["--pairs", "x.csv"], &input, 2, "--sector");
+}
+
+#[test]
+fn elements_of_second_order() {
+    for body in [wedge(), chiral()] {
+        let input = bytes(&body.document());
+        let whole = succeeds(&["--to", "tmesh"], &input);
+        let whole = &tmesh::read(whole.as_slice()).unwrap().templates[0];
+        let mut edges = std::collections::BTreeSet::new();
+        for tet in &whole.tets {
+            let v = tet.vertices;
+            for (i, j) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+                edges.insert([v[i].min(v[j]), v[i].max(v[j])]);
+            }
+        }
+        let text = succeeds(&["--to", "msh2", "--ascii", "--second-order"], &input);
+        let text = String::from_utf8(text).unwrap();
+        let after = |section: &str| text.split_once(section).unwrap().1.lines();
+        let count: usize = after("$Nodes\n").next().unwrap().parse().unwrap();
+        assert_eq!(count, whole.vertices.len() + edges.len());
+        let points: Vec<[f64; 3]> = after("$Nodes\n")
+            .skip(1)
+            .take(count)
+            .map(|line| {
+                let n: Vec<f64> = line.split(' ').map(|w| w.parse().unwrap()).collect();
+                [n[1], n[2], n[3]]
+            })
+            .collect();
+        let mut seen = 0;
+        for line in after("$Elements\n")
+            .skip(1)
+            .take_while(|l| !l.starts_with('$'))
+        {
+            let n: Vec<usize> = line.split(' ').map(|w| w.parse().unwrap()).collect();
+            if n[1] != 11 {
+                continue;
+            }
+            seen += 1;
+            let v = &n[5..];
+            // Gmsh's order of the edges.
+            for (k, (i, j)) in [(0, 1), (1, 2), (2, 0), (3, 0), (2, 3), (3, 1)]
+                .into_iter()
+                .enumerate()
+            {
+                for x in 0..3 {
+                    let middle = 0.5 * (points[v[i] - 1][x] + points[v[j] - 1][x]);
+                    assert!((points[v[4 + k] - 1][x] - middle).abs() < 1e-14, "{line}");
+                }
+            }
+        }
+        assert_eq!(seen, whole.tets.len());
+        for format in ["tmesh", "txt"] {
+            fails(
+                &["--second-order", "--to", format],
+                &input,
+                2,
+                "first-order",
+            );
+        }
+        for format in ["mesh", "inp"] {
+            let arguments = ["--second-order", "--to", format];
+            let code = run(&arguments, &input).status.code();
+            assert_eq!(code, Some(if format == "inp" { 0 } else { 2 }));
+        }
+    }
 }
