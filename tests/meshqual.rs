@@ -127,7 +127,23 @@ fn the_json_report() {
     };
     close(&report["volume"], volume);
     let region = &report["regions"][0];
-    assert_eq!(keys(region), ["id", "name", "tetrahedra", "volume"]);
+    assert_eq!(
+        keys(region),
+        ["id", "metrics", "name", "tetrahedra", "volume"]
+    );
+    assert_eq!(
+        keys(&region["metrics"]["min_dihedral_deg"]),
+        ["max", "mean", "min", "p01", "p50", "p99"]
+    );
+    close(&region["metrics"]["volume"]["mean"], volume / 8.0);
+    let worst = report["worst"].as_array().unwrap();
+    assert_eq!(worst.len(), 5);
+    assert_eq!(worst[1]["metric"], "min_dihedral_deg");
+    assert_eq!(
+        (&worst[1]["copies"], &worst[1]["region"]),
+        (&8.into(), &3.into())
+    );
+    close(&worst[1]["place"][2], 0.25);
     assert_eq!(
         (&region["id"], &region["name"]),
         (&3.into(), &"quartz".into())
@@ -279,6 +295,8 @@ fn comparison_with_the_assembled_mesh() {
     // The assembled mesh passes on its own, and says what it was checked for.
     let whole = json(&["--check", path], &[]);
     assert_eq!(whole["checks"]["connectivity_symmetric"], true);
+    assert_eq!(whole["symmetry"]["order"], 4);
+    assert_eq!(whole["symmetry"]["mirror"], true);
 }
 
 #[test]
@@ -293,4 +311,31 @@ fn wrong_usage() {
         let (code, stdout, _) = meshqual(arguments, &input);
         assert_eq!((code, stdout.as_str()), (2, ""), "{arguments:?}");
     }
+}
+
+#[test]
+fn the_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("r.html");
+    let path = page.to_str().unwrap();
+    let (code, _, stderr) = meshqual(&["--html", path, "--worst", "3"], &bytes(&pyramid()));
+    assert_eq!((code, stderr.as_str()), (0, ""));
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"));
+    assert_eq!(
+        html.matches("src=\"data:image/png;base64,iVBORw0KGgo")
+            .count(),
+        2
+    );
+    assert_eq!(html.matches("<svg ").count(), 1);
+    // One element has few neighbours among the worst.
+    assert_eq!(html.matches("<td>min_dihedral_deg</td>").count(), 2);
+    for tag in ["table", "tr", "td", "figure", "figcaption", "h2"] {
+        let open = html.matches(&format!("<{tag}>")).count();
+        assert_eq!(open, html.matches(&format!("</{tag}>")).count(), "{tag}");
+    }
+    let (_, again, _) = meshqual(&["--html", "-", "--worst", "3"], &bytes(&pyramid()));
+    assert_eq!(again, html);
+    let (code, _, stderr) = meshqual(&["--html", "-", "--json", "-"], &bytes(&pyramid()));
+    assert_eq!(code, 2, "{stderr}");
 }

@@ -1,6 +1,6 @@
 //! The command line of `meshqual`.
 
-use crate::{Error, Limit, Params, Report, analyse, svg, text};
+use crate::{Error, Limit, Params, Pictures, Report, analyse, html, svg, text};
 use interchange::Format;
 use kit::{Command, CommonArgs, Failure, Output, Session};
 use std::io::Write;
@@ -24,6 +24,15 @@ pub struct Cli {
     /// Write the histograms as an SVG image; `-` writes it in place of the text
     #[arg(long, value_name = "PATH")]
     svg: Option<PathBuf>,
+
+    /// Write the report as a page with tables, histograms and pictures of the mesh; `-` writes it in
+    /// place of the text
+    #[arg(long, value_name = "PATH")]
+    html: Option<PathBuf>,
+
+    /// Worst elements to list per metric, with their places
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    worst: u32,
 
     /// Bins per histogram
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -64,6 +73,7 @@ Examples:
   meshqual --check --json report.json --svg report.svg part.tmesh
   meshqual --fail-below min_dihedral_deg.p01=13 --fail-above radius_edge_ratio.p99=1.4 part.tmesh
   meshqual --compare direct.vtk part.vtk
+  meshqual --html report.html --worst 5 part.tmesh
 
 Exit status: 0 done, 1 a promise or a limit is broken (the report is written all the same), 2 wrong
 usage, 3 malformed input, 4 output not writable.";
@@ -95,6 +105,7 @@ impl Command for Cli {
         let params = Params {
             bins: self.bins as usize,
             limits: [self.fail_below.clone(), self.fail_above.clone()].concat(),
+            worst: self.worst as usize,
         };
         let document = session.read()?;
         let other = match &self.compare {
@@ -106,8 +117,9 @@ impl Command for Cli {
             .map(|(name, document)| (name.as_str(), document));
         let report = analyse(&document, other, &params)?;
         session.info("measured and checked");
+        let pictures = self.html.as_ref().map(|_| Pictures::of(&document));
         drop(document);
-        self.write(&report)?;
+        self.write(&report, pictures.as_ref())?;
         let failures = report.failures(self.check);
         match failures.as_slice() {
             [] => Ok(()),
@@ -128,36 +140,42 @@ impl Cli {
     fn check_outputs(&self) -> Result<(), Failure> {
         if self.common.to.is_some_and(|f| f != Format::Text) {
             return Err(Failure::Usage(
-                "the output is a report, not a mesh; use --json PATH or --svg PATH for other forms"
+                "the output is a report, not a mesh; use --json, --svg or --html PATH for other forms"
                     .to_owned(),
             ));
         }
-        if is_dash(self.json.as_deref()) && is_dash(self.svg.as_deref()) {
+        let forms = [&self.json, &self.svg, &self.html];
+        if forms.iter().filter(|p| is_dash(p.as_deref())).count() > 1 {
             return Err(Failure::Usage(
-                "only one of --json and --svg can go to standard output".to_owned(),
+                "only one of --json, --svg and --html can go to standard output".to_owned(),
             ));
         }
         Ok(())
     }
 
     /// Writes all parts, then makes the files appear.
-    fn write(&self, report: &Report) -> Result<(), Failure> {
+    fn write(&self, report: &Report, pictures: Option<&Pictures>) -> Result<(), Failure> {
         let mut done = Vec::new();
         let main = self.common.output.as_deref();
         let (json, svg_path) = (self.json.as_deref(), self.svg.as_deref());
+        let html_path = self.html.as_deref();
+        let title = match &self.common.input {
+            Some(path) => path.display().to_string(),
+            None => "standard input".to_owned(),
+        };
         if let Some(path) = json {
             let path = if is_dash(json) { main } else { Some(path) };
             done.push(put(path, &to_json(report)?)?);
         }
         if let Some(path) = svg_path {
             let path = if is_dash(svg_path) { main } else { Some(path) };
-            let title = match &self.common.input {
-                Some(path) => path.display().to_string(),
-                None => "standard input".to_owned(),
-            };
             done.push(put(path, &svg(report, &title))?);
         }
-        if !is_dash(json) && !is_dash(svg_path) {
+        if let (Some(path), Some(pictures)) = (html_path, pictures) {
+            let path = if is_dash(html_path) { main } else { Some(path) };
+            done.push(put(path, &html(report, &title, pictures))?);
+        }
+        if ![json, svg_path, html_path].into_iter().any(is_dash) {
             done.push(put(main, &text(report, self.check))?);
         }
         done.into_iter().try_for_each(Output::commit)

@@ -6,27 +6,35 @@
 mod check;
 mod cli;
 mod faces;
+mod html;
 mod instances;
 mod limit;
 mod measure;
 mod metric;
 mod nearby;
+mod picture;
+mod png;
 mod report;
 #[cfg(test)]
 mod specimens;
 mod statistics;
 mod svg;
 mod text;
+mod worst;
 
 pub use check::{Broken, Checks};
 pub use cli::Cli;
+pub use html::{Pictures, html};
 pub use instances::Realized;
 pub use limit::Limit;
 pub use metric::{Metric, Statistic};
-pub use report::{Compared, Metrics, Params, RegionReport, Report, Summary, Surface, analyse};
+pub use report::{
+    Compared, Metrics, Params, RegionMetrics, RegionReport, Report, Summary, Surface, analyse,
+};
 pub use statistics::{Histogram, Statistics};
 pub use svg::svg;
 pub use text::text;
+pub use worst::Worst;
 
 use thiserror::Error;
 

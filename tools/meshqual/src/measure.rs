@@ -2,7 +2,8 @@
 
 use crate::instances::{Copies, is_sector, wall_triangles};
 use crate::statistics::{Sample, sum};
-use crate::{Error, Metric, Surface};
+use crate::worst::Ranking;
+use crate::{Error, Metric, Surface, Worst};
 use geom::measure::{corners, tet_volume, triangle_area};
 use geom::tet::TetMeasures;
 use std::collections::BTreeMap;
@@ -32,18 +33,50 @@ pub struct Measured {
     pub total: Amount,
     /// Values of each metric, in the order of [`Metric::ALL`].
     pub samples: Vec<Sample>,
+    /// Values of each metric but the edge lengths, by region.
+    pub by_region: BTreeMap<u32, Vec<(Metric, Sample)>>,
+    /// The worst elements.
+    pub worst: Vec<Worst>,
 }
 
-/// Measures a document as it would be assembled. Linear in the templates.
-pub fn measure(document: &Document) -> Result<Measured, Error> {
+/// Metrics that are told by region: one value per tetrahedron.
+const BY_REGION: [Metric; 5] = [
+    Metric::RadiusEdgeRatio,
+    Metric::MinDihedral,
+    Metric::MaxDihedral,
+    Metric::AspectRatio,
+    Metric::Volume,
+];
+
+/// Measures a document as it would be assembled, and finds so many worst elements per metric. Linear
+/// in the templates.
+pub fn measure(document: &Document, worst: usize) -> Result<Measured, Error> {
     let copies = Copies::of(document);
     let mut samples = vec![Sample::default(); Metric::ALL.len()];
     let mut regions: BTreeMap<u32, Amount> = BTreeMap::new();
+    let mut by_region: BTreeMap<u32, Vec<(Metric, Sample)>> = BTreeMap::new();
+    let mut ranking = Ranking::new(worst);
     for (index, template) in document.templates.iter().enumerate() {
         let own = if template.tets.is_empty() {
             enclosed(template)
         } else {
             let values = values(template);
+            if copies.of_template[index] > 0 {
+                ranking.look(index as u32, &values);
+            }
+            let parts = parts(template, &values);
+            for instance in first_of_each_map(document, index as u32) {
+                let count = copies.of_map[&(index as u32, instance.region_map)];
+                for (&region, parts) in &parts {
+                    let region = document.placed_region(instance, region);
+                    let samples = by_region
+                        .entry(region)
+                        .or_insert_with(|| BY_REGION.map(|m| (m, Sample::default())).to_vec());
+                    for ((_, sample), values) in samples.iter_mut().zip(parts) {
+                        sample.add(values.clone(), count);
+                    }
+                }
+            }
             let volumes = &values[Metric::ALL.len() - 1];
             let own = amounts(template, volumes);
             for (sample, values) in samples.iter_mut().zip(values) {
@@ -65,6 +98,8 @@ pub fn measure(document: &Document) -> Result<Measured, Error> {
         regions,
         total,
         samples,
+        by_region,
+        worst: ranking.finish(document, &copies.of_template),
     })
 }
 
@@ -105,6 +140,21 @@ fn values(template: &Template) -> [Vec<f64>; 6] {
         edges,
         volumes,
     ]
+}
+
+/// Values of the metrics of [`BY_REGION`] by region.
+fn parts(template: &Template, values: &[Vec<f64>; 6]) -> BTreeMap<u32, [Vec<f64>; 5]> {
+    let mut parts: BTreeMap<u32, [Vec<f64>; 5]> = BTreeMap::new();
+    let mut begin = 0;
+    for run in template.tets.chunk_by(|a, b| a.region == b.region) {
+        let end = begin + run.len();
+        let part = parts.entry(run[0].region).or_default();
+        for (list, metric) in part.iter_mut().zip(BY_REGION) {
+            list.extend(&values[metric as usize][begin..end]);
+        }
+        begin = end;
+    }
+    parts
 }
 
 /// Amounts per region of a template, from the volumes of its tetrahedra.

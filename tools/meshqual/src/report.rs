@@ -4,9 +4,10 @@ use crate::check::{Checks, check};
 use crate::instances::{Realized, assembled_vertices, is_sector, realized};
 use crate::measure::{Measured, measure};
 use crate::statistics::{Statistics, common_bins};
-use crate::{Error, Limit, Metric};
+use crate::{Error, Limit, Metric, Statistic, Worst};
 use serde::Serialize;
 use serde::ser::SerializeMap;
+use std::collections::BTreeMap;
 use tmesh::{Document, Region, Violation};
 
 /// What to find out.
@@ -16,6 +17,8 @@ pub struct Params {
     pub bins: usize,
     /// Limits the mesh has to meet.
     pub limits: Vec<Limit>,
+    /// Worst elements to find per metric.
+    pub worst: usize,
 }
 
 /// All about a mesh.
@@ -24,6 +27,8 @@ pub struct Report {
     /// Sizes and metrics.
     #[serde(flatten)]
     pub summary: Summary,
+    /// The worst elements by each metric.
+    pub worst: Vec<Worst>,
     /// Which promises hold.
     pub checks: Checks,
     /// Limits that are not met, a sentence each.
@@ -62,7 +67,7 @@ pub struct Summary {
     pub templates: u64,
     /// Placed copies of templates.
     pub instances: u64,
-    /// Symmetry of the instances; `null` for a plain mesh.
+    /// Symmetry of the instances, or what a plain mesh promises; `null` for one that promises nothing.
     pub symmetry: Option<Realized>,
     /// Statistics of the metrics; each `null` without tetrahedra.
     pub metrics: Metrics,
@@ -88,6 +93,34 @@ pub struct RegionReport {
     pub tetrahedra: u64,
     /// Volume, model units cubed.
     pub volume: f64,
+    /// Statistics of the metrics.
+    pub metrics: RegionMetrics,
+}
+
+/// Statistics of the metrics of one region's tetrahedra, edge lengths left out.
+#[derive(Clone, Debug, Default)]
+pub struct RegionMetrics(Vec<(Metric, Statistics)>);
+
+impl RegionMetrics {
+    /// Statistics of a metric; `None` without tetrahedra.
+    pub fn get(&self, metric: Metric) -> Option<&Statistics> {
+        let found = self.0.iter().find(|m| m.0 == metric);
+        found.map(|m| &m.1)
+    }
+}
+
+impl Serialize for RegionMetrics {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (metric, statistics) in &self.0 {
+            let values: BTreeMap<&str, f64> = Statistic::ALL
+                .iter()
+                .map(|&s| (s.name(), statistics.get(s)))
+                .collect();
+            map.serialize_entry(metric.name(), &values)?;
+        }
+        map.end()
+    }
 }
 
 /// Statistics of all metrics, in the order of [`Metric::ALL`].
@@ -112,6 +145,13 @@ impl Serialize for Metrics {
 }
 
 impl Report {
+    /// A region's name, or its id where it has none.
+    pub fn region_name(&self, id: u32) -> String {
+        let mut regions = self.summary.regions.iter();
+        let found = regions.find(|r| r.id == id && !r.name.is_empty());
+        found.map_or_else(|| format!("region {id}"), |r| r.name.clone())
+    }
+
     /// Everything that is wrong, a sentence each: broken promises if asked for, and limits.
     pub fn failures(&self, promises: bool) -> Vec<String> {
         let broken = self.checks.violations.iter().filter(|_| promises);
@@ -136,9 +176,9 @@ pub fn analyse(
     if let Some((_, other)) = other {
         usable(other)?;
     }
-    let measured = measure(document)?;
+    let mut measured = measure(document, params.worst)?;
     let compared = match other {
-        Some((name, other)) => Some((name, other, measure(other)?)),
+        Some((name, other)) => Some((name, other, measure(other, 0)?)),
         None => None,
     };
     let bins: Vec<Vec<f64>> = Metric::ALL
@@ -151,6 +191,7 @@ pub fn analyse(
         })
         .collect();
     let checks = check(document, &measured, &violations)?;
+    let worst = std::mem::take(&mut measured.worst);
     let summary = summary(document, measured, &bins);
     let compare = compared.map(|(name, other, measured)| Compared {
         name: name.to_owned(),
@@ -164,6 +205,7 @@ pub fn analyse(
             .collect(),
         notes: notes(document),
         summary,
+        worst,
         checks,
         compare,
     })
@@ -208,8 +250,26 @@ fn instances_in_range(document: &Document) -> bool {
     })
 }
 
-fn summary(document: &Document, measured: Measured, bins: &[Vec<f64>]) -> Summary {
-    let plain = document.is_plain();
+fn summary(document: &Document, mut measured: Measured, bins: &[Vec<f64>]) -> Summary {
+    let symmetry = if document.is_plain() {
+        let promise = document.symmetry.as_ref().and_then(|s| s.promise.as_ref());
+        promise.map(|p| Realized {
+            order: p.order,
+            mirror: p.mirror,
+            horizontal_mirror: p.horizontal_mirror,
+        })
+    } else {
+        Some(realized(document))
+    };
+    let mut by_region = std::mem::take(&mut measured.by_region);
+    let mut quality = |id: u32| {
+        let samples = by_region.remove(&id).into_iter().flatten();
+        let metrics = samples.filter_map(|(metric, sample)| {
+            let range = vec![0.0, 1.0];
+            Some((metric, sample.statistics(range)?))
+        });
+        RegionMetrics(metrics.collect())
+    };
     let mut regions: Vec<RegionReport> = measured
         .regions
         .iter()
@@ -218,6 +278,7 @@ fn summary(document: &Document, measured: Measured, bins: &[Vec<f64>]) -> Summar
             name: region(document, id).map_or_else(String::new, |r| r.name.clone()),
             tetrahedra: amount.tetrahedra,
             volume: amount.volume,
+            metrics: quality(id),
         })
         .collect();
     // A listed region of which nothing is left must show.
@@ -228,6 +289,7 @@ fn summary(document: &Document, measured: Measured, bins: &[Vec<f64>]) -> Summar
                 name: r.name.clone(),
                 tetrahedra: 0,
                 volume: 0.0,
+                metrics: RegionMetrics::default(),
             });
         }
     }
@@ -246,7 +308,7 @@ fn summary(document: &Document, measured: Measured, bins: &[Vec<f64>]) -> Summar
         surface: crate::measure::surface(document),
         templates: document.templates.len() as u64,
         instances: document.instances.len() as u64,
-        symmetry: (!plain).then(|| realized(document)),
+        symmetry,
         metrics: Metrics(metrics),
     }
 }

@@ -140,7 +140,8 @@ fn shares(histogram: &Histogram) -> Vec<f64> {
     histogram.counts.iter().map(|&c| c as f64 / total).collect()
 }
 
-fn escaped(text: &str) -> String {
+/// Text as it can stand in XML.
+pub fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {

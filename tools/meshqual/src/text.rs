@@ -1,7 +1,7 @@
 //! The report as text: tables and histograms for a terminal.
 
 use crate::statistics::Histogram;
-use crate::{Metric, Report, Statistic, Summary};
+use crate::{Checks, Metric, Report, Statistic, Summary};
 use std::fmt::Write;
 
 /// Cells of the longest histogram bar.
@@ -18,6 +18,7 @@ pub fn text(report: &Report, promises: bool) -> String {
         sizes(&mut out, &other.summary);
     }
     metrics(&mut out, report);
+    worst(&mut out, report);
     for metric in Metric::ALL {
         let Some(own) = report.summary.metrics.get(metric) else {
             continue;
@@ -51,14 +52,18 @@ fn sizes(out: &mut String, s: &Summary) {
             of.push_str(" and a horizontal mirror");
         }
         let plural = |n: u64| if n == 1 { "" } else { "s" };
-        let _ = writeln!(
-            out,
-            "{} template{} placed {} time{}, symmetry of {of}",
-            s.templates,
-            plural(s.templates),
-            s.instances,
-            plural(s.instances)
-        );
+        if s.instances == 1 {
+            let _ = writeln!(out, "one piece that promises a symmetry of {of}");
+        } else {
+            let _ = writeln!(
+                out,
+                "{} template{} placed {} time{}, symmetry of {of}",
+                s.templates,
+                plural(s.templates),
+                s.instances,
+                plural(s.instances)
+            );
+        }
     }
     let _ = writeln!(
         out,
@@ -73,17 +78,47 @@ fn sizes(out: &mut String, s: &Summary) {
     let width = width.unwrap_or(0).clamp(6, 40);
     let _ = writeln!(
         out,
-        "\n{:<width$} {:>10} {:>14} {:>14}",
-        "region", "id", "tetrahedra", "volume"
+        "\n{:<width$} {:>10} {:>14} {:>14} {:>12} {:>12} {:>12}",
+        "region", "id", "tetrahedra", "volume", "min dihedral", "its p01", "rad-edge p99"
     );
     for r in &s.regions {
+        let of = |metric, statistic| {
+            let value = r.metrics.get(metric).map(|m| m.get(statistic));
+            value.map_or("-".to_owned(), number)
+        };
         let _ = writeln!(
             out,
-            "{:<width$} {:>10} {:>14} {:>14}",
+            "{:<width$} {:>10} {:>14} {:>14} {:>12} {:>12} {:>12}",
             r.name,
             r.id,
             grouped(r.tetrahedra),
-            number(r.volume)
+            number(r.volume),
+            of(Metric::MinDihedral, Statistic::Min),
+            of(Metric::MinDihedral, Statistic::P01),
+            of(Metric::RadiusEdgeRatio, Statistic::P99)
+        );
+    }
+}
+
+fn worst(out: &mut String, report: &Report) {
+    if !report.worst.is_empty() {
+        out.push_str("\nworst elements\n");
+    }
+    for w in &report.worst {
+        let [x, y, z] = w.place.map(number);
+        let copies = if w.copies > 1 {
+            format!(", {} copies", grouped(w.copies))
+        } else {
+            String::new()
+        };
+        let _ = writeln!(
+            out,
+            "{:<20} {:>11}  {} near ({x}, {y}, {z}); tetrahedron {} of template {}{copies}",
+            w.metric.name(),
+            number(w.value),
+            report.region_name(w.region),
+            w.tetrahedron,
+            w.template,
         );
     }
 }
@@ -171,23 +206,7 @@ fn bar(share: f64) -> String {
 fn checks(out: &mut String, report: &Report, promises: bool) {
     let c = &report.checks;
     out.push('\n');
-    let answer = |b: bool| if b { "yes" } else { "NO" }.to_owned();
-    let count = |n: u64| grouped(n);
-    let error = |e: f64| format!("{e:.2e}");
-    let lines = [
-        ("conforming", c.conforming.map(answer)),
-        ("inverted", c.inverted.map(count)),
-        ("coincident vertices", c.coincident_vertices.map(count)),
-        ("symmetry residual", c.symmetry_residual.map(error)),
-        (
-            "connectivity symmetric",
-            c.connectivity_symmetric.map(answer),
-        ),
-        ("volume error", c.volume_error.map(error)),
-        ("region volume error", c.region_volume_error.map(error)),
-        ("boundary area error", c.boundary_area_error.map(error)),
-    ];
-    for (name, value) in lines {
+    for (name, value) in c.table() {
         let value = value.unwrap_or_else(|| "-".to_owned());
         let _ = writeln!(out, "{name:<24} {value:>11}");
     }
@@ -196,6 +215,28 @@ fn checks(out: &mut String, report: &Report, promises: bool) {
     }
     if promises && report.checks.passed {
         let _ = writeln!(out, "all promises hold");
+    }
+}
+
+impl Checks {
+    /// Names and results, where there are any, as tables show them.
+    pub fn table(&self) -> [(&'static str, Option<String>); 8] {
+        let answer = |b: bool| if b { "yes" } else { "NO" }.to_owned();
+        let count = |n: u64| grouped(n);
+        let error = |e: f64| format!("{e:.2e}");
+        [
+            ("conforming", self.conforming.map(answer)),
+            ("inverted", self.inverted.map(count)),
+            ("coincident vertices", self.coincident_vertices.map(count)),
+            ("symmetry residual", self.symmetry_residual.map(error)),
+            (
+                "connectivity symmetric",
+                self.connectivity_symmetric.map(answer),
+            ),
+            ("volume error", self.volume_error.map(error)),
+            ("region volume error", self.region_volume_error.map(error)),
+            ("boundary area error", self.boundary_area_error.map(error)),
+        ]
     }
 }
 
@@ -221,7 +262,7 @@ pub fn number(x: f64) -> String {
 }
 
 /// A count with its digits in groups of three.
-fn grouped(n: u64) -> String {
+pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut out = String::new();
     for (i, digit) in digits.chars().enumerate() {

@@ -9,6 +9,7 @@ fn report(document: &Document) -> Report {
     let params = Params {
         bins: 10,
         limits: Vec::new(),
+        worst: 1,
     };
     analyse(document, None, &params).unwrap()
 }
@@ -529,6 +530,7 @@ fn nothing_to_measure() {
     let params = Params {
         bins: 3,
         limits: Vec::new(),
+        worst: 1,
     };
     let error = analyse(&empty, None, &params).unwrap_err();
     assert!(
