@@ -372,9 +372,9 @@ fn elements_of_second_order() {
                 .into_iter()
                 .enumerate()
             {
-                for x in 0..3 {
-                    let middle = 0.5 * (points[v[i] - 1][x] + points[v[j] - 1][x]);
-                    assert!((points[v[4 + k] - 1][x] - middle).abs() < 1e-14, "{line}");
+                let [a, b, m] = [v[i], v[j], v[4 + k]].map(|p| points[p - 1]);
+                for ((a, b), m) in a.iter().zip(b).zip(m) {
+                    assert!((m - 0.5 * (a + b)).abs() < 1e-14, "{line}");
                 }
             }
         }

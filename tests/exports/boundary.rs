@@ -129,7 +129,11 @@ fn names_given_in_the_input_are_on_the_triangles_of_the_mesh() {
         for domain in ["mirror", "rotation"] {
             let folder = temporary.path().join(format!("{format}-{domain}"));
             std::fs::create_dir(&folder).expect("a folder");
-            let input = mesh(&folder, text.as_bytes(), &["--domain", domain]);
+            let input = mesh(
+                &folder,
+                text.as_bytes(),
+                &["--domain", domain, "--order", "6"],
+            );
             let path = |name: &str| folder.join(name).to_str().expect("text").to_owned();
             let [msh, inp, vtu] = ["a.msh", "a.inp", "a.vtu"].map(path);
             for output in [&msh, &inp, &vtu] {

@@ -1,7 +1,7 @@
 //! Frequencies of a chiral body: one sector with cyclic symmetry against the whole, by CalculiX.
 
 use crate::generator::{Encoding, Impeller, Tessellation};
-use crate::tools::{encode, mesh, rotassemble};
+use crate::tools::{coarse_mesh, encode, rotassemble};
 use std::path::Path;
 use std::process::Command;
 
@@ -54,7 +54,8 @@ fn a_sector_has_the_frequencies_of_the_whole() {
     .build();
     let temporary = tempfile::tempdir().expect("a folder");
     let folder = temporary.path();
-    let input = mesh(folder, &encode(&body, Encoding::Obj), &[]);
+    let surface = encode(&body, Encoding::Obj);
+    let input = coarse_mesh(folder, &surface, &["--order", "5", "--hub", "none"]);
     for order in [&[][..], &["--second-order"]] {
         let path = |name: &str| folder.join(name).to_str().expect("text").to_owned();
         let [sector, whole] = ["sector.inp", "whole.inp"].map(path);

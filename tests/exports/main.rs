@@ -12,7 +12,7 @@ mod calculix;
 mod referee;
 mod tools;
 
-use generator::{Placement, Tessellation, Tsv};
+use generator::{Encoding, Impeller, Placement, Tessellation, Tsv};
 use referee::{Job, close, read};
 use serde_json::Value;
 use std::path::Path;
@@ -53,7 +53,8 @@ fn every_reader_finds_the_same_mesh_in_every_format() {
     let body = via();
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    let input = mesh(folder, &encode(&body, EXACT_STL), &[]);
+    let cut = ["--order", "8", "--hub", "none"];
+    let input = mesh(folder, &encode(&body, EXACT_STL), &cut);
     let document = tmesh::read(std::fs::read(&input).expect("a file").as_slice()).expect("valid");
     let tets: usize = document.templates.iter().map(|t| t.tets.len()).sum();
     let tets = tets * document.instances.len();
@@ -146,7 +147,8 @@ fn gmsh_reads_the_couplings_of_a_sector() {
     let body = via();
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    let input = mesh(folder, &encode(&body, EXACT_STL), &["--domain", "rotation"]);
+    let cut = ["--domain", "rotation", "--order", "8", "--hub", "none"];
+    let input = mesh(folder, &encode(&body, EXACT_STL), &cut);
     let document = tmesh::read(std::fs::read(&input).expect("a file").as_slice()).expect("valid");
     let table = folder.join("pairs.json");
     let table = table.to_str().expect("text");
@@ -203,4 +205,46 @@ fn gmsh_reads_the_couplings_of_a_sector() {
     let on_axis = nodes.iter().filter(|p| p[0] == p[1]).count();
     assert_eq!(on_axis, document.templates[0].axis.len());
     assert_eq!(table["axis"].as_array().expect("a list").len(), on_axis);
+}
+
+#[test]
+fn a_hub_of_the_same_order_is_part_of_the_sector() {
+    if !referee::is_there() {
+        return;
+    }
+    let body = Impeller {
+        order: 5,
+        radius: 1.0,
+        bore: 0.0,
+        height: 1.0,
+        twist: 0.4,
+        layers: 3,
+        tessellation: Tessellation::Symmetric,
+    }
+    .build();
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let cut = ["--hub", "0.15", "--order", "5"];
+    let input = mesh(folder, &encode(&body, Encoding::Obj), &cut);
+    let document = tmesh::read(std::fs::read(&input).expect("a file").as_slice()).expect("valid");
+    assert_eq!(document.templates.len(), 2);
+    let whole = write(folder, "whole.msh", &input, &[]);
+    let sector = write(folder, "sector.msh", &input, &["--sector"]);
+    let deck = write(folder, "sector.inp", &input, &["--sector"]);
+    let found = read(&[
+        Job::new("gmsh", "msh", &whole),
+        Job::new("gmsh", "msh", &sector),
+        Job::new("manual", "inp", &deck),
+    ]);
+    let volume = |i: usize| found[i]["volumes"]["body"].as_f64().expect("a volume");
+    close(&volume(0).into(), body.volume(0), 1e-9, "the whole");
+    close(&volume(1).into(), body.volume(0) / 5.0, 1e-9, "the sector");
+    let periodic = found[1]["periodic"].as_array().expect("a list");
+    assert_eq!(periodic.len(), 1, "{periodic:?}");
+    // Wedge and hub are welded: the points on both are there once, and coupled once.
+    let points: usize = document.templates.iter().map(|t| t.vertices.len()).sum();
+    assert!(found[1]["points"].as_u64() < Some(points as u64));
+    let model = &found[2]["model"];
+    assert_eq!(model["sectors"], 5);
+    assert_eq!(found[2]["points"], found[1]["points"]);
 }

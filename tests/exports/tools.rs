@@ -32,6 +32,17 @@ fn run(tool: &str, path: &str, arguments: &[&str], input: &Path, output: &Path) 
 /// Takes a surface through all stages up to the mesh of a wedge; returns its path.
 #[track_caller]
 pub fn mesh(folder: &Path, surface: &[u8], cut: &[&str]) -> PathBuf {
+    stages(folder, surface, cut, true)
+}
+
+/// The same with few elements: the faces of the wedge stay as they are cut.
+#[track_caller]
+pub fn coarse_mesh(folder: &Path, surface: &[u8], cut: &[&str]) -> PathBuf {
+    stages(folder, surface, cut, false)
+}
+
+#[track_caller]
+fn stages(folder: &Path, surface: &[u8], cut: &[&str], graded: bool) -> PathBuf {
     let path = |name: &str| folder.join(name);
     let input = path("surface");
     std::fs::write(&input, surface).expect("a file");
@@ -62,6 +73,9 @@ pub fn mesh(folder: &Path, surface: &[u8], cut: &[&str]) -> PathBuf {
             "mesh.tmesh",
         ),
     ] {
+        if tool == "periodic-surf" && !graded {
+            continue;
+        }
         let after = path(name);
         run(tool, binary, arguments, &before, &after);
         before = after;

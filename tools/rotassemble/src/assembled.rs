@@ -5,8 +5,9 @@ use crate::promise::{is_trivial, promise};
 use glam::DVec3;
 use interchange::sides::{by_label, face_tets, marker_label};
 use interchange::{
-    Label, MeshStream, Middles, Patch, PatchBlock, PatchSink, PointSink, TetBlock, TetRegionBlock,
-    TetRegionSink, TetSink, TriangleBlock, TriangleSink, placed_side, promise_title,
+    Coupling, Label, MeshStream, Middles, Patch, PatchBlock, PatchSink, Plain, PointSink, TetBlock,
+    TetRegionBlock, TetRegionSink, TetSink, TriangleBlock, TriangleSink, placed_side,
+    promise_title,
 };
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -39,6 +40,17 @@ pub struct Assembled<'a> {
     /// Tetrahedra that triangles are faces of, per template.
     sides: OnceCell<Vec<Vec<(u32, u8)>>>,
     middles: Option<&'a Middles>,
+    open: Open,
+}
+
+/// What is left open in a sector: walls, and what they have to do with each other.
+#[derive(Default)]
+struct Open {
+    names: Vec<String>,
+    /// Wall per triangle of each template, as in [`TriangleBlock::walls`]; empty when nothing is open.
+    walls: Vec<Vec<u32>>,
+    couplings: Vec<Coupling>,
+    axis_edges: Vec<[u32; 2]>,
 }
 
 impl<'a> Assembled<'a> {
@@ -70,12 +82,23 @@ impl<'a> Assembled<'a> {
             first_tet: Vec::new(),
             sides: OnceCell::new(),
             middles,
+            open: Open::default(),
         };
         mesh.kept = mesh.triangles_off_walls();
+        mesh.open = mesh.open_walls();
         let marker = |t: usize, i: u32| document.templates[t].triangles[i as usize].marker;
+        let wall = |t: usize, i: u32| match mesh.open.walls.get(t) {
+            Some(walls) => walls[i as usize],
+            None => 0,
+        };
         let lists = mesh.kept.iter().enumerate();
         mesh.labelled = lists
-            .map(|(t, list)| by_label(list.iter().map(|&i| (i, marker_label(marker(t, i))))))
+            .map(|(t, list)| {
+                by_label(list.iter().map(|&i| match wall(t, i) {
+                    0 => (i, marker_label(marker(t, i))),
+                    wall => (i, Label::Wall(wall - 1)),
+                }))
+            })
             .collect();
         let mut counts: BTreeMap<Label, u64> = BTreeMap::new();
         let mut first_tet = 0;
@@ -99,6 +122,63 @@ impl<'a> Assembled<'a> {
             .map(|(label, triangles)| Patch { label, triangles })
             .collect();
         Ok(mesh)
+    }
+
+    /// Names, pairs and axis of a sector: of a document in which each template is placed once.
+    fn open_walls(&self) -> Open {
+        let document = self.document;
+        let templates = document.templates.len();
+        let mut placed = vec![Vec::new(); templates];
+        for (i, instance) in document.instances.iter().enumerate() {
+            placed[instance.template as usize].push(i);
+        }
+        if placed.iter().any(|list| list.len() != 1) {
+            return Open::default();
+        }
+        let Ok(plain) = Plain::of_order(document, self.middles) else {
+            return Open::default();
+        };
+        // From the ids of the templates one after the other to those of the mesh.
+        let first = plain.first_ids();
+        let locate = |id: u32| {
+            let t = first.partition_point(|&f| f <= id) - 1;
+            self.numbering.id(placed[t][0], id - first[t])
+        };
+        let mut position: Vec<Option<u64>> = Vec::new();
+        let mut next = vec![0_u64; templates];
+        let mut begin = 0;
+        for (i, instance) in document.instances.iter().enumerate() {
+            next[instance.template as usize] = begin;
+            begin += self.triangles_of(i);
+        }
+        for (t, template) in document.templates.iter().enumerate() {
+            let from = position.len();
+            position.resize(from + template.triangles.len(), None);
+            for (at, &i) in (next[t]..).zip(&self.kept[t]) {
+                position[from + i as usize] = Some(at);
+            }
+        }
+        let couplings = plain.couplings().iter().filter_map(|coupling| {
+            let pairs = coupling.triangles.iter();
+            let triangles: Option<Vec<[u64; 2]>> = pairs
+                .map(|p| Some([position[p[0] as usize]?, position[p[1] as usize]?]))
+                .collect();
+            let mut points: Vec<[u32; 2]> = coupling.points.iter().map(|p| p.map(locate)).collect();
+            points.sort_unstable();
+            points.dedup();
+            // What is welded needs no coupling.
+            Some(Coupling {
+                triangles: triangles?,
+                points,
+                ..coupling.clone()
+            })
+        });
+        Open {
+            couplings: couplings.collect(),
+            axis_edges: plain.axis_edges().iter().map(|e| e.map(locate)).collect(),
+            names: plain.wall_names().to_vec(),
+            walls: (0..templates).map(|t| plain.walls_of(t).to_vec()).collect(),
+        }
     }
 
     fn sides(&self) -> &[Vec<(u32, u8)>] {
@@ -361,6 +441,8 @@ impl<'a> Assembled<'a> {
                     block.corners.push(corners);
                 }
                 block.markers.push(triangle.marker);
+                let walls = self.open.walls.get(instance.template as usize);
+                block.walls.push(walls.map_or(0, |walls| walls[t as usize]));
                 let [front, back] = sides.unwrap_or(placed);
                 block.front.push(front);
                 block.back.push(back);
@@ -432,7 +514,7 @@ impl MeshStream for Assembled<'_> {
     }
 
     fn wall_names(&self) -> &[String] {
-        &[]
+        &self.open.names
     }
 
     fn points(&self, sink: &mut PointSink<'_>) -> io::Result<()> {
@@ -522,6 +604,14 @@ impl MeshStream for Assembled<'_> {
     fn is_second_order(&self) -> bool {
         self.middles.is_some()
     }
+
+    fn couplings(&self) -> &[Coupling] {
+        &self.open.couplings
+    }
+
+    fn axis_edges(&self) -> &[[u32; 2]] {
+        &self.open.axis_edges
+    }
 }
 
 /// Triangles on their way to a sink.
@@ -542,7 +632,6 @@ impl Block {
         if self.vertices.is_empty() {
             return Ok(());
         }
-        self.walls.resize(self.vertices.len(), 0);
         let given = sink(&TriangleBlock {
             vertices: &self.vertices,
             middles: &self.middles,

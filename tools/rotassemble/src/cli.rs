@@ -143,18 +143,7 @@ impl Command for Cli {
             (document, middles) = (added.0, Some(added.1));
         }
         let middles = middles.as_ref();
-        if let Some(path) = &self.pairs {
-            let plain = plain(&document, middles)?;
-            let table = match path.extension() {
-                Some(e) if e.eq_ignore_ascii_case("csv") => TableFormat::Csv,
-                _ => TableFormat::Json,
-            };
-            session.write_files(std::slice::from_ref(path), |_, out| {
-                let first = first_id(format);
-                Ok(write_pairs(&plain, &document, first, table, out)?)
-            })?;
-        }
-        if listed || (self.sector && as_is) {
+        if listed && self.pairs.is_none() {
             return session.write_in(&document, format);
         }
         let mesh = Assembled::of_order(&document, middles).map_err(|error| match error {
@@ -164,8 +153,24 @@ impl Command for Cli {
         if format == Format::Pvtu {
             return write_pvtu(session, &mesh, &document, &options);
         }
-        // Nothing to assemble: the walls are worth keeping.
-        if document.instances.len() <= document.templates.len() && !mesh.is_welded() {
+        // Nothing to assemble: each template as it is, with all its walls.
+        let apart = document.instances.len() <= document.templates.len() && !mesh.is_welded();
+        if let Some(path) = &self.pairs {
+            let plain = plain(&document, middles)?;
+            let shown: &dyn MeshStream = if apart { &plain } else { &mesh };
+            let table = match path.extension() {
+                Some(e) if e.eq_ignore_ascii_case("csv") => TableFormat::Csv,
+                _ => TableFormat::Json,
+            };
+            session.write_files(std::slice::from_ref(path), |_, out| {
+                let first = first_id(format);
+                Ok(write_pairs(shown, &document, first, table, out)?)
+            })?;
+        }
+        if self.sector && as_is {
+            return session.write_in(&document, format);
+        }
+        if apart {
             if as_is {
                 return session.write_in(&document, format);
             }

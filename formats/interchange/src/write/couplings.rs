@@ -1,15 +1,16 @@
 //! What is known of the cut faces of a sector: pairs, maps, the axis.
 
+use super::plain::WallNames;
 use crate::{Coupling, Middles};
 use glam::{DMat3, DVec3};
 use rustc_hash::FxHashSet;
 use tmesh::{Document, Isometry, Wall};
 
 /// The couplings of all seams and hubs. Template `t` is placed by `shown[t]`, its points begin at
-/// `first[t]`. Walls are counted as their names are: two for a seam, one for any other.
+/// `first[t]`. Seams of several templates with the same faces are one coupling.
 pub fn couplings(document: &Document, shown: &[Isometry], first: &[u32]) -> Vec<Coupling> {
-    let mut all = Vec::new();
-    let mut label = 0;
+    let mut all: Vec<Coupling> = Vec::new();
+    let mut names = WallNames::default();
     let mut first_triangle = Vec::with_capacity(document.templates.len());
     let mut count = 0;
     for template in &document.templates {
@@ -18,22 +19,24 @@ pub fn couplings(document: &Document, shown: &[Isometry], first: &[u32]) -> Vec<
     }
     for (t, template) in document.templates.iter().enumerate() {
         for wall in &template.walls {
+            let faces = names.of(t, wall);
             match wall {
-                Wall::Mirror(_) => label += 1,
+                Wall::Mirror(_) => {}
                 Wall::Seam(seam) => {
                     let turn = shown[t].compose(seam.rotation).compose(shown[t].inverse());
                     let (point, triangle) = (first[t], first_triangle[t]);
-                    let pairs = seam.triangle_pairs.iter();
-                    all.push(Coupling {
-                        points: seam
-                            .vertex_pairs
-                            .iter()
-                            .map(|p| p.map(|v| point + v))
-                            .collect(),
-                        triangles: pairs.map(|p| p.map(|i| triangle + u64::from(i))).collect(),
-                        ..coupling(document, &seam.name, [label, label + 1], turn)
+                    let points = seam.vertex_pairs.iter().map(|p| p.map(|v| point + v));
+                    let triangles = seam
+                        .triangle_pairs
+                        .iter()
+                        .map(|p| p.map(|i| triangle + u64::from(i)));
+                    let same = all.iter().position(|c| [c.low, c.high] == faces);
+                    let at = same.unwrap_or_else(|| {
+                        all.push(coupling(document, &seam.name, faces, turn));
+                        all.len() - 1
                     });
-                    label += 2;
+                    all[at].points.extend(points);
+                    all[at].triangles.extend(triangles);
                 }
                 Wall::Hub(hub) => {
                     let other = hub.other as usize;
@@ -58,9 +61,8 @@ pub fn couplings(document: &Document, shown: &[Isometry], first: &[u32]) -> Vec<
                             })
                             .collect(),
                         sectors: None,
-                        ..coupling(document, &hub.name, [label, label], turn)
+                        ..coupling(document, &hub.name, faces, turn)
                     });
-                    label += 1;
                 }
             }
         }

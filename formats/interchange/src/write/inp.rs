@@ -291,6 +291,15 @@ fn write_ties(mesh: &dyn MeshStream, names: &[String], sink: &mut ByteSink<'_>) 
             seams.push((coupling, n, low, high));
         }
     }
+    let alike = |(coupling, n, ..): &(&Coupling, u32, &str, &str)| {
+        seams.first().is_some_and(|first| first.1 == *n) && coupling.axis == seams[0].0.axis
+    };
+    if seams.len() < mesh.couplings().len() || !seams.iter().all(alike) {
+        return sink.text(
+            "** No cyclic symmetry model: the column around the axis has a symmetry of its own, and\n\
+             ** faces that other sectors touch elsewhere. Cut without it (wedgecut --hub none).\n",
+        );
+    }
     let tied = fitting(seams.iter().map(|s| Some(s.0.name.clone())));
     for ((_, _, low, high), tie) in seams.iter().zip(&tied) {
         // The dependent face comes first; copies go from it towards the other one.

@@ -40,6 +40,16 @@ pub struct Plain<'a> {
 }
 
 impl<'a> Plain<'a> {
+    /// Wall per triangle of a template: 0 for none, else one plus the position of its name.
+    pub fn walls_of(&self, template: usize) -> &[u32] {
+        &self.walls[template]
+    }
+
+    /// The id of each template's first point.
+    pub fn first_ids(&self) -> &[u32] {
+        &self.first
+    }
+
     /// The view of a valid document.
     ///
     /// # Errors
@@ -190,56 +200,87 @@ impl<'a> Plain<'a> {
     }
 }
 
-/// Names of all walls, the two faces of a seam apart, and the wall of each triangle. The faces of a
-/// seam are `wall-a` and `wall-b` as the two mirror walls of a wedge are; names that come again, in
-/// another template, get its number.
+/// Names of all walls, the two faces of a seam apart, and the wall of each triangle.
+///
+/// The faces of a seam are `wall-a` and `wall-b` as the two mirror walls of a wedge are. Walls of
+/// several templates that have the same name and lead to the same place, as those of a wedge and its
+/// hub, are one; other names that come again get the number of the template.
 fn label_walls(document: &Document) -> (Vec<String>, Vec<Vec<u32>>) {
-    let mut names: Vec<String> = Vec::new();
     let mut labels: Vec<Vec<u32>> = document
         .templates
         .iter()
         .map(|t| vec![0; t.triangles.len()])
         .collect();
-    let mut seen = BTreeSet::new();
+    let mut names = WallNames::default();
     for (t, template) in document.templates.iter().enumerate() {
-        let mut add = |name: String| {
-            let mut unique = name.clone();
-            let mut number = t + 1;
-            while !seen.insert(unique.clone()) {
-                unique = format!("{name}-{number}");
-                number += 1;
-            }
-            names.push(unique);
-            names.len() as u32
-        };
         for wall in &template.walls {
+            let [low, high] = names.of(t, wall).map(|label| label + 1);
             match wall {
                 Wall::Mirror(w) => {
-                    let label = add(w.name.clone());
                     w.triangles
                         .iter()
-                        .for_each(|&i| labels[t][i as usize] = label);
+                        .for_each(|&i| labels[t][i as usize] = low);
                 }
                 Wall::Seam(w) => {
-                    let base = if w.name == "seam" { "wall" } else { &w.name };
-                    let [a, b] = ["a", "b"].map(|face| add(format!("{base}-{face}")));
-                    for &[low, high] in &w.triangle_pairs {
-                        labels[t][low as usize] = a;
-                        labels[t][high as usize] = b;
+                    for &[a, b] in &w.triangle_pairs {
+                        labels[t][a as usize] = low;
+                        labels[t][b as usize] = high;
                     }
                 }
                 Wall::Hub(w) => {
                     // The face as each of the two templates sees it.
-                    let label = add(w.name.clone());
                     for &[here, there] in &w.triangle_pairs {
-                        labels[t][here as usize] = label;
-                        labels[w.other as usize][there as usize] = label;
+                        labels[t][here as usize] = low;
+                        labels[w.other as usize][there as usize] = low;
                     }
                 }
             }
         }
     }
-    (names, labels)
+    (names.names, labels)
+}
+
+/// Gives walls their names.
+#[derive(Default)]
+pub struct WallNames {
+    names: Vec<String>,
+    known: BTreeMap<(String, Isometry, u32), u32>,
+    seen: BTreeSet<String>,
+}
+
+impl WallNames {
+    /// Positions among the names of the low and the high face of a wall, which are the same for all
+    /// but seams. To be asked for all walls of all templates in order.
+    pub fn of(&mut self, template: usize, wall: &Wall) -> [u32; 2] {
+        // Hub walls of different templates are different faces.
+        let (isometry, owner) = match wall {
+            Wall::Mirror(w) => (w.reflection, 0),
+            Wall::Seam(w) => (w.rotation, 0),
+            Wall::Hub(w) => (w.placement, template as u32 + 1),
+        };
+        let faces = match wall {
+            Wall::Seam(w) => {
+                let base = if w.name == "seam" { "wall" } else { &w.name };
+                [format!("{base}-a"), format!("{base}-b")]
+            }
+            other => [other.name().to_owned(), other.name().to_owned()],
+        };
+        faces.map(|name| {
+            *self
+                .known
+                .entry((name.clone(), isometry, owner))
+                .or_insert_with(|| {
+                    let mut unique = name.clone();
+                    let mut number = template + 1;
+                    while !self.seen.insert(unique.clone()) {
+                        unique = format!("{name}-{number}");
+                        number += 1;
+                    }
+                    self.names.push(unique);
+                    self.names.len() as u32 - 1
+                })
+        })
+    }
 }
 
 impl MeshStream for Plain<'_> {
