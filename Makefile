@@ -13,7 +13,7 @@ TOOLS := symdetect wedgecut periodic-surf tetwedge rotassemble meshqual
 # Python with meshio, vtk and gmsh: reads meshes independently of this project, in tests only.
 REFEREE := $(TARGET)/referee
 
-.PHONY: help setup build demo test check fmt lint install clean
+.PHONY: help setup build demo test check fmt lint manual install dist clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -43,9 +43,31 @@ lint: setup ## run clippy, warnings are errors
 
 check: fmt lint test ## what CI runs: formatting, lints, every test
 
-install: build ## install the tools under PREFIX (default /usr/local)
-	install -d $(DESTDIR)$(PREFIX)/bin
+MANUAL := $(TARGET)/manual
+
+manual: setup ## write man pages and shell completions into target/manual
+	$(CARGO) run --quiet --release --example manual -- $(MANUAL)
+
+install: build manual ## install the tools, their man pages and completions under PREFIX (default /usr/local)
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1
 	install -m 755 $(TOOLS:%=$(TARGET)/release/%) $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(TOOLS:%=$(MANUAL)/man1/%.1) $(DESTDIR)$(PREFIX)/share/man/man1
+	install -d $(DESTDIR)$(PREFIX)/share/bash-completion/completions
+	install -m 644 $(TOOLS:%=$(MANUAL)/bash/%) $(DESTDIR)$(PREFIX)/share/bash-completion/completions
+	install -d $(DESTDIR)$(PREFIX)/share/zsh/site-functions
+	install -m 644 $(TOOLS:%=$(MANUAL)/zsh/_%) $(DESTDIR)$(PREFIX)/share/zsh/site-functions
+	install -d $(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d
+	install -m 644 $(TOOLS:%=$(MANUAL)/fish/%.fish) $(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d
+
+VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
+RELEASE := symtet-$(VERSION)-$(shell uname -m)-$(shell uname -s | tr A-Z a-z)
+
+dist: ## pack the tools, man pages and completions into target/dist
+	rm -rf $(TARGET)/dist/$(RELEASE)
+	$(MAKE) --no-print-directory install PREFIX= DESTDIR=$(TARGET)/dist/$(RELEASE)
+	install -m 644 README.md CHANGELOG.md LICENSE-APACHE LICENSE-MIT LICENSE-AGPL $(TARGET)/dist/$(RELEASE)
+	tar --sort=name --owner=0 --group=0 --numeric-owner -C $(TARGET)/dist -czf $(TARGET)/dist/$(RELEASE).tar.gz $(RELEASE)
+	@echo "$(TARGET)/dist/$(RELEASE).tar.gz"
 
 clean: ## remove everything built
 	$(CARGO) clean
