@@ -115,13 +115,22 @@ pub fn inside(document: &Document) -> Option<Vec<u8>> {
             .iter()
             .map(|&p| view.is_behind(placed.apply(p)))
             .collect();
+        // Seen from outside, with y downwards, unless the instance is a mirror image.
+        let facing = if instance.isometry.reverses_orientation() {
+            1.0
+        } else {
+            -1.0
+        };
         for (tet, colour) in template.tets.iter().zip(&colours[t]) {
             if !tet.vertices.iter().all(|&v| behind[v as usize]) {
                 continue;
             }
             for face in FACES {
-                let corners = face.map(|c| seen[tet.vertices[c] as usize]);
-                canvas.triangle(corners, colour.map(f64::from));
+                let [a, b, c] = face.map(|c| seen[tet.vertices[c] as usize]);
+                let turn = (b - a).truncate().perp_dot((c - a).truncate());
+                if turn * facing > 0.0 {
+                    canvas.triangle([a, b, c], colour.map(f64::from));
+                }
             }
         }
     }
