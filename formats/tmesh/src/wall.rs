@@ -40,7 +40,8 @@ pub struct MirrorWall {
 /// `rotation.apply(vertices[low])` equals `vertices[high]` to the bit in the canonical frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seam {
-    /// Such as `seam`; the low face is called `<name>-a`, the high face `<name>-b` on export.
+    /// Such as `seam`; the low face is called `<name>-a`, the high face `<name>-b` on export, those of
+    /// `seam` `wall-a` and `wall-b`.
     pub name: String,
     /// Maps the low face onto the high face: instance `g` meets instance `g * rotation` across its
     /// high face.
