@@ -240,8 +240,9 @@ fn orders_are_chosen_by_what_they_cost() {
     let (order, _) = chosen(&prism, &[]);
     assert!((4..=12).contains(&order), "{order}");
     // Finer elements allow for narrower wedges.
-    let (fine, templates) = chosen(&prism, &["--edge-length", "0.02"]);
-    assert!(fine > order && templates == 2, "{fine} {order}");
+    let (coarse, _) = chosen(&prism, &["--edge-length", "0.1"]);
+    let (fine, templates) = chosen(&prism, &["--edge-length", "0.01"]);
+    assert!(fine > coarse && templates == 2, "{fine} {coarse}");
     let (_, templates) = chosen(&prism, &["--hub", "none"]);
     assert_eq!(templates, 1);
     assert_eq!(chosen(&prism, &["--order", "60"]), (60, 2));

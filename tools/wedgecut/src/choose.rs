@@ -15,8 +15,10 @@ use tmesh::{OUTSIDE, Template, Wall};
 
 /// How fast element sizes grow with the distance from a feature.
 const GROWTH: f64 = 0.35;
-/// Size of elements over the width of a wedge that does not disturb them.
+/// Size of elements over the width of a wedge that does not disturb them, between mirror planes, and
+/// between the faces of a seam, whose triangles stay as they are.
 const SPAN: f64 = 1.2;
+const SEAM_SPAN: f64 = 0.7;
 /// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
 const ACCEPTED: f64 = 1.15;
 /// Elements beside a square of the boundary of their size, over those in a cube of it, where a size
@@ -230,7 +232,8 @@ impl Estimate {
         } else {
             f64::INFINITY
         };
-        let width = |r: f64| SPAN * 2.0 * tangent * r;
+        let span = if mirror { SPAN } else { SEAM_SPAN };
+        let width = |r: f64| span * 2.0 * tangent * r;
         let radius = hub.unwrap_or(0.0);
         let (mut outer, mut inner, mut height) = (0.0, 0.0, 0.0);
         for (r, size, v) in self.classes() {
