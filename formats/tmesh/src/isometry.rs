@@ -30,6 +30,12 @@ impl Isometry {
         flipped: false,
     };
 
+    /// The reflection in the plane z = 0.
+    pub const FLIP: Self = Self {
+        flipped: true,
+        ..Self::IDENTITY
+    };
+
     /// `R(2 pi k / n) * M^mirrored * H^flipped`; `k` may be any integer.
     ///
     /// # Panics

@@ -60,6 +60,8 @@ pub struct Estimate {
     walls: Vec<f64>,
     /// The same of the body's boundary.
     skin: f64,
+    /// For each class of radius, how far the section reaches above the plane z = 0.
+    heights: Vec<f64>,
     /// Whether there is material on the axis.
     solid: bool,
     /// Radii blocked by steep faces, increasing, disjoint.
@@ -73,6 +75,8 @@ pub struct Choice {
     pub order: u32,
     /// Inscribed radius of the hub.
     pub hub: Option<f64>,
+    /// Whether the mirror plane across the axis halves the wedge.
+    pub level: bool,
     /// Estimated elements over those of the whole body.
     pub elements: f64,
     /// Estimated elements to be meshed over those of the whole body.
@@ -91,6 +95,8 @@ pub struct Options<'a> {
     pub radius: Option<f64>,
     /// No hub.
     pub no_hub: bool,
+    /// Whether there is a mirror plane across the axis to halve wedges at.
+    pub level: bool,
 }
 
 impl Estimate {
@@ -119,6 +125,7 @@ impl Estimate {
             volume: vec![[0.0; SIZES]; RADII],
             walls: vec![0.0; RADII],
             skin: 0.0,
+            heights: vec![0.0; RADII],
             solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
             steep: steep(wedge),
         };
@@ -152,6 +159,8 @@ impl Estimate {
                 let volume = std::f64::consts::TAU * middle.x * area * weight;
                 let (radius, class) = (self.radius_class(middle.x), self.size_class(size));
                 self.volume[radius][class] += volume;
+                let top = t.iter().fold(0.0_f64, |m, p| m.max(p.y.abs()));
+                self.heights[radius] = self.heights[radius].max(top);
                 if size == cap {
                     self.walls[radius] += area * weight / (size * size);
                 }
@@ -224,7 +233,8 @@ impl Estimate {
     }
 
     /// Elements of wedges and hubs, up to the same factor; `copies` of each.
-    fn parts(&self, order: u32, mirror: bool, hub: Option<f64>, copies: [f64; 2]) -> (f64, f64) {
+    fn parts(&self, way: &Choice, mirror: bool, copies: [f64; 2]) -> (f64, f64) {
+        let Choice { order, hub, .. } = *way;
         let angle = opening(order, mirror);
         // Wide wedges have room for elements of any size, at the axis too.
         let tangent = if angle.to_degrees() < WIDE {
@@ -237,6 +247,9 @@ impl Estimate {
         let radius = hub.unwrap_or(0.0);
         let (mut outer, mut inner, mut height) = (0.0, 0.0, 0.0);
         for (r, size, v) in self.classes() {
+            // Between the plane that halves the wedge and what is above there is half as much room.
+            let room = SPAN * self.heights[self.radius_class(r)];
+            let size = if way.level { size.min(room) } else { size };
             if r >= radius {
                 outer += v / size.min(width(r)).powi(3);
             } else {
@@ -313,33 +326,43 @@ impl Estimate {
             None if options.no_hub || !self.solid => Vec::new(),
             None => self.radii(),
         };
+        let levels: &[bool] = if options.level {
+            &[false, true]
+        } else {
+            &[false]
+        };
         let mut ways = Vec::new();
         for &order in options.orders {
-            let copies = f64::from(order) * if options.mirror { 2.0 } else { 1.0 };
             let angle = opening(order, options.mirror);
             let narrow = angle.to_degrees() < WIDE && self.solid;
-            let mut found: Vec<Choice> = Vec::new();
+            let mut hubs: Vec<Option<f64>> = Vec::new();
             if options.radius.is_none() && (!narrow || radii.is_empty()) {
-                let (outer, _) = self.parts(order, options.mirror, None, [copies, 0.0]);
-                found.push(Choice {
-                    order,
-                    hub: None,
-                    elements: outer / whole,
-                    meshed: outer / whole / copies,
-                });
+                hubs.push(None);
             }
             if narrow || options.radius.is_some() {
-                let hub_copies =
-                    f64::from((options.hub_order)(order)) * if options.mirror { 2.0 } else { 1.0 };
-                for &radius in &radii {
-                    let both = [copies, hub_copies];
-                    let (outer, inner) = self.parts(order, options.mirror, Some(radius), both);
-                    found.push(Choice {
+                hubs.extend(radii.iter().map(|&r| Some(r)));
+            }
+            let mut found: Vec<Choice> = Vec::new();
+            // Half a turn between the faces of a seam is left whole: three walls in two planes.
+            let half = order == 2 && !options.mirror;
+            for &level in levels.iter().filter(|&&level| !(level && half)) {
+                let doubled = |on: bool| if on { 2.0 } else { 1.0 };
+                let images = doubled(options.mirror) * doubled(level);
+                let copies = images * f64::from(order);
+                let hub_copies = images * f64::from((options.hub_order)(order));
+                for &hub in &hubs {
+                    let mut way = Choice {
                         order,
-                        hub: Some(radius),
-                        elements: (outer + inner) / whole,
-                        meshed: (outer / copies + HUB_COST * inner / hub_copies) / whole,
-                    });
+                        hub,
+                        level,
+                        elements: 0.0,
+                        meshed: 0.0,
+                    };
+                    let both = [copies, if hub.is_some() { hub_copies } else { 0.0 }];
+                    let (outer, inner) = self.parts(&way, options.mirror, both);
+                    way.elements = (outer + inner) / whole;
+                    way.meshed = (outer / copies + HUB_COST * inner / hub_copies) / whole;
+                    found.push(way);
                 }
             }
             ways.extend(best(&found));

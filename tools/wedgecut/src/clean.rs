@@ -47,12 +47,14 @@ pub fn collapse_short_edges(surface: &mut Surface, length: f64) -> Collapsed {
         }
         let (p, q) = (surface.points[a as usize], surface.points[b as usize]);
         let (m, n) = (surface.classes[a as usize], surface.classes[b as usize]);
-        let stay = match (bound(m), bound(n)) {
-            (2, 2) => continue,
-            (x, y) if x > y => a,
-            (x, y) if x < y => b,
-            (1, 1) if m != n => continue,
-            _ => a.min(b),
+        let (x, y) = (planes(m), planes(n));
+        let stay = match (x & y, x, y) {
+            // Where planes meet, points stay.
+            _ if x == y && x.count_ones() > 1 => continue,
+            _ if x == y => a.min(b),
+            (both, _, _) if both == y => a,
+            (both, _, _) if both == x => b,
+            _ => continue,
         };
         // Distances are between the points that stay, so a chain of short edges does not vanish.
         if p.distance(q) < length {
@@ -82,7 +84,7 @@ pub fn collapse_short_edges(surface: &mut Surface, length: f64) -> Collapsed {
     collapsed
 }
 
-/// On how many cut planes a point lies.
-fn bound(class: Class) -> u8 {
-    u8::from(class.a == 0) + u8::from(class.b == 0)
+/// The cut planes that a point lies on, a bit each.
+fn planes(class: Class) -> u8 {
+    u8::from(class.a == 0) | u8::from(class.b == 0) << 1 | u8::from(class.level == 0) << 2
 }

@@ -29,6 +29,10 @@ pub struct Cli {
     #[arg(long, value_name = "auto|N", default_value = "auto", value_parser = order)]
     order: Order,
 
+    /// Halve the wedge at a mirror plane across the axis, where there is one: `auto` where it pays
+    #[arg(long, value_enum, default_value_t)]
+    horizontal_mirror: Halving,
+
     /// Largest volume of an element that tetwedge will be asked for, so that order and hub are
     /// chosen for it
     #[arg(long, value_name = "V", value_parser = positive)]
@@ -58,6 +62,13 @@ pub struct Cli {
     /// Collapse edges shorter than this, relative to the radius about the axis
     #[arg(long, value_name = "REL|off", default_value = "1e-6", value_parser = clean)]
     clean: Clean,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Halving {
+    #[default]
+    Auto,
+    Off,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -139,6 +150,7 @@ impl Command for Cli {
             start_angle: self.start_angle.0.map(f64::to_radians),
             snap: self.snap,
             hub: self.hub,
+            level: self.horizontal_mirror == Halving::Auto,
             max_volume: self.max_volume.or(self.edge_length.map(volume_of_edge)),
             clean: self.clean.0,
         };

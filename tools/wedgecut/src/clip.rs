@@ -160,7 +160,7 @@ impl Cutter<'_> {
         let (point, class) = if opposite {
             self.opening.crossing(self.side, p, q)
         } else {
-            self.opening.axis_crossing(p.0, q.0)
+            self.opening.axis_crossing(p, q)
         };
         let x = surface.add(point, class);
         self.crossings.insert(key, x);

@@ -27,54 +27,91 @@ pub fn whole(surface: &Surface, frame: &Frame) -> Result<Template, CutError> {
     Ok(compact(surface, surface.faces.clone(), frame)?.template)
 }
 
-/// A wedge between mirror walls; `faces` of the surface belong to it, `caps` in the order of the
-/// sides, `hub` closes it towards the hub.
+/// What closes a part of the surface, facing out.
+pub struct Caps {
+    /// At the sides, in order; of a rotation wedge at the low one only.
+    pub sides: Vec<Vec<Triangle>>,
+    /// At the plane z = 0, if that is a wall.
+    pub level: Option<Vec<Triangle>>,
+}
+
+/// What the wedge is cut by.
+#[derive(Clone, Copy)]
+pub struct Context<'a> {
+    /// The copies.
+    pub plan: &'a Plan,
+    /// The planes.
+    pub opening: &'a Opening,
+    /// Where the input is.
+    pub frame: &'a Frame,
+}
+
+/// Name of the wall in the plane z = 0.
+pub const LEVEL_WALL: &str = "wall-level";
+
+/// A wedge between mirror walls; `faces` of the surface belong to it, `caps` close it at the sides,
+/// `hub` towards the hub.
 pub fn mirror_wedge(
     surface: &Surface,
     mut faces: Vec<Triangle>,
-    caps: Vec<Vec<Triangle>>,
+    caps: &Caps,
     hub: &[Triangle],
-    plan: &Plan,
-    opening: &Opening,
-    frame: &Frame,
+    context: &Context<'_>,
 ) -> Result<Wedge, CutError> {
-    let mut ranges = Vec::new();
-    for cap in caps {
-        ranges.push(append(&mut faces, &cap));
-    }
+    let Context {
+        plan,
+        opening,
+        frame,
+    } = *context;
+    let sides = caps.sides.iter();
+    let ranges: Vec<Range<u32>> = sides.map(|cap| append(&mut faces, cap)).collect();
+    let level = caps.level.as_ref().map(|cap| append(&mut faces, cap));
     let hub = append(&mut faces, hub);
     let mut wedge = Wedge {
         hub,
         ..compact(surface, faces, frame)?
     };
-    let classes = &wedge.classes;
-    for (i, range) in ranges.into_iter().enumerate() {
-        let (side, name) = if i == 0 {
-            (Side::A, "wall-a")
-        } else {
-            (Side::B, "wall-b")
+    for (side, range) in [Side::A, Side::B].into_iter().zip(ranges) {
+        let reflection = match side {
+            Side::A => Isometry::reflection(0, 1),
+            _ => Isometry::reflection(1, plan.order),
         };
-        let reflection = if i == 0 {
-            Isometry::reflection(0, 1)
-        } else {
-            Isometry::reflection(1, plan.order)
-        };
-        let on = |class: &Class| class.of(side) == 0;
-        let vertices = (0..classes.len() as u32)
-            .filter(|&v| on(&classes[v as usize]))
-            .collect();
-        wedge.template.walls.push(Wall::Mirror(MirrorWall {
-            name: name.to_owned(),
-            plane: Plane {
-                normal: -opening.inward(side),
-                offset: 0.0,
-            },
-            reflection,
-            vertices,
-            triangles: range.collect(),
-        }));
+        mirror_wall(&mut wedge, opening, side, reflection, range);
+    }
+    if let Some(range) = level {
+        mirror_wall(&mut wedge, opening, Side::Level, LEVEL, range);
     }
     Ok(wedge)
+}
+
+/// Reflection in the plane z = 0.
+pub const LEVEL: Isometry = Isometry::FLIP;
+
+fn mirror_wall(
+    wedge: &mut Wedge,
+    opening: &Opening,
+    side: Side,
+    reflection: Isometry,
+    triangles: Range<u32>,
+) {
+    let name = match side {
+        Side::A => "wall-a",
+        Side::B => "wall-b",
+        Side::Level | Side::Hub => LEVEL_WALL,
+    };
+    let vertices = (0..wedge.classes.len() as u32)
+        .filter(|&v| wedge.classes[v as usize].of(side) == 0)
+        .collect();
+    wedge.template.walls.push(Wall::Mirror(MirrorWall {
+        name: name.to_owned(),
+        plane: Plane {
+            normal: -opening.inward(side),
+            offset: 0.0,
+        },
+        reflection,
+        vertices,
+        triangles: triangles.collect(),
+    }));
 }
 
 fn append(faces: &mut Vec<Triangle>, cap: &[Triangle]) -> Range<u32> {
@@ -83,17 +120,22 @@ fn append(faces: &mut Vec<Triangle>, cap: &[Triangle]) -> Range<u32> {
     start..faces.len() as u32
 }
 
-/// A wedge with a seam; `faces` of the surface belong to it, `cap` closes the low side, its image
-/// the high side, `hub` closes it towards the hub.
+/// A wedge with a seam; `faces` of the surface belong to it, `caps` close the low side, whose image
+/// closes the high side, `hub` closes it towards the hub.
 pub fn rotation_wedge(
     surface: &Surface,
     mut faces: Vec<Triangle>,
-    cap: &[Triangle],
+    caps: &Caps,
     hub: &[Triangle],
     matched: &Matched,
-    plan: &Plan,
-    frame: &Frame,
+    context: &Context<'_>,
 ) -> Result<Wedge, CutError> {
+    let Context {
+        plan,
+        opening,
+        frame,
+    } = *context;
+    let cap = &caps.sides[0];
     let partner = |v: u32| {
         let i = matched.pairs.binary_search_by_key(&v, |p| p[0]);
         i.map_or(v, |i| matched.pairs[i][1])
@@ -110,6 +152,7 @@ pub fn rotation_wedge(
         .collect();
     let low = append(&mut faces, cap);
     let high = append(&mut faces, &image);
+    let level = caps.level.as_ref().map(|cap| append(&mut faces, cap));
     let hub = append(&mut faces, hub);
     let mut wedge = Wedge {
         hub,
@@ -129,6 +172,9 @@ pub fn rotation_wedge(
         vertex_pairs,
         triangle_pairs: low.zip(high).map(|(a, b)| [a, b]).collect(),
     }));
+    if let Some(range) = level {
+        mirror_wall(&mut wedge, opening, Side::Level, LEVEL, range);
+    }
     Ok(wedge)
 }
 

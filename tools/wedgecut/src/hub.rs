@@ -7,7 +7,7 @@
 //! and similarity-aware volumetric meshing", TU Wien 2016.)
 
 use crate::error::CutError;
-use crate::finish::{Wedge, check_closed};
+use crate::finish::{LEVEL, LEVEL_WALL, Wedge, check_closed};
 use crate::opening::Class;
 use crate::plan::{HubPlan, Plan};
 use crate::surface::Surface;
@@ -28,6 +28,8 @@ pub struct Inner<'a> {
     pub low: &'a [Triangle],
     /// Cap of side B of a mirror wedge.
     pub high: &'a [Triangle],
+    /// Cap of the plane z = 0, if that is a wall.
+    pub level: Option<&'a [Triangle]>,
     /// Points of the seam of a rotation wedge: low, high.
     pub pairs: &'a [[u32; 2]],
     /// Cap in the hub's plane, facing out of the wedge.
@@ -60,6 +62,13 @@ pub fn unite(
     }
     let hub_walls = std::mem::take(&mut maker.template.walls);
     maker.close(plan, hub);
+    if let Some(level) = inner.level {
+        let mut triangles = Vec::new();
+        for j in 0..fan.images() {
+            triangles.extend(maker.side(level, j, plan));
+        }
+        maker.mirror_wall(LEVEL_WALL, -DVec3::Z, LEVEL, triangles);
+    }
     let mut template = maker.template;
     template.walls.extend(hub_walls);
     template.axis.sort_unstable();
@@ -243,7 +252,9 @@ impl Maker<'_> {
         let template = &self.template;
         let corners = |&t: &u32| template.triangles[t as usize].vertices;
         let mut vertices: Vec<u32> = triangles.iter().flat_map(corners).collect();
-        vertices.extend(&template.axis);
+        if reflection != LEVEL {
+            vertices.extend(&template.axis);
+        }
         vertices.sort_unstable();
         vertices.dedup();
         self.template.walls.push(Wall::Mirror(MirrorWall {

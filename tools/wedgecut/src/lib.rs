@@ -29,10 +29,11 @@ pub use cli::Cli;
 pub use error::CutError;
 pub use plan::{Domain, Hub, Params};
 
+use finish::Caps;
 use glam::DVec3;
 use opening::{HubPlane, Opening, Side};
 use plan::{HubPlan, Plan};
-use section::{Extent, Section};
+use section::{Borders, Extent, Section};
 use surface::Surface;
 use tmesh::{Document, Frame, Source, Symmetry, Template, Triangle, Wall};
 
@@ -69,7 +70,7 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
     if !document.templates[0].tets.is_empty() {
         return Err(CutError::NotASurface("this document holds a volume mesh"));
     }
-    let plan = Plan::new(&symmetry, params)?;
+    let plan = Plan::new(&symmetry, params, false)?;
     let body = &document.templates[0];
     let tolerances = Tolerances::new(body, &symmetry, document.source.as_ref(), params);
     let hub = match params.hub {
@@ -85,7 +86,7 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         return match hub {
             None => Ok((first, report)),
             Some(_) => {
-                let plan = Plan::new(&symmetry, params)?;
+                let plan = Plan::new(&symmetry, params, false)?;
                 cut_as_planned(&document, &symmetry, plan, hub, params, &tolerances)
             }
         };
@@ -94,26 +95,36 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         order: Some(choice.order),
         ..params.clone()
     };
-    let mut plan = Plan::new(&symmetry, &params)?;
-    let hub = choice.hub.map(|radius| plan.hub(radius)).transpose()?;
-    if hub.is_none() && choice.order == symmetry.order {
-        let notes = [report.notes, vec![why]].concat();
-        return Ok((first, Report { notes }));
+    // A plane that nobody asked for must not be in the way.
+    let may_drop = params.hub == Hub::Auto;
+    let mut tried = vec![(choice.hub, choice.level), (choice.hub, false)];
+    if may_drop {
+        tried.extend([(None, choice.level), (None, false)]);
     }
-    let cut = cut_as_planned(&document, &symmetry, plan, hub, &params, &tolerances);
-    let (document, mut report) = match (cut, params.hub) {
-        // A hub that nobody asked for must not be in the way.
-        (Err(error), Hub::Auto) if hub.is_some() => {
-            plan = Plan::new(&symmetry, &params)?;
-            let (document, mut report) =
-                cut_as_planned(&document, &symmetry, plan, None, &params, &tolerances)?;
-            report.notes.push(format!("no hub: {error}"));
-            (document, report)
+    tried.dedup();
+    let mut failed = None;
+    for (radius, level) in tried {
+        let plan = Plan::new(&symmetry, &params, level)?;
+        let hub = radius.map(|radius| plan.hub(radius)).transpose()?;
+        let (document, mut report) =
+            if hub.is_none() && !level && first.instances.len() == plan.instances.len() {
+                (first.clone(), report.clone())
+            } else {
+                match cut_as_planned(&document, &symmetry, plan, hub, &params, &tolerances) {
+                    Ok(cut) => cut,
+                    Err(error) => {
+                        failed.get_or_insert(error);
+                        continue;
+                    }
+                }
+            };
+        if let Some(error) = failed {
+            report.notes.push(format!("cut with fewer planes: {error}"));
         }
-        (cut, _) => cut?,
-    };
-    report.notes.push(why);
-    Ok((document, report))
+        report.notes.push(why);
+        return Ok((document, report));
+    }
+    Err(failed.unwrap_or(CutError::Empty))
 }
 
 /// Chooses order and hub, and says why.
@@ -148,6 +159,7 @@ fn choose(
             _ => None,
         },
         no_hub: params.hub == Hub::None,
+        level: params.level && symmetry.horizontal_mirror,
     };
     let estimate = choose::Estimate::new(&wedge.templates[0], wedge.instances.len(), max_volume);
     let ways = estimate.ways(&options);
@@ -360,7 +372,14 @@ impl Cutter<'_> {
         let plane = self
             .hub
             .map(|hub| HubPlane::new(hub.radius, plan.opening, plan.mirror));
-        let opening = Opening::new(plan.opening, tolerances.plane).with_hub(plane);
+        let opening = Opening::new(plan.opening, tolerances.plane)
+            .with_hub(plane)
+            .with_level(plan.level);
+        let context = finish::Context {
+            plan,
+            opening: &opening,
+            frame,
+        };
         let mut surface = Surface::new(
             body.vertices,
             body.triangles,
@@ -374,6 +393,9 @@ impl Cutter<'_> {
         collapse(&mut surface, tolerances, notes);
         if self.hub.is_some() {
             clip::divide_at_hub(&mut surface, &opening);
+        }
+        if !(plan.is_half() && plan.mirror) {
+            surface.add_corners(&opening);
         }
         let matched = if plan.mirror {
             None
@@ -393,9 +415,9 @@ impl Cutter<'_> {
         };
         let caps = self.caps(&mut surface, &opening, &outer)?;
         let wedge = match &matched {
-            None => finish::mirror_wedge(&surface, outer, caps, &hub_cap, plan, &opening, frame)?,
+            None => finish::mirror_wedge(&surface, outer, &caps, &hub_cap, &context)?,
             Some(matched) => {
-                finish::rotation_wedge(&surface, outer, &caps[0], &hub_cap, matched, plan, frame)?
+                finish::rotation_wedge(&surface, outer, &caps, &hub_cap, matched, &context)?
             }
         };
         let Some(hub) = &self.hub else {
@@ -405,8 +427,9 @@ impl Cutter<'_> {
         let inner = hub::Inner {
             surface: &surface,
             faces: &inner,
-            low: &caps[0],
-            high: caps.get(1).map_or(&[], |cap| cap),
+            low: &caps.sides[0],
+            high: caps.sides.get(1).map_or(&[], |cap| cap),
+            level: caps.level.as_deref(),
             pairs: matched.as_ref().map_or(&[], |m| &m.pairs),
             hub: &hub_cap,
         };
@@ -450,22 +473,29 @@ impl Cutter<'_> {
         Ok(matched)
     }
 
-    /// Caps that close a part of the surface at the sides: both of a mirror wedge, the low one of a
-    /// rotation wedge.
+    /// Caps that close a part of the surface.
     fn caps(
         &self,
         surface: &mut Surface,
         opening: &Opening,
         part: &[Triangle],
-    ) -> Result<Vec<Vec<Triangle>>, CutError> {
+    ) -> Result<Caps, CutError> {
         let mut extents = self.extents();
         if !self.plan.mirror {
             extents.truncate(1);
         }
-        extents
-            .into_iter()
-            .map(|extent| self.cap(surface, opening, part, extent))
-            .collect()
+        let mut borders = Borders::default();
+        let mut sides = Vec::new();
+        for extent in extents {
+            let cap = self.cap(surface, opening, part, extent, &Borders::default())?;
+            borders.add(&cap);
+            sides.push(cap);
+        }
+        let level = match self.plan.level {
+            true => Some(self.cap(surface, opening, part, Extent::Level, &borders)?),
+            false => None,
+        };
+        Ok(Caps { sides, level })
     }
 
     fn cap(
@@ -474,10 +504,20 @@ impl Cutter<'_> {
         opening: &Opening,
         part: &[Triangle],
         extent: Extent,
+        borders: &Borders,
     ) -> Result<Vec<Triangle>, CutError> {
         surface.faces = part.to_vec();
-        let cap = Section::new(surface, opening, extent).cap(surface, opening, self.frame);
+        // Corners on the other side of the hub's plane are none of this part's.
+        let corners = surface.corners.clone();
+        let hub = |v: u32| surface.classes[v as usize].hub;
+        let inside = part.iter().flat_map(|f| f.vertices).any(|v| hub(v) < 0);
+        let own = |v: &u32| if inside { hub(*v) <= 0 } else { hub(*v) >= 0 };
+        let own: Vec<u32> = corners.iter().copied().filter(own).collect();
+        surface.corners = own;
+        let section = Section::new(surface, opening, extent);
+        let cap = section.cap(surface, opening, self.frame, inside, borders);
         surface.faces.clear();
+        surface.corners = corners;
         cap
     }
 
@@ -517,7 +557,7 @@ impl Cutter<'_> {
                 "a face of the body lies in the hub's wall; choose another radius",
             ));
         }
-        let cap = from_outside.cap(surface, opening, self.frame)?;
+        let cap = from_outside.cap(surface, opening, self.frame, false, &Borders::default())?;
         if cap.is_empty() {
             return Err(bad("there is no material at its wall"));
         }

@@ -16,6 +16,8 @@ pub enum Side {
     B,
     /// The plane between the wedge and the hub.
     Hub,
+    /// The plane z = 0, where it is a mirror plane.
+    Level,
 }
 
 /// Where a point lies: for each cut plane -1 beyond it, 0 on it, 1 on the wedge's side. On both
@@ -28,6 +30,8 @@ pub struct Class {
     pub b: i8,
     /// With respect to the hub's plane: -1 in the hub; 1 where there is none.
     pub hub: i8,
+    /// With respect to the plane z = 0; 1 where it is no side of the wedge.
+    pub level: i8,
 }
 
 impl Class {
@@ -36,9 +40,14 @@ impl Class {
     /// Between the planes.
     pub const INSIDE: Self = Self::new(1, 1);
 
-    /// A class with respect to sides A and B, without a hub.
+    /// A class with respect to sides A and B alone.
     pub const fn new(a: i8, b: i8) -> Self {
-        Self { a, b, hub: 1 }
+        Self {
+            a,
+            b,
+            hub: 1,
+            level: 1,
+        }
     }
 
     /// Whether the point is on the axis.
@@ -52,6 +61,7 @@ impl Class {
             Side::A => self.a,
             Side::B => self.b,
             Side::Hub => self.hub,
+            Side::Level => self.level,
         }
     }
 }
@@ -98,6 +108,7 @@ pub struct Opening {
     /// Distance up to which a point counts as on a plane or the axis, model units.
     tolerance: f64,
     hub: Option<HubPlane>,
+    level: bool,
 }
 
 impl Opening {
@@ -110,7 +121,13 @@ impl Opening {
             sin,
             tolerance,
             hub: None,
+            level: false,
         }
+    }
+
+    /// The same, ending at the plane z = 0 as well if `level`.
+    pub fn with_level(self, level: bool) -> Self {
+        Self { level, ..self }
     }
 
     /// The same with a hub; the wedge's angle has to be below half a turn.
@@ -123,12 +140,13 @@ impl Opening {
         self.turn == Isometry::rotation(1, 2)
     }
 
-    /// The planes to clip with: one for a half space, else two.
+    /// The planes to clip with, through the axis one for a half space, else two.
     pub fn sides(&self) -> &'static [Side] {
-        if self.is_half() {
-            &[Side::A]
-        } else {
-            &[Side::A, Side::B]
+        match (self.level, self.is_half()) {
+            (false, true) => &[Side::A],
+            (false, false) => &[Side::A, Side::B],
+            (true, true) => &[Side::Level, Side::A],
+            (true, false) => &[Side::Level, Side::A, Side::B],
         }
     }
 
@@ -138,6 +156,7 @@ impl Opening {
             Side::A => DVec3::Y,
             Side::B => DVec3::new(self.sin, -self.cos, 0.0),
             Side::Hub => self.hub.map_or(DVec3::X, |h| h.normal),
+            Side::Level => DVec3::Z,
         }
     }
 
@@ -149,17 +168,37 @@ impl Opening {
             (_, Side::A) => p.y,
             (_, Side::B) => p.x * self.sin - p.y * self.cos,
             (_, Side::Hub) => self.hub.map_or(f64::INFINITY, |h| h.offset(p)),
+            (_, Side::Level) => p.z,
         }
     }
 
     /// Distance of a point on a side from the axis, measured along the side (negative beyond the
-    /// axis); in the hub's plane the distance from the plane's line nearest to the axis.
+    /// axis); in the hub's plane the distance from the plane's line nearest to the axis; across the
+    /// axis just the distance.
     pub fn radius_on(&self, side: Side, p: DVec3) -> f64 {
         match side {
             Side::A => p.x,
             Side::B => p.x * self.cos + p.y * self.sin,
             Side::Hub => self.hub.map_or(0.0, |h| h.along().dot(p)),
+            Side::Level => p.x.hypot(p.y),
         }
+    }
+
+    /// Points where three of the planes meet: at z = 0 on the axis, and on both sides of the hub.
+    pub fn corners(&self) -> Vec<(DVec3, Class)> {
+        if !self.level {
+            return Vec::new();
+        }
+        let level = |class: Class| Class { level: 0, ..class };
+        let hub = if self.hub.is_some() { -1 } else { 1 };
+        let mut found = vec![(DVec3::ZERO, level(Class { hub, ..Class::AXIS }))];
+        if let Some(hub) = &self.hub {
+            for class in [Class::new(0, 1), Class::new(1, 0)] {
+                let on = hub.normal * hub.distance;
+                found.push(self.put_on_hub(hub, on, level(class)));
+            }
+        }
+        found
     }
 
     /// Classifies a point, of known class for the sides, against the hub's plane, and moves it onto
@@ -203,6 +242,19 @@ impl Opening {
 
     /// Classifies a point and moves it onto the planes it counts as lying on.
     pub fn classify(&self, p: DVec3) -> (DVec3, Class) {
+        let (p, class) = self.classify_sides(p);
+        if !self.level {
+            return (p, class);
+        }
+        if p.z.abs() <= self.tolerance {
+            (DVec3::new(p.x, p.y, 0.0), Class { level: 0, ..class })
+        } else {
+            let level = sign(p.z);
+            (p, Class { level, ..class })
+        }
+    }
+
+    fn classify_sides(&self, p: DVec3) -> (DVec3, Class) {
         if p.x.hypot(p.y) <= self.tolerance {
             return (DVec3::new(0.0, 0.0, p.z), Class::AXIS);
         }
@@ -235,24 +287,42 @@ impl Opening {
         let (dp, dq) = (self.distance(side, p.0, p.1), self.distance(side, q.0, q.1));
         let t = dp / (dp - dq);
         let x = p.0 + (q.0 - p.0) * t;
-        if let (Side::Hub, Some(hub)) = (side, &self.hub) {
-            // On the sides where both ends are.
-            let on = |side: Side| i8::from(!(p.1.of(side) == 0 && q.1.of(side) == 0));
-            return self.put_on_hub(hub, x, Class::new(on(Side::A), on(Side::B)));
-        }
-        let other = if side == Side::A { Side::B } else { Side::A };
-        if !self.is_half() && p.1.of(other) == 0 && q.1.of(other) == 0 {
-            return (DVec3::new(0.0, 0.0, x.z), Class::AXIS);
-        }
-        self.put(side, x)
+        // On the planes where both ends are.
+        let on = |side: Side| i8::from(!(p.1.of(side) == 0 && q.1.of(side) == 0));
+        let (x, class) = match (side, &self.hub) {
+            (Side::Level, _) => {
+                let (x, class) = self.classify_sides(x);
+                return (DVec3::new(x.x, x.y, 0.0), Class { level: 0, ..class });
+            }
+            (Side::Hub, Some(hub)) => self.put_on_hub(hub, x, Class::new(on(Side::A), on(Side::B))),
+            _ => {
+                let other = if side == Side::A { Side::B } else { Side::A };
+                if !self.is_half() && on(other) == 0 {
+                    (DVec3::new(0.0, 0.0, x.z), Class::AXIS)
+                } else {
+                    self.put(side, x)
+                }
+            }
+        };
+        let level = on(Side::Level);
+        (x, Class { level, ..class })
     }
 
     /// The point where a segment within side A's plane passes the axis; its ends lie on opposite
     /// sides of it.
-    pub fn axis_crossing(&self, p: DVec3, q: DVec3) -> (DVec3, Class) {
-        let (p, q) = if p.x < q.x { (p, q) } else { (q, p) };
+    pub fn axis_crossing(&self, p: (DVec3, Class), q: (DVec3, Class)) -> (DVec3, Class) {
+        let level = i8::from(!(p.1.level == 0 && q.1.level == 0));
+        let class = Class {
+            level,
+            ..Class::AXIS
+        };
+        let (p, q) = if p.0.x < q.0.x {
+            (p.0, q.0)
+        } else {
+            (q.0, p.0)
+        };
         let t = p.x / (p.x - q.x);
-        (DVec3::new(0.0, 0.0, p.z + (q.z - p.z) * t), Class::AXIS)
+        (DVec3::new(0.0, 0.0, p.z + (q.z - p.z) * t), class)
     }
 
     /// The point at a distance from the axis (along the side) and a height.
@@ -263,6 +333,7 @@ impl Opening {
             Side::Hub => self.hub.map_or(DVec3::ZERO, |h| {
                 h.normal * h.distance + h.along() * r + DVec3::Z * z
             }),
+            Side::Level => DVec3::new(r, 0.0, 0.0),
         }
     }
 
@@ -277,6 +348,10 @@ impl Opening {
             Side::B => Class::new(sign(r), 0),
             Side::Hub => Class {
                 hub: 0,
+                ..Class::INSIDE
+            },
+            Side::Level => Class {
+                level: 0,
                 ..Class::INSIDE
             },
         };

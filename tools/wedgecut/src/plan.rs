@@ -62,6 +62,8 @@ pub struct Params {
     pub snap: Option<f64>,
     /// The hub.
     pub hub: Hub,
+    /// Whether a mirror plane across the axis halves the wedge where it pays; false for never.
+    pub level: bool,
     /// Largest volume of an element that will be asked of the mesher, model units cubed, where the
     /// document has none for the region.
     pub max_volume: Option<f64>,
@@ -72,7 +74,7 @@ pub struct Params {
 impl Params {
     /// Whether anything is left to choose once the order found is known.
     pub fn chooses(&self) -> bool {
-        self.order.is_none() || self.hub == Hub::Auto
+        self.order.is_none() || self.hub == Hub::Auto || self.level
     }
 }
 
@@ -92,6 +94,8 @@ pub struct Plan {
     pub order: u32,
     /// Whether the sides are mirror walls.
     pub mirror: bool,
+    /// Whether the plane z = 0 is a mirror wall.
+    pub level: bool,
     /// Angle of the wedge as a turn: `pi / order` or `2 pi / order`.
     pub opening: Isometry,
     /// All copies.
@@ -101,11 +105,11 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Chooses domain and order.
+    /// Takes domain and order; `level` halves the wedge at the plane z = 0, a mirror plane.
     ///
     /// # Errors
     /// An order that does not divide the order found; mirror walls without mirror planes.
-    pub fn new(symmetry: &Symmetry, params: &Params) -> Result<Self, CutError> {
+    pub fn new(symmetry: &Symmetry, params: &Params, level: bool) -> Result<Self, CutError> {
         let found = symmetry.order;
         let order = params.order.unwrap_or(found);
         if order == 0 || !found.is_multiple_of(order) {
@@ -126,6 +130,7 @@ impl Plan {
         let mut plan = Self {
             order,
             mirror,
+            level,
             opening,
             instances: Vec::new(),
             region_maps: Vec::new(),
@@ -186,12 +191,13 @@ impl Plan {
     fn add_instances(&mut self, symmetry: &Symmetry) {
         let step = symmetry.order / self.order;
         let regions = Permutations::new(symmetry);
+        let list = [(false, false), (true, false), (false, true), (true, true)];
         for k in 0..self.order {
-            for mirrored in [false, true] {
-                if mirrored && !self.mirror {
+            for (mirrored, flipped) in list {
+                if (mirrored && !self.mirror) || (flipped && !self.level) {
                     continue;
                 }
-                let pairs = regions.of(k * step, mirrored);
+                let pairs = regions.of(k * step, mirrored, flipped);
                 let region_map = if pairs.is_empty() {
                     0
                 } else {
@@ -202,7 +208,7 @@ impl Plan {
                         self.region_maps.len() - 1
                     }) as u32
                 };
-                let isometry = Isometry::new(i64::from(k), self.order, mirrored, false);
+                let isometry = Isometry::new(i64::from(k), self.order, mirrored, flipped);
                 self.instances.push(Instance {
                     template: 0,
                     isometry,
@@ -217,6 +223,7 @@ impl Plan {
 struct Permutations {
     rotation: RegionMap,
     mirror: RegionMap,
+    flip: RegionMap,
     ids: Vec<u32>,
 }
 
@@ -227,14 +234,14 @@ impl Permutations {
             pairs.sort_unstable();
             RegionMap { pairs }
         };
-        let (rotation, mirror) = (
+        let (rotation, mirror, flip) = (
             map(&symmetry.rotation_regions),
             map(&symmetry.mirror_regions),
+            map(&symmetry.horizontal_regions),
         );
-        let mut ids: Vec<u32> = rotation
-            .pairs
-            .iter()
-            .chain(&mirror.pairs)
+        let mut ids: Vec<u32> = [&rotation, &mirror, &flip]
+            .into_iter()
+            .flat_map(|map| &map.pairs)
             .map(|p| p[0])
             .collect();
         ids.sort_unstable();
@@ -242,14 +249,20 @@ impl Permutations {
         Self {
             rotation,
             mirror,
+            flip,
             ids,
         }
     }
 
     /// Renaming by `R^steps M^mirrored`, pairs of ids that change.
-    fn of(&self, steps: u32, mirrored: bool) -> Vec<[u32; 2]> {
+    fn of(&self, steps: u32, mirrored: bool, flipped: bool) -> Vec<[u32; 2]> {
         let image = |id: u32| {
-            let start = if mirrored { self.mirror.get(id) } else { id };
+            let start = if flipped { self.flip.get(id) } else { id };
+            let start = if mirrored {
+                self.mirror.get(start)
+            } else {
+                start
+            };
             (0..steps).fold(start, |id, _| self.rotation.get(id))
         };
         self.ids

@@ -113,9 +113,12 @@ pub fn insert(
         let [a, b] = ends.map(|v| surface.points[v as usize]);
         let (p, class) = on_wall(opening, section.extent, a + (b - a) * insertion.at);
         // No edge crosses the hub's plane.
-        let [start, end] = ends.map(|v| surface.classes[v as usize].hub);
-        let hub = if start == 0 { end } else { start };
-        let class = Class { hub, ..class };
+        let [start, end] = ends.map(|v| surface.classes[v as usize]);
+        let class = Class {
+            hub: if start.hub == 0 { end.hub } else { start.hub },
+            level: start.level.max(end.level),
+            ..class
+        };
         new[i] = surface.add(p, class);
         section.points.push(new[i]);
         chains.entry(ends).or_default().push(new[i]);

@@ -25,6 +25,8 @@ pub enum Extent {
     Hub,
     /// The same as the end of the hub.
     HubInside,
+    /// The plane z = 0 between the sides.
+    Level,
 }
 
 impl Extent {
@@ -34,6 +36,7 @@ impl Extent {
             Self::HalfPlane(side) => side,
             Self::WholePlane | Self::FarHalf => Side::A,
             Self::Hub | Self::HubInside => Side::Hub,
+            Self::Level => Side::Level,
         }
     }
 
@@ -41,7 +44,7 @@ impl Extent {
     pub fn contains(self, opening: &Opening, p: DVec3, class: Class) -> bool {
         class.of(self.side()) == 0
             && match self {
-                Self::WholePlane | Self::Hub | Self::HubInside => true,
+                Self::WholePlane | Self::Hub | Self::HubInside | Self::Level => true,
                 Self::HalfPlane(_) if !opening.is_half() => true,
                 Self::HalfPlane(_) => class.is_axis() || p.x > 0.0,
                 Self::FarHalf => class.is_axis() || p.x < 0.0,
@@ -53,6 +56,14 @@ impl Extent {
         match self {
             Self::FarHalf => -p.x,
             other => opening.radius_on(other.side(), p),
+        }
+    }
+
+    /// Coordinates of a point within the plane: distance from the axis and height, or x and y.
+    fn plane(self, opening: &Opening, p: DVec3) -> [f64; 2] {
+        match self {
+            Self::Level => [p.x, p.y],
+            other => [other.radius(opening, p), p.z],
         }
     }
 
@@ -69,6 +80,7 @@ impl Extent {
         match self {
             Self::WholePlane | Self::HalfPlane(Side::A) => "wall-a",
             Self::Hub | Self::HubInside => "the hub",
+            Self::Level => "wall-level",
             _ => "wall-b",
         }
     }
@@ -83,6 +95,32 @@ pub struct SectionEdge {
     pub left: u32,
     /// Region to the right.
     pub right: u32,
+}
+
+/// A line where a wall ends.
+struct Border {
+    /// The section's points on it.
+    points: Vec<u32>,
+    /// The side that the line is on, if it is not parallel to the axis.
+    along: Option<Side>,
+    /// Whether the wall is to the left of the line, walked upwards or away from the axis.
+    left: bool,
+}
+
+/// The regions at the edges of caps, lower point first.
+#[derive(Clone, Debug, Default)]
+pub struct Borders(FxHashMap<[u32; 2], u32>);
+
+impl Borders {
+    /// Takes over the edges of a cap.
+    pub fn add(&mut self, cap: &[Triangle]) {
+        for t in cap {
+            for k in 0..3 {
+                let (v, w) = (t.vertices[k], t.vertices[(k + 1) % 3]);
+                self.0.insert([v.min(w), v.max(w)], t.back);
+            }
+        }
+    }
 }
 
 /// Where the clipped surface meets a wall.
@@ -124,6 +162,8 @@ impl Section {
                 }
             }
         }
+        let corners = surface.corners.iter().filter(|&&v| on[v as usize]);
+        points.extend(corners);
         let mut points: Vec<u32> = points.into_iter().collect();
         points.sort_unstable();
         let mut edges: Vec<SectionEdge> = fans
@@ -175,25 +215,44 @@ impl Section {
         }
     }
 
-    /// Points of the section on the lines where the wall ends.
-    fn borders(&self, surface: &Surface) -> Vec<Vec<u32>> {
-        let on = |is_on: &dyn Fn(Class) -> bool| -> Vec<u32> {
+    /// The lines where the wall ends; `hub`: the section is the hub's.
+    fn borders(&self, surface: &Surface, hub: bool) -> Vec<Border> {
+        let border = |is_on: &dyn Fn(Class) -> bool, along: Option<Side>, left: bool| {
             let points = self.points.iter().copied();
-            points
-                .filter(|&v| is_on(surface.classes[v as usize]))
-                .collect()
+            Border {
+                points: points
+                    .filter(|&v| is_on(surface.classes[v as usize]))
+                    .collect(),
+                along,
+                left,
+            }
         };
+        let is_level = |c: Class| c.level == 0;
         match self.extent {
-            Extent::WholePlane => Vec::new(),
-            Extent::Hub | Extent::HubInside => vec![on(&|c| c.a == 0), on(&|c| c.b == 0)],
-            _ => vec![on(&Class::is_axis), on(&|c| c.hub == 0)],
+            Extent::WholePlane => vec![border(&is_level, Some(Side::A), true)],
+            Extent::Hub | Extent::HubInside => vec![
+                border(&|c| c.a == 0, None, false),
+                border(&|c| c.b == 0, None, true),
+                border(&is_level, Some(Side::Hub), true),
+            ],
+            Extent::Level => vec![
+                border(&|c| c.a == 0, Some(Side::A), true),
+                border(&|c| c.b == 0, Some(Side::B), false),
+                border(&|c| c.hub == 0, Some(Side::Hub), hub),
+            ],
+            Extent::HalfPlane(_) | Extent::FarHalf => vec![
+                border(&Class::is_axis, None, false),
+                border(&|c| c.hub == 0, None, hub),
+                border(&is_level, Some(self.extent.side()), true),
+            ],
         }
     }
 
     /// Closes the wedge on this wall: triangles that face out of it, each with the region behind.
     ///
     /// Where the wall ends at the axis or at another wall, consecutive points there are joined, so
-    /// that the caps of both walls share those edges.
+    /// that the caps of both walls share those edges; `hub`: the section is the hub's; `known` says which region is at them, for
+    /// sections without any edge of the body's surface.
     ///
     /// # Errors
     /// A section whose edges cross, or do not agree on what is inside.
@@ -202,6 +261,8 @@ impl Section {
         surface: &Surface,
         opening: &Opening,
         frame: &Frame,
+        hub: bool,
+        known: &Borders,
     ) -> Result<Vec<Triangle>, CutError> {
         let local: FxHashMap<u32, u32> = self
             .points
@@ -212,10 +273,7 @@ impl Section {
         let plane: Vec<[f64; 2]> = self
             .points
             .iter()
-            .map(|&v| {
-                let p = surface.points[v as usize];
-                [self.extent.radius(opening, p), p.z]
-            })
+            .map(|&v| self.extent.plane(opening, surface.points[v as usize]))
             .collect();
         let mut segments: Vec<Segment> = self
             .edges
@@ -227,24 +285,33 @@ impl Section {
                 right: Some(e.right),
             })
             .collect();
-        for mut border in self.borders(surface) {
-            border.sort_unstable_by(|&v, &w| {
-                surface.points[v as usize]
-                    .z
-                    .total_cmp(&surface.points[w as usize].z)
-            });
-            for pair in border.windows(2) {
+        for mut border in self.borders(surface, hub) {
+            let place = |v: u32| {
+                let p = surface.points[v as usize];
+                let side = border.along.map(|side| opening.radius_on(side, p));
+                side.unwrap_or(p.z)
+            };
+            border
+                .points
+                .sort_unstable_by(|&v, &w| place(v).total_cmp(&place(w)));
+            for pair in border.points.windows(2) {
                 let key = if pair[0] < pair[1] {
                     [pair[0], pair[1]]
                 } else {
                     [pair[1], pair[0]]
                 };
                 if self.edges.binary_search_by_key(&key, |e| e.ends).is_err() {
-                    let ends = key.map(|v| local[&v]);
+                    // Points of the line may be off it by rounding: beyond there is nothing.
+                    let known = known.0.get(&key).copied();
+                    let [left, right] = if border.left {
+                        [known, Some(OUTSIDE)]
+                    } else {
+                        [Some(OUTSIDE), known]
+                    };
                     segments.push(Segment {
-                        ends,
-                        left: None,
-                        right: None,
+                        ends: [local[&pair[0]], local[&pair[1]]],
+                        left,
+                        right,
                     });
                 }
             }

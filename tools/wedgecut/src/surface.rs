@@ -3,7 +3,7 @@
 use crate::opening::{Class, Opening};
 use geom::edges::Edges;
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{OUTSIDE, Triangle};
 
 /// A surface in the canonical frame, with every point classified.
@@ -17,6 +17,8 @@ pub struct Surface {
     pub faces: Vec<Triangle>,
     /// Flat patch of each face.
     pub patches: Vec<u32>,
+    /// Points where three cut planes meet; no face has them unless the surface passes there.
+    pub corners: Vec<u32>,
 }
 
 impl Surface {
@@ -33,8 +35,8 @@ impl Surface {
         let mut renumbered = Vec::with_capacity(points.len());
         for p in points {
             let (p, class) = opening.map_or((p, Class::INSIDE), |o| o.classify(p));
-            let key = (p + DVec3::ZERO).to_array().map(f64::to_bits);
-            renumbered.push(*at.entry(key).or_insert_with(|| surface.add(p, class)));
+            let entry = at.entry(bits(p));
+            renumbered.push(*entry.or_insert_with(|| surface.add(p, class)));
         }
         for mut face in faces {
             face.vertices = face.vertices.map(|v| renumbered[v as usize]);
@@ -55,10 +57,28 @@ impl Surface {
         self.points.len() as u32 - 1
     }
 
+    /// Adds the points where three cut planes meet: the caps need them where they are inside of the
+    /// body.
+    pub fn add_corners(&mut self, opening: &Opening) {
+        let used = self.faces.iter().flat_map(|f| f.vertices);
+        let present: FxHashSet<[u64; 3]> = used.map(|v| bits(self.points[v as usize])).collect();
+        for (p, class) in opening.corners() {
+            if !present.contains(&bits(p)) {
+                let v = self.add(p, class);
+                self.corners.push(v);
+            }
+        }
+    }
+
     /// Position and class of a point.
     pub fn at(&self, v: u32) -> (DVec3, Class) {
         (self.points[v as usize], self.classes[v as usize])
     }
+}
+
+fn bits(p: DVec3) -> [u64; 3] {
+    // Adding zero folds the two zeros into one.
+    (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
 /// Joins faces on the same three points, as they are left when the layer between them has been

@@ -9,6 +9,7 @@ use tmesh::{
 const DEFAULT: Params = Params {
     hub: crate::Hub::None,
     max_volume: None,
+    level: false,
     domain: Domain::Auto,
     order: None,
     start_angle: None,
