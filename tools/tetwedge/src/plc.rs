@@ -24,14 +24,24 @@ pub enum Order {
     Reversed,
     /// Second half first.
     FromTheMiddle,
+    /// In no order, but always the same; a number for each.
+    Shuffled(u64),
 }
 
 impl Order {
-    fn apply<T>(self, list: &mut [T]) {
+    fn apply<T: Copy>(self, list: &mut [T]) {
         match self {
             Self::AsGiven => {}
             Self::Reversed => list.reverse(),
             Self::FromTheMiddle => list.rotate_left(list.len() / 2),
+            Self::Shuffled(seed) => {
+                // Fibonacci hashing of the places.
+                let key = |i: usize| (i as u64 + seed).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                let mut order: Vec<usize> = (0..list.len()).collect();
+                order.sort_unstable_by_key(|&i| key(i).rotate_left(32) ^ key(i));
+                let shuffled: Vec<T> = order.into_iter().map(|i| list[i]).collect();
+                list.copy_from_slice(&shuffled);
+            }
         }
     }
 }
@@ -52,7 +62,7 @@ pub struct Description {
 /// in some of their orders. Another description of the same surface is another draw: of
 /// 32 open vias with films of 1e-4 to 7e-4 at orders 7 to 64, turned at random, the first failed for
 /// 2, the second for none, the third for 5, and with walls as they are 4 to 9 failed.
-pub const DESCRIPTIONS: [Description; 4] = [
+pub const DESCRIPTIONS: [Description; 6] = [
     Description {
         order: Order::AsGiven,
         flat: true,
@@ -67,6 +77,14 @@ pub const DESCRIPTIONS: [Description; 4] = [
     },
     Description {
         order: Order::AsGiven,
+        flat: false,
+    },
+    Description {
+        order: Order::Shuffled(1),
+        flat: true,
+    },
+    Description {
+        order: Order::Shuffled(2),
         flat: false,
     },
 ];
