@@ -349,7 +349,16 @@ fn any_divisor_of_the_order_will_do() {
     ] {
         let stages: [&[&str]; 4] = [
             MESH[0],
-            &["wedgecut", "-q", "--domain", domain, "--order", order],
+            &[
+                "wedgecut",
+                "-q",
+                "--horizontal-mirror",
+                "off",
+                "--domain",
+                domain,
+                "--order",
+                order,
+            ],
             MESH[2],
             MESH[3],
         ];

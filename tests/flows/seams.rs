@@ -16,10 +16,11 @@ fn read(bytes: &[u8]) -> Document {
 }
 
 fn seam(template: &Template) -> &Seam {
-    match template.walls.as_slice() {
-        [Wall::Seam(seam)] => seam,
-        walls => panic!("{walls:?}"),
-    }
+    let seam = template.walls.iter().find_map(|w| match w {
+        Wall::Seam(seam) => Some(seam),
+        _ => None,
+    });
+    seam.unwrap_or_else(|| panic!("{:?}", template.walls))
 }
 
 /// Pairs equal under the rotation to the bit, all of both faces paired, axis vertices with

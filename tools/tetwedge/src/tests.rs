@@ -273,7 +273,7 @@ fn seams_are_preserved() {
 }
 
 #[test]
-fn faces_between_templates_are_preserved() {
+fn faces_between_templates_are_refined_alike() {
     let before = with_hub(6);
     for threads in [1, 4] {
         let params = Params {
@@ -284,7 +284,8 @@ fn faces_between_templates_are_preserved() {
         let Wall::Hub(hub) = &done.templates[0].walls[2] else {
             panic!("no hub wall");
         };
-        assert_eq!(hub.triangle_pairs.len(), 8);
+        assert!(hub.triangle_pairs.len() > 8);
+        assert!(tmesh::validate(&done).is_empty());
     }
 }
 
