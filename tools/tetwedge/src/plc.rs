@@ -53,6 +53,10 @@ pub struct Description {
     pub order: Order,
     /// Whether walls are made exactly coplanar; see [`crate::flat`].
     pub flat: bool,
+    /// Where the whole surface is preserved: binary digits after the point that coordinates keep
+    /// (the diagonal is from 1 to 2). Points that are cospherical but for their last bits, as
+    /// symmetric ones are, make TetGen lose its way.
+    pub digits: Option<u8>,
 }
 
 /// Descriptions in the order in which they are tried.
@@ -66,26 +70,32 @@ pub const DESCRIPTIONS: [Description; 6] = [
     Description {
         order: Order::AsGiven,
         flat: true,
+        digits: None,
     },
     Description {
         order: Order::Reversed,
         flat: true,
+        digits: Some(44),
     },
     Description {
         order: Order::FromTheMiddle,
         flat: true,
+        digits: Some(30),
     },
     Description {
         order: Order::AsGiven,
         flat: false,
+        digits: None,
     },
     Description {
         order: Order::Shuffled(1),
         flat: true,
+        digits: Some(36),
     },
     Description {
         order: Order::Shuffled(2),
         flat: false,
+        digits: Some(30),
     },
 ];
 
@@ -158,6 +168,13 @@ impl Plc {
             .iter()
             .map(|v| (position(v) * scale).to_array())
             .collect();
+        if let Some(digits) = description.digits.filter(|_| faces.preserve()) {
+            let steps = f64::from(1_u32 << 22) * f64::from(1_u32 << (digits - 22));
+            let rounded = |x: f64| (x * steps).round() / steps + 0.0;
+            for p in &mut points {
+                *p = p.map(rounded);
+            }
+        }
         let place =
             |v: u32| Some(point_of_vertex[v as usize] as usize).filter(|&p| p < points.len());
         let planes: Vec<([f64; 2], Vec<usize>)> = vertical_planes(template)
