@@ -1,15 +1,20 @@
 //! The command line of `rotassemble`, over the real binary.
 
+#[allow(dead_code, unused_imports)]
+#[path = "../examples/body/generator/mod.rs"]
+mod generator;
 #[allow(dead_code)]
 #[path = "../tools/rotassemble/tests/common/structured.rs"]
 mod structured;
 
+use generator::{Encoding, Placement, Tessellation, Tsv};
+use serde_json::{Value, json};
 use std::fs;
 use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use structured::Structured;
-use tmesh::Document;
+use tmesh::{Document, Outside};
 
 fn wedge() -> Structured {
     Structured {
@@ -30,7 +35,11 @@ fn bytes(document: &Document) -> Vec<u8> {
 
 /// Runs the tool with the given standard input.
 fn run(arguments: &[&str], input: &[u8]) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rotassemble"))
+    run_tool(env!("CARGO_BIN_EXE_rotassemble"), arguments, input)
+}
+
+fn run_tool(path: &str, arguments: &[&str], input: &[u8]) -> Output {
+    let mut child = Command::new(path)
         .args(arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -88,6 +97,126 @@ fn the_expanded_document_can_be_assembled_again() {
     let promise = document.symmetry.unwrap().promise.unwrap();
     assert_eq!((promise.order, promise.mirror), (6, true));
     assert!(succeeds(&[], &expanded) == succeeds(&[], &input));
+}
+
+/// Runs `meshqual --check`; the exit code, the symmetry in the report, and what is broken of it.
+fn checked(input: &[u8]) -> (Option<i32>, Value, String) {
+    let arguments = ["-q", "--check", "--json", "-"];
+    let output = run_tool(env!("CARGO_BIN_EXE_meshqual"), &arguments, input);
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let broken = report["checks"]["violations"].as_array().unwrap().iter();
+    let texts = broken.filter(|b| b["promise"] == "symmetry");
+    let texts: Vec<_> = texts.map(|b| b["text"].as_str().unwrap()).collect();
+    (
+        output.status.code(),
+        report["symmetry"].clone(),
+        texts.join("\n"),
+    )
+}
+
+#[test]
+fn with_a_hub_the_order_of_the_wedge_holds_outside() {
+    let mut body = Tsv {
+        order: 16,
+        core: 0.2,
+        thickness: 0.02,
+        height: 0.5,
+        radius: 1.0,
+        tessellation: Tessellation::Symmetric,
+    }
+    .build();
+    let place = Placement {
+        rotate: Some(3),
+        scale: 1.0,
+        jitter: 0.0,
+    };
+    place.apply(&mut body);
+    let mut meshed = Vec::new();
+    let exact = Encoding::StlAscii { digits: None };
+    generator::write(&body, exact, &mut meshed).unwrap();
+    let (tools, cut) = (
+        [
+            env!("CARGO_BIN_EXE_symdetect"),
+            env!("CARGO_BIN_EXE_wedgecut"),
+            env!("CARGO_BIN_EXE_tetwedge"),
+        ],
+        ["-q", "--hub", "0.1", "--order", "16"],
+    );
+    for (tool, arguments) in tools.into_iter().zip([&cut[..1], &cut, &cut[..1]]) {
+        let output = run_tool(tool, arguments, &meshed);
+        assert!(output.status.success(), "{tool}");
+        meshed = output.stdout;
+    }
+    let (code, symmetry, errors) = checked(&meshed);
+    assert_eq!(code, Some(0), "{errors}");
+    let whole = symmetry["order"].as_u64().unwrap();
+    assert!(whole < 16 && 16 % whole == 0, "{symmetry}");
+    let outside = &symmetry["outside"];
+    assert_eq!(
+        (&outside["order"], &outside["mirror"]),
+        (&json!(16), &json!(true))
+    );
+    let radius = outside["radius"].as_f64().unwrap();
+    assert!((0.1..0.11).contains(&radius), "{radius}");
+    for format in ["tmesh", "vtk", "vtu"] {
+        let assembled = succeeds(&["--to", format], &meshed);
+        assert_eq!(
+            checked(&assembled),
+            (Some(0), symmetry.clone(), String::new())
+        );
+    }
+
+    let assembled = succeeds(&["--to", "tmesh"], &meshed);
+    let document = tmesh::read(assembled.as_slice()).unwrap();
+    let promised = |change: &dyn Fn(&mut Outside)| {
+        let mut changed = document.clone();
+        let promise = changed.symmetry.as_mut().unwrap().promise.as_mut().unwrap();
+        change(promise.outside.as_mut().unwrap());
+        checked(&bytes(&changed))
+    };
+    let (code, _, errors) = promised(&|outside| outside.order = 32);
+    assert!(
+        code == Some(1) && errors.contains("order 32 outside"),
+        "{errors}"
+    );
+    // The hub does not have that order.
+    let (code, _, errors) = promised(&|outside| outside.radius = 0.0);
+    assert!(
+        code == Some(1) && errors.contains("order 16 outside"),
+        "{errors}"
+    );
+    // Slices of the outer part are another material, in a way that keeps the lower order.
+    let mut disturbed = document.clone();
+    let promise = disturbed
+        .symmetry
+        .as_ref()
+        .unwrap()
+        .promise
+        .clone()
+        .unwrap();
+    let axis = |i: usize| glam::DVec3::from_array(promise.rotation.map(|row| row[i]));
+    let (x, y, origin) = (axis(0), axis(1), glam::DVec3::from_array(promise.origin));
+    let template = &mut disturbed.templates[0];
+    let corner = |v: &u32| {
+        let p = template.vertices[*v as usize] - origin;
+        glam::DVec2::new(x.dot(p), y.dot(p))
+    };
+    let steps = whole as f64 / std::f64::consts::TAU;
+    let mut changed = 0;
+    for tet in &mut template.tets {
+        let middle = tet.vertices.iter().map(corner).sum::<glam::DVec2>() / 4.0;
+        let of_step = (middle.to_angle() * steps).rem_euclid(1.0);
+        // The eighth on either side of the mirror planes of the lower order.
+        if middle.length() > 0.3 && !(0.125..0.875).contains(&of_step) {
+            tet.region = 2;
+            changed += 1;
+        }
+    }
+    assert!(changed > 0);
+    let (code, _, text) = checked(&bytes(&disturbed));
+    assert_eq!(code, Some(1));
+    assert!(text.contains("order 16 outside"), "{text}");
+    assert!(!text.contains(&format!("order {whole} ")), "{text}");
 }
 
 #[test]

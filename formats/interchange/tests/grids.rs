@@ -6,7 +6,9 @@ use common::*;
 use glam::DVec3;
 use interchange::Format::{self, Vtk, Vtu};
 use interchange::{promise_title, sniff, write_document};
-use tmesh::{Document, Marker, OUTSIDE, Promise, Region, Symmetry, Template, Tet, Triangle};
+use tmesh::{
+    Document, Marker, OUTSIDE, Outside, Promise, Region, Symmetry, Template, Tet, Triangle,
+};
 
 /// Two tetrahedra of different regions, with surface and interface.
 fn two_tets() -> Document {
@@ -106,6 +108,11 @@ fn the_promise_comes_back() {
         horizontal_mirror: false,
         rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         origin: [1.0, 2.0, 3.0],
+        outside: Some(Outside {
+            order: 48,
+            mirror: true,
+            radius: 0.7,
+        }),
     };
     let title = promise_title(&promise);
     for format in [Vtk, Vtu] {

@@ -47,6 +47,14 @@ pub struct Template {
     pub axis: Vec<u32>,
 }
 
+impl Template {
+    /// Largest distance of a vertex from the axis, model units; 0 without vertices.
+    pub fn reach(&self) -> f64 {
+        let squares = self.vertices.iter().map(|p| p.truncate().length_squared());
+        squares.fold(0.0, f64::max).sqrt()
+    }
+}
+
 /// A placed copy of a template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Instance {

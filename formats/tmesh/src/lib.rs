@@ -26,7 +26,7 @@ pub use document::{
 pub use error::DecodeError;
 pub use frame::Frame;
 pub use isometry::{Isometry, MAX_TURN_DENOMINATOR, Placed};
-pub use symmetry::{Axis, OtherAxis, Promise, RejectedOrder, Symmetry};
+pub use symmetry::{Axis, OtherAxis, Outside, Promise, RejectedOrder, Symmetry};
 pub use validate::validate;
 pub use violation::Violation;
 pub use wall::{HubWall, MirrorWall, Plane, Seam, Wall};

@@ -45,6 +45,21 @@ pub struct Promise {
     pub rotation: [[f64; 3]; 3],
     /// Origin of the canonical frame in the world.
     pub origin: [f64; 3],
+    /// The higher symmetry that holds away from the axis, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outside: Option<Outside>,
+}
+
+/// The symmetry of the tetrahedra that reach beyond a cylinder about the axis: those with at least one
+/// vertex farther from the axis than its radius, each as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outside {
+    /// Order of the rotation, a multiple of that of the whole.
+    pub order: u32,
+    /// Whether the mirror plane through axis and mirror direction maps them onto themselves.
+    pub mirror: bool,
+    /// Radius of the cylinder, model units.
+    pub radius: f64,
 }
 
 /// The symmetry found in a body, in the frame of the input.

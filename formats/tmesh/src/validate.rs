@@ -128,10 +128,27 @@ fn check_symmetry(symmetry: &Symmetry, found: &mut Collector) {
     let mut bad = |reason: String| found.add(Violation::BadSymmetry { reason });
     // Half steps of the order have to be turns too.
     let most = MAX_TURN_DENOMINATOR / 2;
-    let promised = symmetry.promise.as_ref().map(|p| p.order);
-    for order in [Some(symmetry.order), promised].into_iter().flatten() {
+    let promise = symmetry.promise.as_ref();
+    let promised = promise.map(|p| p.order);
+    let outside = promise.and_then(|p| p.outside);
+    let orders = [Some(symmetry.order), promised, outside.map(|o| o.order)];
+    for order in orders.into_iter().flatten() {
         if !(1..=most).contains(&order) {
             bad(format!("has the order {order}, which is not in 1..={most}"));
+        }
+    }
+    if let (Some(whole), Some(outside)) = (promised, outside) {
+        if !outside.order.is_multiple_of(whole.max(1)) {
+            let order = outside.order;
+            bad(format!(
+                "has the order {order} outside, which is no multiple of the order {whole} of the whole"
+            ));
+        }
+        if !(0.0..f64::INFINITY).contains(&outside.radius) {
+            let radius = outside.radius;
+            bad(format!(
+                "has an order that holds outside of the radius {radius}"
+            ));
         }
     }
     let axis = DVec3::from_array(symmetry.axis.direction);

@@ -2,7 +2,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
-use tmesh::{Document, Isometry, OUTSIDE, Template, Wall};
+use tmesh::{Document, Isometry, OUTSIDE, Outside, Template, Wall};
 
 /// Counts over the instances of a document.
 pub struct Copies {
@@ -237,7 +237,7 @@ fn names(
 
 /// The symmetry that the instances give the whole: largest order of a rotation that maps them onto
 /// themselves, and whether mirrors do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Realized {
     /// Order of the rotation about the axis.
     pub order: u32,
@@ -245,42 +245,136 @@ pub struct Realized {
     pub mirror: bool,
     /// Whether the plane through the origin across the axis is a mirror.
     pub horizontal_mirror: bool,
+    /// The higher symmetry away from the axis, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outside: Option<Outside>,
 }
 
 /// The symmetry of the instances, with their region maps: each operation has to permute the regions.
 pub fn realized(document: &Document) -> Realized {
-    let by_place: FxHashMap<(u32, Isometry), u32> = document
-        .instances
-        .iter()
-        .map(|i| ((i.template, i.isometry), i.region_map))
+    let placements = Placements::of(document);
+    let placed: Vec<u32> = (0..document.templates.len() as u32)
+        .filter(|&t| placements.copies[t as usize] > 0)
         .collect();
-    let used: Vec<Vec<u32>> = document.templates.iter().map(used_regions).collect();
-    let holds = |operation: Isometry| permutes(document, operation, &by_place, &used);
-    let copies = Copies::of(document).of_template;
-    let shared = copies
-        .iter()
-        .fold(0, |g, &n| gcd(g, n))
-        .min(u64::from(tmesh::MAX_TURN_DENOMINATOR));
-    let order = (1..=shared as u32)
-        .rev()
-        .find(|&n| shared % u64::from(n) == 0 && holds(Isometry::rotation(1, n)))
-        .unwrap_or(1);
-    // All mirrors that contain the axis differ by rotations: those with the smallest turns will do.
-    let first = document.instances.first().map(|i| (i.template, i.isometry));
-    let mirror = first.is_some_and(|(template, isometry)| {
-        document
-            .instances
-            .iter()
-            .filter(|i| i.template == template)
-            .map(|i| i.isometry.compose(isometry.inverse()))
-            .filter(|m| m.mirrored() && !m.flipped())
-            .filter(|m| u64::from(m.k()) * u64::from(order) < u64::from(m.n()))
-            .any(&holds)
-    });
+    let (order, mirror) = placements.group(&placed);
+    let outside = placements.outside(&placed);
     Realized {
         order,
-        mirror,
-        horizontal_mirror: holds(Isometry::new(0, 1, false, true)),
+        mirror: mirror.is_some(),
+        horizontal_mirror: placements.keep(&placed, Isometry::new(0, 1, false, true)),
+        outside: outside.filter(|o| (o.order, o.mirror) != (order, mirror.is_some())),
+    }
+}
+
+/// The instances of a document, to be compared with their images.
+struct Placements<'a> {
+    document: &'a Document,
+    /// Region map of each placed template.
+    by_place: FxHashMap<(u32, Isometry), u32>,
+    /// Regions of each template.
+    used: Vec<Vec<u32>>,
+    /// Number of instances of each template.
+    copies: Vec<u64>,
+}
+
+impl<'a> Placements<'a> {
+    fn of(document: &'a Document) -> Self {
+        let places = document.instances.iter();
+        Self {
+            document,
+            by_place: places
+                .map(|i| ((i.template, i.isometry), i.region_map))
+                .collect(),
+            used: document.templates.iter().map(used_regions).collect(),
+            copies: Copies::of(document).of_template,
+        }
+    }
+
+    /// Largest order of a rotation that keeps the instances of some templates, and a mirror that
+    /// contains the axis and does.
+    fn group(&self, templates: &[u32]) -> (u32, Option<Isometry>) {
+        let copies = templates.iter().map(|&t| self.copies[t as usize]);
+        let shared = copies
+            .fold(0, gcd)
+            .min(u64::from(tmesh::MAX_TURN_DENOMINATOR));
+        let order = (1..=shared as u32)
+            .rev()
+            .find(|&n| {
+                shared.is_multiple_of(u64::from(n))
+                    && self.keep(templates, Isometry::rotation(1, n))
+            })
+            .unwrap_or(1);
+        // All mirrors that contain the axis differ by rotations: those with the smallest turns will do.
+        let of_template = |t: u32| {
+            let instances = self.document.instances.iter();
+            instances.filter(move |i| i.template == t)
+        };
+        let first = templates.first().and_then(|&t| of_template(t).next());
+        let mirror = first.and_then(|first| {
+            of_template(first.template)
+                .map(|i| i.isometry.compose(first.isometry.inverse()))
+                .filter(|m| m.mirrored() && !m.flipped())
+                .filter(|m| u64::from(m.k()) * u64::from(order) < u64::from(m.n()))
+                .find(|&m| self.keep(templates, m))
+        });
+        (order, mirror)
+    }
+
+    /// The symmetry of the template that reaches farthest from the axis, and the radius beyond which
+    /// there are only templates that share it.
+    fn outside(&self, placed: &[u32]) -> Option<Outside> {
+        if placed.len() < 2 {
+            return None;
+        }
+        let templates = self.document.templates.iter();
+        let reach: Vec<f64> = templates.map(Template::reach).collect();
+        let far = |&a: &u32, &b: &u32| reach[a as usize].total_cmp(&reach[b as usize]);
+        let farthest = placed.iter().copied().max_by(far)?;
+        let (order, mirror) = self.group(&[farthest]);
+        let shared_by = |templates: &[u32]| {
+            let operations = [Some(Isometry::rotation(1, order)), mirror];
+            let mut operations = operations.into_iter().flatten();
+            operations.all(|g| self.keep(templates, g))
+        };
+        let (outer, inner): (Vec<u32>, Vec<u32>) = placed.iter().partition(|&&t| shared_by(&[t]));
+        let radius = inner.iter().map(|&t| reach[t as usize]).fold(0.0, f64::max);
+        (radius < reach[farthest as usize] && shared_by(&outer)).then_some(Outside {
+            order,
+            mirror: mirror.is_some(),
+            radius,
+        })
+    }
+
+    /// Whether an operation maps the instances of some templates onto such, and permutes their regions.
+    fn keep(&self, templates: &[u32], operation: Isometry) -> bool {
+        let mut forward: FxHashMap<u32, u32> = FxHashMap::default();
+        let mut backward: FxHashMap<u32, u32> = FxHashMap::default();
+        // Every pair of region maps is compared once.
+        let mut compared = FxHashSet::default();
+        let instances = self.document.instances.iter();
+        for instance in instances.filter(|i| templates.contains(&i.template)) {
+            let image = (instance.template, operation.compose(instance.isometry));
+            let Some(&map) = self.by_place.get(&image) else {
+                return false;
+            };
+            if !compared.insert((instance.template, instance.region_map, map)) {
+                continue;
+            }
+            let mapped = tmesh::Instance {
+                region_map: map,
+                ..*instance
+            };
+            for &region in &self.used[instance.template as usize] {
+                let from = self.document.placed_region(instance, region);
+                let to = self.document.placed_region(&mapped, region);
+                if *forward.entry(from).or_insert(to) != to
+                    || *backward.entry(to).or_insert(from) != from
+                {
+                    return false;
+                }
+            }
+        }
+        true
     }
 }
 
@@ -295,41 +389,6 @@ fn used_regions(template: &Template) -> Vec<u32> {
     used.sort_unstable();
     used.dedup();
     used
-}
-
-fn permutes(
-    document: &Document,
-    operation: Isometry,
-    by_place: &FxHashMap<(u32, Isometry), u32>,
-    used: &[Vec<u32>],
-) -> bool {
-    let mut forward: FxHashMap<u32, u32> = FxHashMap::default();
-    let mut backward: FxHashMap<u32, u32> = FxHashMap::default();
-    // Every pair of region maps is compared once.
-    let mut compared = FxHashSet::default();
-    for instance in &document.instances {
-        let image = (instance.template, operation.compose(instance.isometry));
-        let Some(&map) = by_place.get(&image) else {
-            return false;
-        };
-        if !compared.insert((instance.template, instance.region_map, map)) {
-            continue;
-        }
-        let mapped = tmesh::Instance {
-            region_map: map,
-            ..*instance
-        };
-        for &region in &used[instance.template as usize] {
-            let from = document.placed_region(instance, region);
-            let to = document.placed_region(&mapped, region);
-            if *forward.entry(from).or_insert(to) != to
-                || *backward.entry(to).or_insert(from) != from
-            {
-                return false;
-            }
-        }
-    }
-    true
 }
 
 fn gcd(a: u64, b: u64) -> u64 {

@@ -257,6 +257,7 @@ fn summary(document: &Document, mut measured: Measured, bins: &[Vec<f64>]) -> Su
             order: p.order,
             mirror: p.mirror,
             horizontal_mirror: p.horizontal_mirror,
+            outside: p.outside,
         })
     } else {
         Some(realized(document))

@@ -260,6 +260,7 @@ pub fn assembled(wedge: &Document) -> Document {
         horizontal_mirror: false,
         rotation: wedge.frame.rotation.transpose().to_cols_array_2d(),
         origin: wedge.frame.origin.to_array(),
+        outside: None,
     });
     document
 }

@@ -51,6 +51,18 @@ fn sizes(out: &mut String, s: &Summary) {
         if symmetry.horizontal_mirror {
             of.push_str(" and a horizontal mirror");
         }
+        if let Some(outside) = &symmetry.outside {
+            let mirrors = match outside.mirror && !symmetry.mirror {
+                true => " with mirrors",
+                false => "",
+            };
+            let radius = number(outside.radius);
+            let _ = write!(
+                of,
+                ", of order {}{mirrors} outside of the radius {radius}",
+                outside.order
+            );
+        }
         let plural = |n: u64| if n == 1 { "" } else { "s" };
         if s.instances == 1 {
             let _ = writeln!(out, "one piece that promises a symmetry of {of}");

@@ -1,7 +1,7 @@
 //! The title line, which carries the promised symmetry through formats that have no place for it.
 
 use glam::DVec3;
-use tmesh::{Document, Promise};
+use tmesh::{Document, Outside, Promise};
 
 /// Longest title of a legacy VTK file, without the line end.
 pub const MAX_TITLE: usize = 255;
@@ -9,15 +9,16 @@ pub const MAX_TITLE: usize = 255;
 /// The title of a mesh that promises a symmetry:
 ///
 /// ```text
-/// symtet C16v order=16 mirror=1 axis=px,py,pz,dx,dy,dz,mx,my,mz
+/// symtet C4v order=4 mirror=1 axis=px,py,pz,dx,dy,dz,mx,my,mz outside=16,1,0.14
 /// ```
 ///
 /// The Schoenflies symbol, then words `key=value` in this order: `order`, the order of the
 /// rotation; `mirror`, 1 when the plane through the axis and the mirror direction is a mirror;
 /// `horizontal=1` when the plane through the point across the axis is one (else left out); `axis`,
 /// nine numbers: a point of the axis, the axis's direction, the mirror direction, in world
-/// coordinates. Numbers are the shortest that read back the same. At most 255 characters: where
-/// that would be exceeded, directions are rounded to 17 decimals.
+/// coordinates; `outside` if a higher symmetry holds there: order, mirror, and radius. Numbers are
+/// the shortest that read back the same. At most 255 characters: where that would be exceeded,
+/// directions are rounded to 17 decimals, or `outside` is left out, or both.
 pub fn promise_title(promise: &Promise) -> String {
     let Promise {
         order,
@@ -25,6 +26,7 @@ pub fn promise_title(promise: &Promise) -> String {
         horizontal_mirror,
         rotation: r,
         origin,
+        outside,
     } = promise;
     let symbol = match (mirror, horizontal_mirror) {
         (false, false) => format!("C{order}"),
@@ -47,11 +49,17 @@ pub fn promise_title(promise: &Promise) -> String {
         let all: Vec<_> = point.chain(directions.map(direction)).collect();
         format!("{head}{}", all.join(","))
     };
-    let title = write(shortest);
-    if title.len() <= MAX_TITLE {
-        return title;
-    }
-    write(rounded)
+    let outside = outside.map_or(String::new(), |o| {
+        let radius = shortest(o.radius);
+        format!(" outside={},{},{radius}", o.order, u8::from(o.mirror))
+    });
+    let titles = [
+        write(shortest) + &outside,
+        write(rounded) + &outside,
+        write(shortest),
+    ];
+    let fits = titles.into_iter().find(|title| title.len() <= MAX_TITLE);
+    fits.unwrap_or_else(|| write(rounded))
 }
 
 /// The promise in a title line that [`promise_title`] made.
@@ -61,6 +69,7 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
         return None;
     }
     let (mut order, mut mirror, mut horizontal_mirror, mut numbers) = (None, false, false, None);
+    let mut outside = None;
     for word in words {
         match word.split_once('=') {
             Some(("order", v)) => order = v.parse().ok().filter(|&n: &u32| n > 0),
@@ -70,6 +79,7 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
                 let parsed: Result<Vec<f64>, _> = v.split(',').map(str::parse).collect();
                 numbers = parsed.ok().and_then(|n| <[f64; 9]>::try_from(n).ok());
             }
+            Some(("outside", v)) => outside = parse_outside(v),
             _ => {}
         }
     }
@@ -84,6 +94,20 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
         horizontal_mirror,
         rotation: [[x.x, y.x, z.x], [x.y, y.y, z.y], [x.z, y.z, z.z]],
         origin: [n[0], n[1], n[2]],
+        outside,
+    })
+}
+
+fn parse_outside(text: &str) -> Option<Outside> {
+    let mut parts = text.split(',');
+    let order = parts.next()?.parse().ok().filter(|&n: &u32| n > 0)?;
+    let mirror = parts.next()? == "1";
+    let radius = parts.next()?.parse().ok();
+    let radius = radius.filter(|r| (0.0..f64::INFINITY).contains(r))?;
+    parts.next().is_none().then_some(Outside {
+        order,
+        mirror,
+        radius,
     })
 }
 
@@ -135,6 +159,31 @@ mod tests {
             horizontal_mirror: false,
             rotation: rows.to_cols_array_2d(),
             origin: frame.origin.to_array(),
+            outside: None,
+        }
+    }
+
+    #[test]
+    fn what_holds_outside_reads_back() {
+        let promise = Promise {
+            order: 4,
+            outside: Some(Outside {
+                order: 16,
+                mirror: true,
+                radius: 0.1 + 0.2,
+            }),
+            ..promise(Frame::IDENTITY)
+        };
+        let title = promise_title(&promise);
+        assert!(
+            title.ends_with(" outside=16,1,0.30000000000000004"),
+            "{title}"
+        );
+        assert_eq!(parse_promise(&title), Some(promise));
+        for odd in ["", "16,1", "0,1,1", "16,1,nan", "16,1,-1", "16,1,1,1"] {
+            let title = format!("symtet C4 order=4 axis=0,0,0,0,0,1,1,0,0 outside={odd}");
+            let promise = parse_promise(&title).unwrap();
+            assert_eq!(promise.outside, None, "{odd}");
         }
     }
 
@@ -173,7 +222,22 @@ mod tests {
             horizontal_mirror: true,
             rotation: [[tiny; 3], [-0.987_654_321_098_765_4; 3], [tiny; 3]],
             origin: [tiny; 3],
+            outside: None,
         };
         assert!(promise_title(&promise).len() <= MAX_TITLE);
+        let long = Promise {
+            rotation: [[-0.987_654_321_098_765_4; 3]; 3],
+            ..promise
+        };
+        let outside = Some(Outside {
+            order: 32_768,
+            mirror: false,
+            radius: -tiny,
+        });
+        let more = Promise {
+            outside,
+            ..long.clone()
+        };
+        assert_eq!(promise_title(&more), promise_title(&long));
     }
 }

@@ -222,6 +222,7 @@ fn symmetry() -> Symmetry {
             horizontal_mirror: false,
             rotation: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             origin: [0.25, -3.0, 1e-3],
+            outside: None,
         }),
     }
 }

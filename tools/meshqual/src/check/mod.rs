@@ -17,17 +17,21 @@ mod walls;
 pub use findings::Broken;
 
 use crate::Error;
-use crate::instances::{is_sector, realized, wall_triangles};
+use crate::instances::{Realized, is_sector, realized, wall_triangles};
 use crate::measure::Measured;
+use crate::text::number;
 use conformity::{Skin, conformity};
 use findings::{Findings, Kind};
 use geom::edges::orientation;
 use serde::Serialize;
-use tmesh::{Document, Violation, Wall};
+use tmesh::{Document, Outside, Promise, Violation, Wall};
 
 /// Distance below which two vertices coincide, relative to the mesh's size (the diagonal of its
 /// bounding box).
 pub const COINCIDENCE: f64 = 1e-12;
+
+/// How well a distance from the axis is known, relative to it.
+const RADIUS_SLACK: f64 = 1e-9;
 
 /// Results of the checks; `null` in JSON where one does not apply.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -117,7 +121,7 @@ pub fn check(
                     )
                 });
             }
-            holds
+            holds && outside_holds(&realized, p, &mut findings)
         });
         checks.connectivity_symmetric = Some(!missing && kept);
     }
@@ -135,6 +139,37 @@ pub fn check(
     checks.conforming = Some(!checks.violations.iter().any(|b| b.promise == "conforming"));
     checks.passed = checks.violations.is_empty();
     Ok(checks)
+}
+
+/// Whether the instances have the symmetry that is promised away from the axis.
+fn outside_holds(realized: &Realized, promise: &Promise, findings: &mut Findings) -> bool {
+    let Some(promised) = promise.outside else {
+        return true;
+    };
+    let whole = Outside {
+        order: realized.order,
+        mirror: realized.mirror,
+        radius: 0.0,
+    };
+    let candidates = [Some(whole), realized.outside];
+    let holds = candidates.iter().flatten().any(|o| {
+        o.order.is_multiple_of(promised.order.max(1))
+            && o.mirror >= promised.mirror
+            && o.radius <= promised.radius * (1.0 + RADIUS_SLACK)
+    });
+    if !holds {
+        findings.add(Kind::Instances, || {
+            let found = realized.outside.unwrap_or(whole);
+            format!(
+                "they have order {} outside of the radius {}, the document promises {} outside of {}",
+                found.order,
+                number(found.radius),
+                promised.order,
+                number(promised.radius)
+            )
+        });
+    }
+    holds
 }
 
 /// Indices of the tetrahedra of a template that are flat or inside out, increasing.

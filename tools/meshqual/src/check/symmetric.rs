@@ -1,8 +1,10 @@
 //! Exact symmetry of a plain mesh: the generators of its group map it onto itself.
 
+use super::RADIUS_SLACK;
 use super::findings::{Findings, Kind, at};
 use crate::faces::sorted;
 use crate::nearby::Nearby;
+use crate::text::number;
 use glam::{DMat3, DVec3};
 use rustc_hash::FxHashMap;
 use tmesh::{Document, Frame, Isometry, MAX_TURN_DENOMINATOR, Promise, Tet};
@@ -30,7 +32,8 @@ pub struct Symmetry {
 ///
 /// Per generator: each vertex's image is matched with the vertex nearest to it, then tetrahedra and
 /// triangles are mapped by vertex ids alone. A map of a finite set into itself that maps no two
-/// elements onto one is onto, so all images are covered too. Linear.
+/// elements onto one is onto, so all images are covered too. What is promised outside of a radius is
+/// checked in the same way on the elements that reach beyond it. Linear.
 pub fn check(
     document: &Document,
     promise: &Promise,
@@ -44,7 +47,8 @@ pub fn check(
     let Some(frame) = frame(promise) else {
         findings.add(Kind::BadPromise, || {
             format!(
-                "order {}, or a frame that is not a rotation and a finite shift",
+                "order {}, a frame that is not a rotation and a finite shift, or an order outside of \
+                 a radius that does not fit",
                 promise.order
             )
         });
@@ -81,14 +85,21 @@ pub fn check(
         .enumerate()
         .map(|(i, t)| (sorted(t.vertices).0, i as u32))
         .collect();
-    for (name, generator) in generators(promise) {
-        let name = &name;
-        let (residual, images) = matcher.images(document, name, generator, findings);
+    let mut outer = None;
+    for generator in generators(promise) {
+        let part = match generator.beyond {
+            None => &Part::default(),
+            Some(radius) => outer.get_or_insert_with(|| {
+                let margin = RADIUS_SLACK * radius + matcher.limit;
+                Part::beyond(radius + margin, &template.tets, &points)
+            }),
+        };
+        let (residual, images) = matcher.images(document, &generator, part, findings);
         found.residual = found.residual.max(residual);
-        check_permutation(document, name, &images, findings);
-        let regions = map_tets(document, name, &images, &tets, findings);
+        check_permutation(document, &generator.name, &images, findings);
+        let regions = map_tets(document, &generator.name, part, &images, &tets, findings);
         map_triangles(
-            document, name, generator, &images, &regions, &triangles, findings,
+            document, &generator, part, &images, &regions, &triangles, findings,
         );
     }
     found.connectivity = !findings.has(&CONNECTIVITY);
@@ -113,24 +124,96 @@ fn frame(promise: &Promise) -> Option<Frame> {
         .iter()
         .fold(0.0_f64, |m, x| m.max(x.abs()));
     let proper = off <= 1e-12 && rotation.determinant() > 0.0 && origin.is_finite();
-    let turns = (1..=MAX_TURN_DENOMINATOR).contains(&promise.order);
-    (proper && turns).then_some(Frame { rotation, origin })
+    let turns = |order| (1..=MAX_TURN_DENOMINATOR).contains(&order);
+    let fits = turns(promise.order)
+        && promise.outside.is_none_or(|o| {
+            turns(o.order)
+                && o.order.is_multiple_of(promise.order)
+                && (0.0..f64::INFINITY).contains(&o.radius)
+        });
+    (proper && fits).then_some(Frame { rotation, origin })
 }
 
-fn generators(promise: &Promise) -> Vec<(String, Isometry)> {
+struct Generator {
+    name: String,
+    isometry: Isometry,
+    /// Holds only for what reaches farther from the axis than this.
+    beyond: Option<f64>,
+}
+
+fn generators(promise: &Promise) -> Vec<Generator> {
     let mut generators = Vec::new();
+    let mut add = |name: String, isometry: Isometry, beyond: Option<f64>| {
+        generators.push(Generator {
+            name,
+            isometry,
+            beyond,
+        });
+    };
+    let rotation = |n: u32| {
+        (
+            format!("the rotation of order {n}"),
+            Isometry::rotation(1, n),
+        )
+    };
+    let mirror = Isometry::reflection(0, 1);
     if promise.order > 1 {
-        let name = format!("the rotation of order {}", promise.order);
-        generators.push((name, Isometry::rotation(1, promise.order)));
+        let (name, isometry) = rotation(promise.order);
+        add(name, isometry, None);
     }
     if promise.mirror {
-        generators.push(("the mirror".to_owned(), Isometry::reflection(0, 1)));
+        add("the mirror".to_owned(), mirror, None);
     }
     if promise.horizontal_mirror {
         let flip = Isometry::new(0, 1, false, true);
-        generators.push(("the horizontal mirror".to_owned(), flip));
+        add("the horizontal mirror".to_owned(), flip, None);
+    }
+    if let Some(outside) = &promise.outside {
+        let place = format!("outside of the radius {}", number(outside.radius));
+        if outside.order != promise.order {
+            let (name, isometry) = rotation(outside.order);
+            add(format!("{name} {place}"), isometry, Some(outside.radius));
+        }
+        if outside.mirror && !promise.mirror {
+            add(format!("the mirror {place}"), mirror, Some(outside.radius));
+        }
     }
     generators
+}
+
+/// The part of the mesh that a generator has to map onto itself; the default is all of it.
+#[derive(Default)]
+struct Part {
+    /// Per vertex, whether it is a corner of a tetrahedron that reaches beyond the radius, and whether
+    /// it lies beyond itself.
+    vertices: Option<Vec<(bool, bool)>>,
+}
+
+impl Part {
+    /// The tetrahedra with a corner farther from the axis than `radius`.
+    fn beyond(radius: f64, tets: &[Tet], points: &[DVec3]) -> Self {
+        let far = |p: &DVec3| p.truncate().length() > radius;
+        let mut vertices: Vec<(bool, bool)> = points.iter().map(|p| (far(p), far(p))).collect();
+        for tet in tets {
+            if tet.vertices.iter().any(|&v| vertices[v as usize].1) {
+                tet.vertices
+                    .iter()
+                    .for_each(|&v| vertices[v as usize].0 = true);
+            }
+        }
+        Self {
+            vertices: Some(vertices),
+        }
+    }
+
+    fn has_vertex(&self, v: usize) -> bool {
+        self.vertices.as_ref().is_none_or(|all| all[v].0)
+    }
+
+    fn has_element(&self, corners: &[u32]) -> bool {
+        let far = |all: &Vec<(bool, bool)>| corners.iter().any(|&v| all[v as usize].1);
+        self.vertices.as_ref().is_none_or(far)
+    }
 }
 
 /// Finds the vertices that images fall on.
@@ -144,16 +227,17 @@ struct Matcher<'a> {
 }
 
 impl Matcher<'_> {
-    /// The largest distance relative to the size, and the image of each vertex, [`NONE`] where there
-    /// is none within reach.
+    /// The largest distance relative to the size, and the image of each vertex of the part, [`NONE`]
+    /// where there is none within reach.
     fn images(
         &mut self,
         document: &Document,
-        name: &str,
-        generator: Isometry,
+        generator: &Generator,
+        part: &Part,
         findings: &mut Findings,
     ) -> (f64, Vec<u32>) {
-        let placed = generator.placed();
+        let name = &generator.name;
+        let placed = generator.isometry.placed();
         let near = self
             .near
             .get_or_insert_with(|| Nearby::all(self.points, self.limit));
@@ -164,6 +248,10 @@ impl Matcher<'_> {
         let mut residual = 0.0_f64;
         let mut images = Vec::with_capacity(self.points.len());
         for (v, &p) in self.points.iter().enumerate() {
+            if !part.has_vertex(v) {
+                images.push(NONE);
+                continue;
+            }
             let image = placed.apply(p);
             let mut found = near.nearest(image, &mut unlimited);
             if found.is_none() {
@@ -265,6 +353,7 @@ fn increasing(mut v: [u32; 4]) -> [u32; 4] {
 fn map_tets(
     document: &Document,
     name: &str,
+    part: &Part,
     images: &[u32],
     index: &TetIndex,
     findings: &mut Findings,
@@ -277,7 +366,7 @@ fn map_tets(
     for (i, tet) in template.tets.iter().enumerate() {
         let image = tet.vertices.map(|v| images[v as usize]);
         // A vertex without image is reported already.
-        if image.contains(&NONE) {
+        if image.contains(&NONE) || !part.has_element(&tet.vertices) {
             continue;
         }
         let Some(other) = index.find(image) else {
@@ -309,25 +398,27 @@ fn map_tets(
 
 fn map_triangles(
     document: &Document,
-    name: &str,
-    generator: Isometry,
+    generator: &Generator,
+    part: &Part,
     images: &[u32],
     regions: &FxHashMap<u32, u32>,
     index: &FxHashMap<[u32; 3], u32>,
     findings: &mut Findings,
 ) {
+    let name = &generator.name;
+    let turns_over = generator.isometry.reverses_orientation();
     let triangles = &document.templates[0].triangles;
     // OUTSIDE is in no region map and stays itself.
     let mapped = |region: u32| regions.get(&region).copied().unwrap_or(region);
     for (i, t) in triangles.iter().enumerate() {
         let image = t.vertices.map(|v| images[v as usize]);
-        if image.contains(&NONE) {
+        if image.contains(&NONE) || !part.has_element(&t.vertices) {
             continue;
         }
         let (key, odd) = sorted(image);
         let found = index.get(&key).map(|&j| &triangles[j as usize]);
         let same = found.is_some_and(|other| {
-            let reversed = (sorted(other.vertices).1 != odd) != generator.reverses_orientation();
+            let reversed = (sorted(other.vertices).1 != odd) != turns_over;
             let sides = if reversed {
                 [other.back, other.front]
             } else {

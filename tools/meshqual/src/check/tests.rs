@@ -3,7 +3,7 @@
 use crate::specimens::{assembled, wedge};
 use crate::{Params, Report, analyse};
 use glam::DVec3;
-use tmesh::{Document, Instance, Isometry, OUTSIDE, Template, Tet, Wall};
+use tmesh::{Document, Instance, Isometry, OUTSIDE, Outside, Promise, Template, Tet, Wall};
 
 fn report(document: &Document) -> Report {
     let params = Params {
@@ -321,6 +321,135 @@ fn a_promise_too_high() {
         .unwrap()
         .mirror = true;
     broken(&mirrored, "symmetry", "under the mirror");
+}
+
+/// The whole of a wedge of order 8, which promises no more than order 4, but 8 outside of a radius
+/// between the second ring of vertices (at radius 2) and the third.
+fn of_order_eight_outside() -> Document {
+    let mut whole = assembled(&wedge(8, false));
+    promise(&mut whole).order = 4;
+    promise(&mut whole).outside = Some(Outside {
+        order: 8,
+        mirror: false,
+        radius: 2.5,
+    });
+    whole
+}
+
+fn promise(document: &mut Document) -> &mut Promise {
+    let symmetry = document.symmetry.as_mut().unwrap();
+    symmetry.promise.as_mut().unwrap()
+}
+
+/// Moves a vertex at a distance from the axis, and its images under the rotation of order 4, along
+/// the axis.
+fn move_symmetrically(whole: &mut Document, radius: f64) {
+    let frame = {
+        let p = promise(whole);
+        let rows = p.rotation.map(DVec3::from_array);
+        tmesh::Frame {
+            rotation: glam::DMat3::from_cols_array_2d(&rows.map(|r| r.to_array())).transpose(),
+            origin: DVec3::from_array(p.origin),
+        }
+    };
+    let vertices = &mut whole.templates[0].vertices;
+    let own: Vec<DVec3> = vertices.iter().map(|&p| frame.to_canonical(p)).collect();
+    let inside = |p: &DVec3| p.z > 0.5 && p.z < 1.5;
+    let at = |p: &DVec3| (p.truncate().length() - radius).abs() < 1e-9 && inside(p);
+    let first = *own.iter().find(|p| at(p)).unwrap();
+    for k in 0..4 {
+        let image = Isometry::rotation(k, 4).apply(first);
+        let near = own.iter().position(|p| p.distance(image) < 1e-9).unwrap();
+        vertices[near] = frame.to_world(image + DVec3::new(0.0, 0.0, 0.01));
+    }
+}
+
+#[test]
+fn a_higher_order_outside_holds_there_only() {
+    let r = sound(&of_order_eight_outside());
+    let symmetry = r.summary.symmetry.unwrap();
+    assert_eq!(symmetry.outside.map(|o| o.order), Some(8));
+    let text = crate::text(&r, true);
+    assert!(
+        text.contains("a symmetry of order 4, of order 8 outside of the radius 2.5\n"),
+        "{text}"
+    );
+    // The whole keeps order 4 all the same.
+    let mut inside = of_order_eight_outside();
+    move_symmetrically(&mut inside, 1.0);
+    sound(&inside);
+    promise(&mut inside).outside.as_mut().unwrap().radius = 1.5;
+    broken(&inside, "symmetry", "order 8 outside of the radius 1.5");
+    let mut outside = of_order_eight_outside();
+    for radius in [3.0, 2.0] {
+        move_symmetrically(&mut outside, radius);
+        let r = broken(&outside, "symmetry", "order 8 outside of the radius 2.5");
+        assert!(r.failures(true).iter().all(|f| f.contains("order 8")));
+        outside = of_order_eight_outside();
+    }
+}
+
+#[test]
+fn a_higher_order_outside_holds_for_elements_and_regions() {
+    // One cell of every second eighth is of another region.
+    let mut regions = of_order_eight_outside();
+    let far = regions.templates[0].tets.len() / 8 - 1;
+    let per_copy = regions.templates[0].tets.len() / 8;
+    for copy in [0, 2, 4, 6] {
+        regions.templates[0].tets[copy * per_copy + far].region = 1;
+    }
+    let r = report(&regions);
+    let texts = r.failures(true);
+    let of = |what: &str| texts.iter().any(|t| t.contains(what));
+    assert!(
+        of("order 8 outside of the radius 2.5 maps tetrahedron"),
+        "{texts:?}"
+    );
+    let mut missing = of_order_eight_outside();
+    for copy in [6, 4, 2, 0] {
+        missing.templates[0].tets.remove(copy * per_copy + far);
+    }
+    broken(&missing, "symmetry", "order 8 outside of the radius 2.5");
+}
+
+#[test]
+fn a_promise_too_high_outside() {
+    let mut whole = of_order_eight_outside();
+    promise(&mut whole).outside.as_mut().unwrap().order = 16;
+    broken(&whole, "symmetry", "order 16 outside of the radius 2.5");
+    let mut mirrored = of_order_eight_outside();
+    promise(&mut mirrored).outside.as_mut().unwrap().mirror = true;
+    broken(
+        &mirrored,
+        "symmetry",
+        "the mirror outside of the radius 2.5",
+    );
+    let mut mirrored = assembled(&wedge(8, true));
+    *promise(&mut mirrored) = promise(&mut of_order_eight_outside()).clone();
+    promise(&mut mirrored).outside.as_mut().unwrap().mirror = true;
+    sound(&mirrored);
+    for (order, radius) in [(6, 2.5), (8, f64::NAN), (8, -1.0), (0, 2.5)] {
+        let mut odd = of_order_eight_outside();
+        promise(&mut odd).outside = Some(Outside {
+            order,
+            mirror: false,
+            radius,
+        });
+        let params = Params {
+            bins: 10,
+            limits: Vec::new(),
+            worst: 1,
+        };
+        let refused = analyse(&odd, None, &params).map_or(true, |r| !r.checks.passed);
+        assert!(refused, "{order} {radius}");
+    }
+    // Of instances.
+    let mut instanced = wedge(8, false);
+    let symmetry = instanced.symmetry.as_mut().unwrap();
+    symmetry.promise = of_order_eight_outside().symmetry.unwrap().promise;
+    sound(&instanced);
+    promise(&mut instanced).outside.as_mut().unwrap().order = 16;
+    broken(&instanced, "symmetry", "promises 16 outside of 2.5");
 }
 
 #[test]
