@@ -1,5 +1,6 @@
 //! Options that every tool has.
 
+use crate::MessageFormat;
 use clap::Args;
 use interchange::Format;
 use std::path::PathBuf;
@@ -31,6 +32,16 @@ pub struct CommonArgs {
     /// Say what is done and how long it takes; twice for details
     #[arg(short, long, action = clap::ArgAction::Count)]
     pub verbose: u8,
+
+    /// Form of the messages on standard error; `json` writes an object per line
+    #[arg(
+        long,
+        value_name = "FORM",
+        value_enum,
+        default_value_t,
+        hide_possible_values = true
+    )]
+    pub message_format: MessageFormat,
 }
 
 fn format(name: &str) -> Result<Format, String> {

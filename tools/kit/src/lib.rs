@@ -5,12 +5,14 @@
 mod args;
 mod failure;
 mod input;
+mod messages;
 mod output;
 mod run;
 mod session;
 
 pub use args::CommonArgs;
 pub use failure::Failure;
+pub use messages::MessageFormat;
 pub use output::{Closed, Output};
 pub use run::{Command, main};
 pub use session::{Progress, Session};

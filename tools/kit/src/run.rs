@@ -1,6 +1,7 @@
 //! The frame around a tool's run.
 
-use crate::{CommonArgs, Failure, Session};
+use crate::messages::{Level, usage_sentence};
+use crate::{CommonArgs, Failure, MessageFormat, Session};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
@@ -13,8 +14,8 @@ pub trait Command: clap::Parser {
     fn run(self, session: &Session) -> Result<(), Failure>;
 }
 
-/// Parses the command line, runs the tool, reports a failure as `tool: sentence`, and returns the
-/// exit code of the contract.
+/// Parses the command line, runs the tool, reports a failure as `tool: error: sentence` (or the
+/// object asked for with `--message-format json`), and returns the exit code of the contract.
 pub fn main<C: Command>() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
     let cli = match C::try_parse_from(&arguments) {
@@ -22,6 +23,13 @@ pub fn main<C: Command>() -> ExitCode {
         Err(error) => {
             // Help and version go to standard output with exit 0, mistakes to standard error with 2.
             let code = if error.use_stderr() { 2 } else { 0 };
+            let form = MessageFormat::sought(&arguments);
+            if code == 2 && form == MessageFormat::Json {
+                let name = C::command().get_name().to_owned();
+                let text = usage_sentence(&error);
+                eprintln!("{}", form.line(&name, Level::Error(code), &text));
+                return ExitCode::from(code);
+            }
             return match error.print() {
                 Ok(()) => ExitCode::from(code),
                 Err(_) => ExitCode::from(4),
@@ -30,6 +38,7 @@ pub fn main<C: Command>() -> ExitCode {
     };
     let name = C::command().get_name().to_owned();
     let session = Session::new(&name, cli.common().clone(), &arguments);
+    let form = cli.common().message_format;
     std::panic::set_hook(Box::new({
         let name = name.clone();
         move |panic| {
@@ -38,14 +47,15 @@ pub fn main<C: Command>() -> ExitCode {
                 .map(|l| format!(" at {}:{}", l.file(), l.line()));
             let text = panic.payload_as_str().unwrap_or("unknown");
             let place = place.unwrap_or_default();
-            eprintln!("{name}: internal error{place}: {text}; this is a bug, please report it");
+            let text = format!("internal error{place}: {text}; this is a bug, please report it");
+            eprintln!("{}", form.line(&name, Level::Error(1), &text));
         }
     }));
     match catch_unwind(AssertUnwindSafe(|| cli.run(&session))) {
         Ok(Ok(())) => ExitCode::SUCCESS,
         Ok(Err(failure)) => {
             if !matches!(failure, Failure::ClosedPipe) {
-                session.error(&failure.to_string());
+                session.error(failure.code(), &failure.to_string());
             }
             ExitCode::from(failure.code())
         }

@@ -1,6 +1,7 @@
 //! One run of a tool: its name, its options, and the way it talks to the user.
 
-use crate::CommonArgs;
+use crate::messages::Level;
+use crate::{CommonArgs, MessageFormat};
 use indicatif::{ProgressBar, ProgressStyle};
 use interchange::OddEdges;
 use std::ffi::OsString;
@@ -69,7 +70,7 @@ impl Session {
     /// Says something the user should know; silent with `-q`.
     pub fn note(&self, text: &str) {
         if !self.common.quiet {
-            eprintln!("{}: {text}", self.name);
+            self.say(Level::Note, text);
         }
     }
 
@@ -77,14 +78,14 @@ impl Session {
     pub fn info(&self, text: &str) {
         if self.common.verbose > 0 {
             let seconds = self.begun.elapsed().as_secs_f64();
-            eprintln!("{}: [{seconds:8.3} s] {text}", self.name);
+            self.say(Level::Info(seconds), text);
         }
     }
 
     /// Details; only with `-vv`.
     pub fn detail(&self, text: &str) {
         if self.common.verbose > 1 {
-            eprintln!("{}: {text}", self.name);
+            self.say(Level::Detail, text);
         }
     }
 
@@ -93,14 +94,20 @@ impl Session {
         self.common.verbose > 0
     }
 
-    pub(crate) fn error(&self, text: &str) {
-        eprintln!("{}: error: {text}", self.name);
+    pub(crate) fn error(&self, code: u8, text: &str) {
+        self.say(Level::Error(code), text);
+    }
+
+    fn say(&self, level: Level, text: &str) {
+        let line = self.common.message_format.line(&self.name, level, text);
+        eprintln!("{line}");
     }
 
     /// A progress bar for work of `length` steps; shown on a terminal only, and only when the work
     /// lasts.
     pub fn progress(&self, length: u64, text: &str) -> Progress {
-        if self.common.quiet || !std::io::stderr().is_terminal() {
+        let for_people = self.common.message_format == MessageFormat::Text;
+        if self.common.quiet || !for_people || !std::io::stderr().is_terminal() {
             return Progress(ProgressBar::hidden());
         }
         let bar = ProgressBar::new(length).with_message(format!("{}: {text}", self.name));
