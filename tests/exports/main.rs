@@ -9,6 +9,7 @@ mod generator;
 
 mod boundary;
 mod calculix;
+mod heat;
 mod referee;
 mod tools;
 
