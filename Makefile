@@ -10,7 +10,8 @@ PREFIX ?= /usr/local
 DESTDIR ?=
 TARGET := $(abspath $(or $(CARGO_TARGET_DIR),target))
 TOOLS := symdetect wedgecut periodic-surf tetwedge rotassemble meshqual
-# Python with meshio, vtk and gmsh: reads meshes independently of this project, in tests only.
+# Python with meshio, vtk and gmsh, which read meshes independently of this project, and Snakemake, which
+# runs a flow: in tests only.
 REFEREE := $(TARGET)/referee
 
 .PHONY: help setup build demo test check fmt lint manual install dist clean

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The generator of bodies, which cargo builds beside the tests.
-fn generator() -> PathBuf {
+pub fn generator() -> PathBuf {
     let test = std::env::current_exe().expect("a test knows where it is");
     let profile = test.parent().and_then(Path::parent);
     profile.expect("target/profile/deps").join("examples/body")

@@ -11,6 +11,7 @@ mod boundary;
 mod calculix;
 mod heat;
 mod referee;
+mod sweep;
 mod tools;
 
 use generator::{Encoding, Impeller, Placement, Tessellation, Tsv};

@@ -40,7 +40,8 @@ impl fmt::Display for Job {
     }
 }
 
-fn python() -> Option<PathBuf> {
+/// The Python that has the readers, if an environment is named.
+pub fn python() -> Option<PathBuf> {
     let folder = std::env::var_os("REFEREE")?;
     Some(Path::new(&folder).join("bin/python"))
 }
