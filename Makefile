@@ -14,10 +14,10 @@ TOOLS := symdetect wedgecut periodic-surf tetwedge rotassemble meshqual
 # runs a flow: in tests only.
 REFEREE := $(TARGET)/referee
 
-.PHONY: help setup build demo test check fmt lint manual install dist clean
+.PHONY: help setup build demo test check fmt lint bench bench-quick bench-publish bench-programs manual install dist clean
 
 help: ## list the targets
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
 
 setup: ## install what is missing: TetGen, a C++ compiler
 	@.ci/setup
@@ -43,6 +43,25 @@ lint: setup ## run clippy, warnings are errors
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
 
 check: fmt lint test ## what CI runs: formatting, lints, every test
+
+BENCH := python3 examples/benchmark/bench.py
+# More options of `bench.py run`, such as --hxt or --stop-after 60.
+BENCH_OPTIONS ?=
+
+bench-programs: setup build
+	$(CARGO) build --release --example body
+
+bench: bench-programs ## measure pipe against direct mesh, every cell: hours; goes on where it was interrupted
+	$(BENCH) run --binaries $(TARGET)/release --out $(TARGET)/bench/full $(BENCH_OPTIONS)
+	$(BENCH) scaling --binaries $(TARGET)/release --out $(TARGET)/bench/full
+
+bench-quick: bench-programs ## the same with two sets of parameters, within ten minutes
+	$(BENCH) run --quick --binaries $(TARGET)/release --out $(TARGET)/bench/quick $(BENCH_OPTIONS)
+
+bench-publish: ## copy the report of the full benchmark to examples/benchmark/results
+	$(BENCH) report --out $(TARGET)/bench/full
+	install -d examples/benchmark/results
+	install -m 644 $(wildcard $(TARGET)/bench/full/*.*) examples/benchmark/results
 
 MANUAL := $(TARGET)/manual
 
