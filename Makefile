@@ -61,7 +61,7 @@ bench-quick: bench-programs ## the same with two sets of parameters, within ten 
 bench-publish: ## copy the report of the full benchmark to examples/benchmark/results
 	$(BENCH) report --out $(TARGET)/bench/full
 	install -d examples/benchmark/results
-	install -m 644 $(wildcard $(TARGET)/bench/full/*.*) examples/benchmark/results
+	install -m 644 $(TARGET)/bench/full/*.{md,csv,json,svg} examples/benchmark/results
 
 MANUAL := $(TARGET)/manual
 

@@ -31,6 +31,9 @@ TOOLS = ("symdetect", "wedgecut", "tetwedge", "rotassemble", "meshqual")
 PLACEMENT = ["--rotate", "1"]
 # Hours of direct meshing can be the answer for the practical via; seconds.
 PRACTICAL_LIMIT = 3600
+# The quick run ends within ten minutes whatever the machine; the last cell, scaling and the report
+# take the rest.
+QUICK_MINUTES = 7.5
 
 
 class Results:
@@ -208,7 +211,7 @@ def parse():
     parser.add_argument("--limit", type=float, help="seconds that a run may take [default: 900; quick 60]")
     parser.add_argument("--least", type=int, help="runs of each, unless one takes 30 s [default: 3; quick 1]")
     parser.add_argument("--cells", action="append", help="only cells whose key starts with this, as B-16; repeatable")
-    parser.add_argument("--stop-after", type=float, metavar="MINUTES", help="start no cell after that time")
+    parser.add_argument("--stop-after", type=float, metavar="MINUTES", help="start no cell after that time [quick: 7.5]")
     parser.add_argument("--hxt", action="store_true", help="also measure Gmsh's HXT, where gmsh can be imported")
     parser.add_argument("--gmsh-python", default=sys.executable, help="Python program that can import gmsh")
     parser.add_argument("--largest", type=float, default=200, help="largest output of scaling, million elements")
@@ -218,6 +221,8 @@ def parse():
     options.out = os.path.abspath(options.out or os.path.join(ROOT, "target", "bench", name))
     options.binaries = os.path.abspath(options.binaries)
     options.limit = options.limit or (60 if options.quick else 900)
+    if options.quick and options.stop_after is None:
+        options.stop_after = QUICK_MINUTES
     least = options.least or (1 if options.quick else 3)
     seconds, once = (0.5, 1.0) if options.quick else (2.0, 30.0)
     options.repeats = measure.Repeats(least=least, seconds=seconds, once=once)

@@ -56,10 +56,10 @@ class Cell:
 
 
 SETS = [Elements(*s) for s in itertools.product(RADIUS_EDGE, MIN_DIHEDRAL, MAX_VOLUME)]
-QUICK_SETS = [Elements(2.0, 5, 1e-2), Elements(1.4, 10, 1e-3)]
-# The direct mesh of the practical via takes many minutes, so it gets fewer sets.
-PRACTICAL_SETS = [Elements(2.0, 5, 1e-2), Elements(1.7, 10, 1e-3), Elements(1.4, 10, 1e-2)]
 MIDDLE = Elements(1.7, 10, 1e-3)
+QUICK_SETS = [Elements(2.0, 5, 1e-2), MIDDLE]
+# The direct mesh of the practical via takes many minutes, so it gets fewer sets.
+PRACTICAL_SETS = [Elements(2.0, 5, 1e-2), MIDDLE, Elements(1.4, 10, 1e-2)]
 
 
 def table(sets):
@@ -78,5 +78,5 @@ def full():
 
 
 def quick():
-    """Two sets, the practical via with one of them."""
-    return list(table(QUICK_SETS))
+    """Two sets, the practical via with the first of them."""
+    return [c for c in table(QUICK_SETS) if c.category != "P" or c.elements == QUICK_SETS[0]]

@@ -30,8 +30,8 @@ def speedup_by_order(table, practical):
         if bound:
             panel.text(panel.x.at(24) + 8, panel.y.at(value) + 4, "at least")
     shown = [c for c in "ABC" if any(r["category"] == c for r in rows)] + ["P"] * bool(practical)
-    panel.legend([(COLOURS[c], TITLES[c]) for c in shown], 84, 62)
-    return svg.picture(660, 475, [panel])
+    panel.legend([(COLOURS[c], TITLES[c]) for c in shown], 84, 480)
+    return svg.picture(660, 550, [panel])
 
 
 def speedup_by_elements(cells):
@@ -45,8 +45,8 @@ def speedup_by_elements(cells):
     panel.line([(panel.x.low, 1), (panel.x.high, 1)], "#888", "4 3")
     for category, group in points.items():
         panel.dots(group, COLOURS[category], 3, 0.6)
-    panel.legend([(COLOURS[c], TITLES[c]) for c in "ABCP" if points[c]], 84, 62)
-    return svg.picture(660, 475, [panel])
+    panel.legend([(COLOURS[c], TITLES[c]) for c in "ABCP" if points[c]], 84, 480)
+    return svg.picture(660, 550, [panel])
 
 
 NAMES = {

@@ -217,5 +217,8 @@ def write(lines, folder):
         save("scaling.svg", plots.scaling(shown))
         pictures.append("scaling.svg")
     data = {"header": header, "table": table, "scaling": series, "exponents": fits, "cells": rows}
-    save("results.json", json.dumps(data, indent=1) + "\n")
+    # One line per entry, so that versions can be compared.
+    entry = lambda value: ",\n".join(json.dumps(v) for v in value)
+    parts = [f'"{k}": [\n{entry(v)}\n]' if isinstance(v, list) else f'"{k}": {json.dumps(v)}' for k, v in data.items()]
+    save("results.json", "{\n" + ",\n".join(parts) + "\n}\n")
     save("README.md", markdown.page(header, rows, table, series, fits, pictures))
