@@ -214,7 +214,7 @@ def parse():
     parser.add_argument("--stop-after", type=float, metavar="MINUTES", help="start no cell after that time [quick: 7.5]")
     parser.add_argument("--hxt", action="store_true", help="also measure Gmsh's HXT, where gmsh can be imported")
     parser.add_argument("--gmsh-python", default=sys.executable, help="Python program that can import gmsh")
-    parser.add_argument("--largest", type=float, default=200, help="largest output of scaling, million elements")
+    parser.add_argument("--largest", type=float, default=201, help="largest output of scaling, million elements [default: 201]")
     parser.add_argument("--list", action="store_true", help="list the cells and what is done")
     options = parser.parse_args()
     name = "quick" if options.quick else "full"

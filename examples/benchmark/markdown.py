@@ -23,7 +23,8 @@ def spread(value, form=".1f"):
 
 def table(head, rows):
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    return lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows] + [""]
+    cell = lambda value: str(value).replace("|", "\\|")
+    return lines + ["| " + " | ".join(map(cell, row)) + " |" for row in rows] + [""]
 
 
 def introduction(header, rows):
@@ -39,7 +40,7 @@ def introduction(header, rows):
         "Pipe: `symdetect body.stl | wedgecut --max-volume V | tetwedge --radius-edge R --min-dihedral D --max-volume V "
         "| rotassemble > body.vtk`, whole processes, from an STL file of the body turned and shifted at random to a VTK "
         "file of the whole mesh. Direct: `tetgen -pqR/DaVA body.poly`, the body with its axis on z, TetGen's usual output. "
-        "Wall time, medians of alternating runs. Speed-up: direct over pipe. "
+        "Wall time, medians of alternating runs. Speed-up: direct over pipe, its mean over the sets geometric. "
         f"Direct runs of more than {header['limit']:g} s (practical via in the full table: 3600 s) count as failed.",
         "",
     ]

@@ -89,5 +89,5 @@ def scaling(series):
             panel.line(line, colour, "5 3")
         panels.append(panel)
     if panels:
-        panels[0].legend([("#222", "pipe"), *((c, s) for s, c in STAGE_COLOURS.items())], 84, 62)
-    return svg.picture(70 + 370 * len(series), 395, panels)
+        panels[0].legend([("#222", "pipe"), *((c, s) for s, c in STAGE_COLOURS.items())], 84, 405)
+    return svg.picture(70 + 370 * len(series), 490, panels)

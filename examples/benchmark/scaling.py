@@ -23,10 +23,12 @@ QUICK_ORDER = (16, 64, 256)
 LEVELS = (1, 2, 3, 4, 5, 6)
 QUICK_LEVELS = (1, 3, 5)
 # Order of the body whose elements are made smaller and smaller, and their largest volumes; the last
-# gives about 200 million elements.
+# gives 200 million elements.
 OUTPUT_ORDER = 128
-VOLUMES = (1e-4, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3.5e-8)
-QUICK_VOLUMES = (1e-4, 1e-5, 1e-6)
+VOLUMES = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 2.8e-8)
+QUICK_VOLUMES = (1e-5, 1e-6, 3e-7)
+# Elements over 1 / volume, roughly.
+ELEMENTS_PER_VOLUME = 5.6
 
 
 def run(options, results, make_body, quick):
@@ -39,7 +41,7 @@ def run(options, results, make_body, quick):
         arguments = ["prism", "--bore", "0.5", "--order", "16"]
         point(options, results, make_body, folder, "triangles", 128 * 4**level, arguments, ELEMENTS, level)
     for volume in QUICK_VOLUMES if quick else VOLUMES:
-        if 7 / volume <= options.largest * 1e6 * 1.05:
+        if ELEMENTS_PER_VOLUME / volume <= 1e6 * options.largest:
             elements = Elements(1.4, 10, volume)
             arguments = ["ring", "--order", str(OUTPUT_ORDER)]
             point(options, results, make_body, folder, "output", volume, arguments, elements)
