@@ -51,6 +51,26 @@ def peak(pid):
     return 0
 
 
+def children(pid):
+    """Processes that a process has started and not yet waited for."""
+    found = []
+    try:
+        for thread in os.listdir(f"/proc/{pid}/task"):
+            with open(f"/proc/{pid}/task/{thread}/children") as file:
+                found += [int(word) for word in file.read().split()]
+    except OSError:
+        pass
+    return found
+
+
+def footprint(pid):
+    """Peak memory so far of a process and of those it has running, bytes.
+
+    `tetwedge` runs TetGen in a child. Memory that both see counts twice: an upper bound.
+    """
+    return peak(pid) + sum(map(peak, children(pid)))
+
+
 def run(commands, folder, limit, source=None, sink=os.devnull, sample=False):
     """Runs `commands` as a pipe in `folder`, from the file `source` to the file `sink`.
 
@@ -76,9 +96,9 @@ def run(commands, folder, limit, source=None, sink=os.devnull, sample=False):
 
     def kill():
         expired.set()
-        for p in processes:
+        for pid in [pid for p in processes for pid in (*children(p.pid), p.pid)]:
             try:
-                os.kill(p.pid, signal.SIGKILL)
+                os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
                 pass
 
@@ -87,7 +107,7 @@ def run(commands, folder, limit, source=None, sink=os.devnull, sample=False):
     timer.start()
     sampled = [0] * len(processes)
     while sample and any(p.poll() is None for p in processes[-1:]):
-        sampled = [max(old, peak(p.pid)) for old, p in zip(sampled, processes)]
+        sampled = [max(old, footprint(p.pid)) for old, p in zip(sampled, processes)]
         time.sleep(0.002)
     cpu, memory, status = [], [], []
     for process in processes if not sample else []:
