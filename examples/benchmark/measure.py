@@ -96,7 +96,8 @@ def run(commands, folder, limit, source=None, sink=os.devnull, sample=False):
 
     def kill():
         expired.set()
-        for pid in [pid for p in processes for pid in (*children(p.pid), p.pid)]:
+        running = [p.pid for p in processes if p.returncode is None]
+        for pid in [pid for p in running for pid in (*children(p), p)]:
             try:
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
