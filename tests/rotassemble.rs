@@ -158,12 +158,13 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
     );
     let radius = outside["radius"].as_f64().unwrap();
     assert!((0.1..0.11).contains(&radius), "{radius}");
+    // Said in fewer digits of the assembled mesh.
+    let rounded = (radius * 1e6).ceil() / 1e6;
     for format in ["tmesh", "vtk", "vtu"] {
+        let mut symmetry = symmetry.clone();
+        symmetry["outside"]["radius"] = json!(rounded);
         let assembled = succeeds(&["--to", format], &meshed);
-        assert_eq!(
-            checked(&assembled),
-            (Some(0), symmetry.clone(), String::new())
-        );
+        assert_eq!(checked(&assembled), (Some(0), symmetry, String::new()));
     }
 
     let assembled = succeeds(&["--to", "tmesh"], &meshed);

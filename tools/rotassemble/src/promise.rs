@@ -78,12 +78,31 @@ fn outside(document: &Document, places: &[Places]) -> Option<Outside> {
         keeps(set, Isometry::rotation(1, order)) && (!mirror || keeps(set, canonical_mirror()))
     };
     let others = placed().filter(|(_, set)| !shares(set));
-    let radius = others.map(|(t, _)| reach[t]).fold(0.0, f64::max);
+    let radius = rounded_up(others.map(|(t, _)| reach[t]).fold(0.0, f64::max));
     (radius < reach[farthest]).then_some(Outside {
         order,
         mirror,
         radius,
     })
+}
+
+/// A radius in six digits, not below `x` but by rounding: short enough for titles, and what holds outside
+/// of `x` holds outside of more.
+fn rounded_up(x: f64) -> f64 {
+    let nearest = format!("{x:.5e}");
+    let parts = nearest.split_once('e');
+    let digits = parts.and_then(|p| p.0.replace('.', "").parse::<u32>().ok());
+    let exponent = parts.and_then(|p| p.1.parse::<i32>().ok());
+    let (Some(digits), Some(exponent)) = (digits, exponent) else {
+        return x;
+    };
+    let value = |digits: u32| format!("{digits}e{}", exponent - 5).parse().unwrap_or(x);
+    let below = value(digits);
+    if below >= x * (1.0 - 1e-12) {
+        below
+    } else {
+        value(digits + 1)
+    }
 }
 
 /// Whether the promise is more than that the mesh is its own image under the identity.
@@ -218,6 +237,22 @@ mod tests {
         document.templates[1].vertices[1].x = 5.0;
         document.instances.truncate(32);
         assert_eq!(promise(&document).outside, None);
+    }
+
+    #[test]
+    fn radii_are_rounded_up() {
+        for (x, expected) in [
+            (0.0, 0.0),
+            (0.119_999_999_999_999_94, 0.12),
+            (0.120_000_000_000_000_01, 0.12),
+            (0.123_456_01, 0.123_457),
+            (9.999_991e20, 1e21),
+            (3.7e-310, 3.7e-310),
+            (f64::MAX, f64::INFINITY),
+        ] {
+            assert_eq!(rounded_up(x), expected);
+        }
+        assert!(rounded_up(f64::INFINITY).is_infinite());
     }
 
     #[test]

@@ -18,7 +18,7 @@ pub const MAX_TITLE: usize = 255;
 /// nine numbers: a point of the axis, the axis's direction, the mirror direction, in world
 /// coordinates; `outside` if a higher symmetry holds there: order, mirror, and radius. Numbers are
 /// the shortest that read back the same. At most 255 characters: where that would be exceeded,
-/// directions are rounded to 17 decimals, or `outside` is left out, or both.
+/// directions are rounded, to 15 decimals at least; where that is not enough, `outside` is left out.
 pub fn promise_title(promise: &Promise) -> String {
     let Promise {
         order,
@@ -44,22 +44,22 @@ pub fn promise_title(promise: &Promise) -> String {
         u8::from(*mirror)
     );
     let directions = [r[0][2], r[1][2], r[2][2], r[0][0], r[1][0], r[2][0]];
-    let write = |direction: fn(f64) -> String| {
+    let write = |decimals: Option<usize>| {
         let point = origin.iter().map(|&x| shortest(x));
-        let all: Vec<_> = point.chain(directions.map(direction)).collect();
+        let directions = directions.map(|x| decimals.map_or(shortest(x), |n| rounded(x, n)));
+        let all: Vec<_> = point.chain(directions).collect();
         format!("{head}{}", all.join(","))
     };
     let outside = outside.map_or(String::new(), |o| {
         let radius = shortest(o.radius);
         format!(" outside={},{},{radius}", o.order, u8::from(o.mirror))
     });
-    let titles = [
-        write(shortest) + &outside,
-        write(rounded) + &outside,
-        write(shortest),
-    ];
-    let fits = titles.into_iter().find(|title| title.len() <= MAX_TITLE);
-    fits.unwrap_or_else(|| write(rounded))
+    let forms = [None, Some(17), Some(16), Some(15)];
+    let with = forms.iter().map(|&form| write(form) + &outside);
+    let without = forms.iter().map(|&form| write(form));
+    let mut titles = with.chain(without);
+    let fits = titles.find(|title| title.len() <= MAX_TITLE);
+    fits.unwrap_or_else(|| write(Some(15)))
 }
 
 /// The promise in a title line that [`promise_title`] made.
@@ -141,8 +141,8 @@ fn shortest(x: f64) -> String {
     }
 }
 
-fn rounded(x: f64) -> String {
-    let text = format!("{x:.17}");
+fn rounded(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -239,5 +239,34 @@ mod tests {
             ..long.clone()
         };
         assert_eq!(promise_title(&more), promise_title(&long));
+        // A via anywhere in space, cut by mirrors in every direction.
+        let frame = Frame::from_axis(
+            DVec3::new(
+                -0.505_182_428_527_566_8,
+                -0.053_240_172_047_687_88,
+                -1.0 / 7.0,
+            ),
+            DVec3::new(1.0, -2.0, 0.3),
+            DVec3::Y,
+        )
+        .unwrap();
+        let via = Promise {
+            order: 8,
+            horizontal_mirror: true,
+            outside: Some(Outside {
+                order: 128,
+                mirror: true,
+                radius: 0.123_457,
+            }),
+            ..super::tests::promise(frame)
+        };
+        let title = promise_title(&via);
+        assert!(title.len() <= MAX_TITLE);
+        let back = parse_promise(&title).unwrap();
+        assert_eq!(back.outside, via.outside, "{title}");
+        for (row, expected) in back.rotation.iter().zip(via.rotation) {
+            let off = DVec3::from_array(*row) - DVec3::from_array(expected);
+            assert!(off.abs().max_element() < 2e-15, "{title}");
+        }
     }
 }
