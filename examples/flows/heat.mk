@@ -15,8 +15,9 @@ THICKNESS ?= 2e-2
 # The whole body has to fit the solver too.
 EDGE ?= 0.08
 
-# A sector between cut faces that match. Without a hub, for a sector is one wedge from the axis on.
-WEDGECUT_FLAGS = --domain rotation --order $(ORDER) --hub none
+# A sector between cut faces that match. Without a hub, for a sector is one wedge from the axis on, and
+# of full height, for the load need not be symmetric in height.
+WEDGECUT_FLAGS = --domain rotation --order $(ORDER) --hub none --horizontal-mirror off
 PERIODIC_SURF_FLAGS = --edge-length $(EDGE)
 TETWEDGE_FLAGS = --edge-length $(EDGE)
 
