@@ -251,6 +251,53 @@ fn orders_are_chosen_by_what_they_cost() {
     assert!(order >= 10 && templates == 2, "{order}");
 }
 
+/// With a hub, with a seam, with both: the plane across the axis is one more wall.
+#[test]
+fn mirror_planes_across_the_axis_halve_wedges() {
+    let via = Tsv {
+        order: 16,
+        core: 0.2,
+        thickness: 0.01,
+        height: 1.0,
+        radius: 1.0,
+        tessellation: Tessellation::Symmetric,
+    }
+    .build();
+    let mut wheel = Ratchet {
+        order: 9,
+        radius: 1.0,
+        bore: 0.3,
+        coating: 0.01,
+        height: 0.5,
+        tessellation: Tessellation::Asymmetric,
+    }
+    .build();
+    let placement = Placement {
+        rotate: Some(5),
+        scale: 1e3,
+        jitter: 0.0,
+    };
+    placement.apply(&mut wheel);
+    for (name, body, cut, edge, templates) in [
+        ("via", &via, &[][..], "0.3", 2),
+        ("turned via", &via, &["--domain", "rotation"], "0.3", 2),
+        ("wheel", &wheel, &[], "300", 1),
+    ] {
+        let halved = mesh(name, body, cut, true, edge);
+        assert_eq!(halved.templates.len(), templates, "{name}");
+        let flipped = |d: &Document| d.instances.iter().any(|i| i.isometry.flipped());
+        assert!(flipped(&halved), "{name}");
+        for template in &halved.templates {
+            let level = template.walls.iter().any(|w| w.name() == "wall-level");
+            assert!(level, "{name}");
+            assert!(template.vertices.iter().all(|p| p.z >= 0.0), "{name}");
+        }
+        let off = [cut, &["--horizontal-mirror", "off"]].concat();
+        let cut = run("wedgecut", &[&["-q"], &off[..]].concat(), &found(body)).success();
+        assert!(!flipped(&read(&cut)), "{name}");
+    }
+}
+
 #[test]
 fn hubs_that_cannot_be() {
     let solid = found(&gear(12));
