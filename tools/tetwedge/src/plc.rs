@@ -35,10 +35,8 @@ impl Order {
             Self::Reversed => list.reverse(),
             Self::FromTheMiddle => list.rotate_left(list.len() / 2),
             Self::Shuffled(seed) => {
-                // Fibonacci hashing of the places.
-                let key = |i: usize| (i as u64 + seed).wrapping_mul(0x9e37_79b9_7f4a_7c15);
                 let mut order: Vec<usize> = (0..list.len()).collect();
-                order.sort_unstable_by_key(|&i| key(i).rotate_left(32) ^ key(i));
+                order.sort_unstable_by_key(|&i| mixed(i as u64 + (seed << 32)));
                 let shuffled: Vec<T> = order.into_iter().map(|i| list[i]).collect();
                 list.copy_from_slice(&shuffled);
             }
@@ -46,17 +44,25 @@ impl Order {
     }
 }
 
+/// A number that looks random, the same on every machine (splitmix64, S. Vigna, public domain).
+fn mixed(number: u64) -> u64 {
+    let z = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
 /// One of the equivalent descriptions of a template.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Description {
     /// Order of triangles.
     pub order: Order,
     /// Whether walls are made exactly coplanar; see [`crate::flat`].
     pub flat: bool,
-    /// Where the whole surface is preserved: binary digits after the point that coordinates keep
-    /// (the diagonal is from 1 to 2). Points that are cospherical but for their last bits, as
-    /// symmetric ones are, make TetGen lose its way.
-    pub digits: Option<u8>,
+    /// Where the whole surface is preserved: how far points are moved at random, in TetGen's unit (the
+    /// diagonal is from 1 to 2). Many cospherical points, as symmetric ones are, make TetGen lose its
+    /// way.
+    pub stir: Option<f64>,
 }
 
 /// Descriptions in the order in which they are tried.
@@ -70,32 +76,32 @@ pub const DESCRIPTIONS: [Description; 6] = [
     Description {
         order: Order::AsGiven,
         flat: true,
-        digits: None,
+        stir: None,
     },
     Description {
         order: Order::Reversed,
         flat: true,
-        digits: Some(44),
+        stir: Some(1e-11),
     },
     Description {
         order: Order::FromTheMiddle,
         flat: true,
-        digits: Some(30),
+        stir: Some(1e-9),
     },
     Description {
         order: Order::AsGiven,
         flat: false,
-        digits: None,
+        stir: None,
     },
     Description {
         order: Order::Shuffled(1),
         flat: true,
-        digits: Some(36),
+        stir: Some(1e-12),
     },
     Description {
         order: Order::Shuffled(2),
         flat: false,
-        digits: Some(30),
+        stir: Some(1e-10),
     },
 ];
 
@@ -168,11 +174,12 @@ impl Plc {
             .iter()
             .map(|v| (position(v) * scale).to_array())
             .collect();
-        if let Some(digits) = description.digits.filter(|_| faces.preserve()) {
-            let steps = f64::from(1_u32 << 22) * f64::from(1_u32 << (digits - 22));
-            let rounded = |x: f64| (x * steps).round() / steps + 0.0;
-            for p in &mut points {
-                *p = p.map(rounded);
+        if let Some(size) = description.stir.filter(|_| faces.preserve()) {
+            for (i, p) in points.iter_mut().enumerate() {
+                for (axis, x) in p.iter_mut().enumerate() {
+                    let random = mixed(3 * u64::from(vertex_of_point[i]) + axis as u64);
+                    *x += size * (random as f64 / u64::MAX as f64 - 0.5);
+                }
             }
         }
         let place =
