@@ -1,6 +1,6 @@
 //! Wedges of made bodies: volume, walls, seams, regions.
 
-use crate::{CutError, Domain, Params, cut};
+use crate::{CutError, Domain, Params, Report};
 use glam::{DMat3, DVec3};
 use tmesh::{
     Axis, Document, Marker, OUTSIDE, Region, Source, Symmetry, Template, Triangle, Wall, validate,
@@ -16,6 +16,16 @@ const DEFAULT: Params = Params {
     snap: None,
     clean: 1e-6,
 };
+
+/// Cuts at the order found unless the parameters have another.
+fn cut(document: Document, params: &Params) -> Result<(Document, Report), CutError> {
+    let found = document.symmetry.as_ref().map(|s| s.order);
+    let params = Params {
+        order: params.order.or(found),
+        ..params.clone()
+    };
+    crate::cut(document, &params)
+}
 
 /// Nested rings of points around the axis, extruded and twisted; region k + 1 lies inside ring k.
 /// Caps are fans or strips whose diagonals do not share the symmetry.
