@@ -305,8 +305,19 @@ fn hubs_that_cannot_be() {
     cut(&["--hub", "2"], &solid).fails(1, &["no hub of radius 2", "farther", "--hub none"]);
     cut(&["--hub", "0.1", "--order", "2"], &solid).fails(1, &["order 2", "too wide"]);
     cut(&["--hub", "0"], &solid).fails(2, &["positive"]);
-    cut(&["--hub", "-1"], &solid).fails(2, &[]);
+    cut(&["--hub", "-1"], &solid).fails(2, &["--hub", "positive"]);
     cut(&["--hub", "wide"], &solid).fails(2, &["auto"]);
+    for (option, value) in [
+        ("--max-volume", "0"),
+        ("--max-volume", "nan"),
+        ("--edge-length", "-1"),
+        ("--edge-length", "x"),
+        ("--horizontal-mirror", "on"),
+    ] {
+        cut(&[option, value], &solid).fails(2, &[option]);
+    }
+    let both = ["--max-volume", "1", "--edge-length", "1"];
+    cut(&both, &solid).fails(2, &["--edge-length"]);
     let bored = Gear {
         order: 12,
         radius: 1.0,

@@ -80,14 +80,7 @@ fn every_prefix_is_survived() {
 
 #[test]
 fn random_damage_is_survived() {
-    // A fixed sequence (Knuth's MMIX generator): failures can be repeated.
-    let mut state = 1_u64;
-    let mut random = |n: usize| {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % n
-    };
+    let mut random = common::sequence(1);
     let words: [&[u8]; 14] = [
         b"-1",
         b"0",

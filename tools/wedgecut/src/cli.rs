@@ -35,11 +35,12 @@ pub struct Cli {
 
     /// Largest volume of an element that tetwedge will be asked for, so that order and hub are
     /// chosen for it
-    #[arg(long, value_name = "V", value_parser = positive)]
+    #[arg(long, value_name = "V", value_parser = positive, allow_negative_numbers = true)]
     max_volume: Option<f64>,
 
     /// The same as an edge length: the volume of the regular tetrahedron with this edge
     #[arg(long, value_name = "H", value_parser = positive, conflicts_with = "max_volume")]
+    #[arg(allow_negative_numbers = true)]
     edge_length: Option<f64>,
 
     /// Angle of the first cut face from the mirror direction (rotation wedges: any; mirror wedges:
@@ -52,6 +53,7 @@ pub struct Cli {
     /// `auto` to have one where it pays, `none`, or the radius of the circle inscribed in its
     /// polygon, in model units
     #[arg(long, value_name = "auto|none|RADIUS", default_value = "auto", value_parser = hub)]
+    #[arg(allow_negative_numbers = true)]
     hub: Hub,
 
     /// Move points within this distance of a cut face onto it, relative to the radius about the

@@ -164,20 +164,20 @@ fn choose(
     let estimate = choose::Estimate::new(&wedge.templates[0], wedge.instances.len(), max_volume);
     let ways = estimate.ways(&options);
     let choice = choose::best(&ways)?;
-    let hub = |c: &choose::Choice| {
-        c.hub
-            .map_or(String::new(), |r| format!(" with a hub of {r:.3}"))
+    let planes = |c: &choose::Choice| {
+        let hub = c.hub.map(|r| format!(" with a hub of {r:.3}"));
+        hub.unwrap_or_default() + if c.level { " halved" } else { "" }
     };
     let list: Vec<String> = ways
         .iter()
-        .map(|c| format!("{}{} {:.2}", c.order, hub(c), c.elements))
+        .map(|c| format!("{}{} {:.2}", c.order, planes(c), c.elements))
         .collect();
     let why = format!(
         "order {} of {}{}: the fastest that costs few elements; estimated elements over those of the whole body by \
          order: {}",
         choice.order,
         symmetry.order,
-        hub(&choice),
+        planes(&choice),
         list.join(", "),
     );
     Some((choice, why))

@@ -8,6 +8,16 @@ use std::fmt::Write;
 pub type Point = [f64; 3];
 pub type Facet = [Point; 3];
 
+/// A fixed sequence of numbers below the argument (Knuth's MMIX generator): failures can be repeated.
+pub fn sequence(mut state: u64) -> impl FnMut(usize) -> usize {
+    move |n| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % n
+    }
+}
+
 /// A box with outward triangles.
 pub fn cuboid(low: Point, high: Point) -> Vec<Facet> {
     let corner = |i: usize| -> Point {
