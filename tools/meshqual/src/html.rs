@@ -1,7 +1,7 @@
 //! The report as a page: tables, histograms and pictures in one file that needs no other.
 
 use crate::svg::escaped;
-use crate::text::{grouped, number};
+use crate::text::{grouped, number, symmetry_words};
 use crate::{Metric, Report, Statistic, Summary, picture, png, svg};
 use std::fmt::Write;
 use tmesh::Document;
@@ -71,10 +71,7 @@ fn sizes(out: &mut String, s: &Summary) {
         number(s.surface.boundary_area)
     );
     if let Some(symmetry) = &s.symmetry {
-        let _ = write!(out, "; symmetry of order {}", symmetry.order);
-        if symmetry.mirror {
-            out.push_str(" with mirrors");
-        }
+        let _ = write!(out, "; symmetry of {}", symmetry_words(symmetry));
         if s.instances > 1 {
             let _ = write!(out, ", {} copies", grouped(s.instances));
         }

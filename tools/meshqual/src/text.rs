@@ -1,5 +1,6 @@
 //! The report as text: tables and histograms for a terminal.
 
+use crate::instances::Realized;
 use crate::statistics::Histogram;
 use crate::{Checks, Metric, Report, Statistic, Summary};
 use std::fmt::Write;
@@ -35,6 +36,30 @@ pub fn text(report: &Report, promises: bool) -> String {
     out
 }
 
+/// The order of a symmetry, with mirrors and with what holds outside of a hub.
+pub fn symmetry_words(symmetry: &Realized) -> String {
+    let mut of = format!("order {}", symmetry.order);
+    if symmetry.mirror {
+        of.push_str(" with mirrors");
+    }
+    if symmetry.horizontal_mirror {
+        of.push_str(" and a horizontal mirror");
+    }
+    if let Some(outside) = &symmetry.outside {
+        let mirrors = match outside.mirror && !symmetry.mirror {
+            true => " with mirrors",
+            false => "",
+        };
+        let radius = number(outside.radius);
+        let _ = write!(
+            of,
+            ", of order {}{mirrors} outside of the radius {radius}",
+            outside.order
+        );
+    }
+    of
+}
+
 fn sizes(out: &mut String, s: &Summary) {
     let _ = writeln!(
         out,
@@ -44,25 +69,7 @@ fn sizes(out: &mut String, s: &Summary) {
         grouped(s.surface.triangles)
     );
     if let Some(symmetry) = &s.symmetry {
-        let mut of = format!("order {}", symmetry.order);
-        if symmetry.mirror {
-            of.push_str(" with mirrors");
-        }
-        if symmetry.horizontal_mirror {
-            of.push_str(" and a horizontal mirror");
-        }
-        if let Some(outside) = &symmetry.outside {
-            let mirrors = match outside.mirror && !symmetry.mirror {
-                true => " with mirrors",
-                false => "",
-            };
-            let radius = number(outside.radius);
-            let _ = write!(
-                of,
-                ", of order {}{mirrors} outside of the radius {radius}",
-                outside.order
-            );
-        }
+        let of = symmetry_words(symmetry);
         let plural = |n: u64| if n == 1 { "" } else { "s" };
         if s.instances == 1 {
             let _ = writeln!(out, "one piece that promises a symmetry of {of}");
