@@ -26,8 +26,8 @@ pub struct ElementArgs {
     #[arg(long, value_name = "NAME:max-volume=V", value_parser = region_size)]
     region: Vec<RegionSize>,
 
-    /// Dihedral angle, degrees, above which tetrahedra are optimized away, at some cost in radius-edge
-    /// ratio and volume limits; `off` removes only the nearly flat ones
+    /// Dihedral angle, degrees, above which tetrahedra are optimized away, and half of what it leaves of 180
+    /// the angle below which they are; `off` removes only the nearly flat ones
     #[arg(long, value_name = "DEG|off", value_parser = optimize, default_value_t = Optimize(Some(DEFAULT_OPTIMIZE)))]
     optimize: Optimize,
 

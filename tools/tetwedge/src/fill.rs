@@ -2,9 +2,10 @@
 
 use crate::cells::{Cells, label};
 use crate::error::Place;
+use crate::improve::{Flats, Freedoms, Improved, Wish, improve};
 use crate::plc::Plc;
 use crate::walls::{Projection, face_key, on_segments, touching_edges};
-use crate::{Error, check};
+use crate::{Error, Params, Sizes, check};
 use geom::edges::orientation;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -17,6 +18,9 @@ const ROUNDING: f64 = 1e-11;
 
 /// Rounds of projection onto the planes of facets.
 pub const ROUNDS: usize = 4;
+
+/// Part of the tetrahedra that is improved, at most: where more are bad, the shape is.
+const SHARE: f64 = 0.1;
 
 /// No counterpart.
 pub const NONE: u32 = u32::MAX;
@@ -34,13 +38,22 @@ pub struct Filled {
     pub shared: Vec<u32>,
     /// Tetrahedra in cells that are to be empty, left out.
     pub dropped: usize,
+    /// What was improved, unless elements are to stay as the mesher left them.
+    pub improved: Option<Improved>,
 }
 
 /// Makes the filled template `index` from TetGen's mesh of `plc`.
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
-pub fn fill(document: &Document, index: usize, plc: &Plc, mesh: &Mesh) -> Result<Filled, Error> {
+pub fn fill(
+    document: &Document,
+    index: usize,
+    plc: &Plc,
+    mesh: &Mesh,
+    params: &Params,
+    sizes: &Sizes,
+) -> Result<Filled, Error> {
     let input = &document.templates[index];
     let unusable = |what: String| Error::Unusable {
         template: index,
@@ -112,15 +125,55 @@ pub fn fill(document: &Document, index: usize, plc: &Plc, mesh: &Mesh) -> Result
             all.filter(|&t| faces[t as usize] >= others).collect()
         },
         dropped,
+        improved: None,
     };
     // Old vertices come first, in their order.
     let first_new = filled.vertices.iter().filter(|&&v| v != NONE).count();
     restore_preserved(input, plc, &faces, &mut filled).map_err(&unusable)?;
     let shifted = on_shifted_facets(plc, &facets, first_new, &filled.template);
     restore_walls(input, plc, &faces, first_new, shifted, &mut filled).map_err(&unusable)?;
+    let improved = refine(document, plc, &facets, params, sizes, &mut filled);
+    filled.improved = improved;
     orientations(&filled.template, first_new).map_err(&unusable)?;
     check::measures(document, index, plc, &faces, &filled.template).map_err(&unusable)?;
     Ok(filled)
+}
+
+/// Improves the tetrahedra, as far as elements are to be optimized: the smallest angle to reach is what
+/// remains of a straight angle, halved.
+fn refine(
+    document: &Document,
+    plc: &Plc,
+    facets: &[usize],
+    params: &Params,
+    sizes: &Sizes,
+    filled: &mut Filled,
+) -> Option<Improved> {
+    let largest = params.optimize.filter(|_| params.quality)?;
+    let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
+    let normals: Vec<DVec3> = plc.facets.facets.iter().map(|f| f.normal).collect();
+    let freedoms = Freedoms::new(
+        &filled.template,
+        &Flats {
+            of_triangle: &of_triangle,
+            normals: &normals,
+            settled: if plc.faces.preserve() {
+                &filled.shared
+            } else {
+                &[]
+            },
+            straight: ROUNDING * plc.extent + 2.0 * plc.shift,
+        },
+    );
+    let regions = document.regions.iter().zip(&sizes.of_region);
+    let wish = Wish {
+        angle: 0.5 * (180.0 - largest),
+        radius_edge: params.radius_edge,
+        max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),
+        scale: plc.scale,
+        share: SHARE,
+    };
+    Some(improve(&mut filled.template, &freedoms, &wish))
 }
 
 /// Numbers for the points that the mesh uses: the template's own in their order there, then new ones.

@@ -14,6 +14,7 @@ mod error;
 mod facets;
 mod fill;
 mod flat;
+mod improve;
 mod mesher;
 mod params;
 mod plc;

@@ -296,7 +296,13 @@ fn template(
     let (done, failed) = persist(index, params, log, |number, deadline| {
         let attempt = (number, deadline);
         let answer = run(document, index, params, sizes, attempt, preserve, log)?;
-        let filled = fill(document, index, &answer.plc, &answer.mesh)?;
+        let filled = fill(document, index, &answer.plc, &answer.mesh, params, sizes)?;
+        if let Some(done) = filled.improved {
+            log(&format!(
+                "template {index}: {} tetrahedra to be improved, {} remain; {} vertices moved, {} edges and faces replaced",
+                done.bad, done.left, done.moved, done.flipped,
+            ));
+        }
         log(&format!(
             "template {index}: {} tetrahedra, {} vertices; checked in {:.3} s",
             filled.template.tets.len(),

@@ -1,0 +1,115 @@
+//! Makes the worst tetrahedra better: moves vertices, replaces edges and faces.
+//!
+//! The mesher sees a wedge with a surface that it must keep where copies meet, and cannot do there what it
+//! does inside. Here a seam is the inside that it is in the assembled mesh: the star of a vertex on it
+//! is what is at the vertex together with what is at its partner, turned back, and both move as one.
+//! Vertices on facets, walls and straight edges move along them, so shape, walls and the
+//! triangulation of the surface stay.
+
+mod flip;
+mod freedom;
+mod mesh;
+mod quality;
+mod smooth;
+
+#[cfg(test)]
+mod tests;
+
+pub use freedom::{Flats, Freedoms};
+
+use mesh::Mesh;
+use quality::Goal;
+use rustc_hash::FxHashMap;
+use tmesh::Template;
+
+/// New tetrahedra have at least this quality: what is so near to flat that rounding could decide is not
+/// touched.
+const LEAST: f64 = 1e-4;
+
+/// Rounds over the worst tetrahedra.
+const ROUNDS: usize = 6;
+
+/// What is asked of the elements.
+pub struct Wish<'a> {
+    /// Smallest dihedral angle, degrees.
+    pub angle: f64,
+    /// Largest radius-edge ratio.
+    pub radius_edge: f64,
+    /// Largest volume by region, model units cubed.
+    pub max_volume: &'a FxHashMap<u32, f64>,
+    /// A power of two that brings coordinates near one.
+    pub scale: f64,
+    /// Part of the tetrahedra that is worked on, at most.
+    pub share: f64,
+}
+
+/// What was done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Improved {
+    /// Tetrahedra that were not good enough before.
+    pub bad: usize,
+    /// And afterwards.
+    pub left: usize,
+    /// Vertices moved; pairs on seams count once.
+    pub moved: usize,
+    /// Edges and faces replaced.
+    pub flipped: usize,
+}
+
+/// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay.
+pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) -> Improved {
+    let goal = Goal::new(wish.angle, wish.radius_edge);
+    let cube = 6.0 * wish.scale.powi(3);
+    let limits: FxHashMap<u32, f64> = wish
+        .max_volume
+        .iter()
+        .map(|(&r, &v)| (r, v * cube))
+        .collect();
+    let mut mesh = Mesh::new(template, wish.scale, goal, &limits);
+    let mut done = Improved::default();
+    let most = (mesh.len() as f64 * wish.share) as usize;
+    for round in 0..ROUNDS {
+        let mut bad: Vec<(f64, u32)> = (0..mesh.len() as u32)
+            .map(|t| (mesh.grade(t).quality, t))
+            .filter(|b| b.0 < 1.0)
+            .collect();
+        if round == 0 {
+            done.bad = bad.len();
+        }
+        bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        bad.truncate(most);
+        let before = done;
+        for (quality, tet) in bad {
+            // Something else may have taken its place.
+            if tet as usize >= mesh.len() || mesh.grade(tet).quality != quality {
+                continue;
+            }
+            if flip::flip(&mut mesh, tet) {
+                done.flipped += 1;
+                continue;
+            }
+            for v in mesh.corners(tet) {
+                if smooth::smooth(&mut mesh, freedoms, v) {
+                    done.moved += 1;
+                }
+                if mesh.grade(tet).quality >= 1.0 {
+                    break;
+                }
+            }
+        }
+        if before == done {
+            break;
+        }
+    }
+    done.left = (0..mesh.len() as u32)
+        .filter(|&t| mesh.grade(t).quality < 1.0)
+        .count();
+    for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
+        // Exact: the scale is a power of two.
+        if *p * wish.scale != moved {
+            *p = moved / wish.scale;
+        }
+    }
+    template.tets = mesh.into_tets();
+    done
+}

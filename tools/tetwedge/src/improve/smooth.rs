@@ -1,0 +1,224 @@
+//! Moves vertices to where the worst tetrahedron at them is best.
+//!
+//! The smallest quality in the star of a vertex, as a function of its position, is a minimum of smooth
+//! functions. The steepest way up is the shortest vector of the convex hull of the active ones'
+//! gradients; steps along it are halved until the minimum grows (L. Freitag, M. Jones, P. Plassmann,
+//! "An efficient parallel algorithm for mesh smoothing", 1995; L. Freitag, C. Ollivier-Gooch, 1997).
+//! A vertex on a seam has its star on both sides of it: what is at its partner is turned back.
+
+use super::LEAST;
+use super::freedom::Freedoms;
+use super::mesh::Mesh;
+use glam::DVec3;
+
+/// Steps up, at most.
+const STEPS: usize = 6;
+/// Halvings of a step, at most.
+const HALVINGS: usize = 5;
+/// First step, as a part of the distance to the other corners of the star.
+const FIRST: f64 = 0.25;
+/// Within this part of the smallest quality above it, others count as active.
+const ACTIVE: f64 = 0.1;
+/// The smallest quality has to grow by this part.
+const GAIN: f64 = 1e-3;
+/// There is no way up when the shortest vector is less than this part of the longest gradient.
+const NO_WAY: f64 = 1e-2;
+/// Difference for gradients, as a part of the distance to the other corners.
+const DIFFERENCE: f64 = 1e-6;
+
+/// A vertex, with its partner on a seam, and all tetrahedra that move with it.
+struct Star<'m, 'a> {
+    mesh: &'m Mesh<'a>,
+    freedoms: &'m Freedoms,
+    vertex: u32,
+    tets: Vec<u32>,
+    /// Size of each tetrahedron before, six volumes.
+    before: Vec<f64>,
+}
+
+impl Star<'_, '_> {
+    /// Qualities with the vertex at `p`; `None` if one is at most `above`.
+    fn qualities(&self, p: DVec3, above: f64) -> Option<Vec<f64>> {
+        let at = self.positions(p);
+        let mut list = Vec::with_capacity(self.tets.len());
+        for (&tet, &before) in self.tets.iter().zip(&self.before) {
+            let grade = self.mesh.of_points(self.mesh.corners(tet).map(&at));
+            let fits = self
+                .mesh
+                .fits(self.mesh.region(tet), grade.six_volume, before);
+            if grade.quality <= above || !fits {
+                return None;
+            }
+            list.push(grade.quality);
+        }
+        Some(list)
+    }
+
+    /// Positions of vertices, with the moved one at `p`.
+    fn positions(&self, p: DVec3) -> impl Fn(u32) -> DVec3 + use<'_> {
+        let partner = self
+            .freedoms
+            .partner(self.vertex)
+            .map(|(v, turn)| (v, turn.apply(p)));
+        move |u| match partner {
+            _ if u == self.vertex => p,
+            Some((v, turned)) if u == v => turned,
+            _ => self.mesh.positions[u as usize],
+        }
+    }
+
+    /// Gradient of the quality of one tetrahedron, in the directions that are free.
+    fn gradient(&self, tet: u32, p: DVec3, quality: f64, directions: &[DVec3], step: f64) -> DVec3 {
+        let mut gradient = DVec3::ZERO;
+        for &direction in directions {
+            let at = self.positions(p + direction * step);
+            let moved = self.mesh.of_points(self.mesh.corners(tet).map(&at)).quality;
+            gradient += direction * ((moved - quality) / step);
+        }
+        gradient
+    }
+}
+
+/// Moves a vertex; returns whether it is better there. The tetrahedra at it are graded anew.
+pub fn smooth(mesh: &mut Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> bool {
+    let vertex = freedoms.mover(vertex);
+    let directions: Vec<DVec3> = freedoms.of(vertex).directions().collect();
+    if directions.is_empty() {
+        return false;
+    }
+    let partner = freedoms.partner(vertex);
+    let mut tets = mesh.star(vertex).to_vec();
+    if let Some((other, _)) = partner {
+        tets.extend_from_slice(mesh.star(other));
+        tets.sort_unstable();
+        tets.dedup();
+    }
+    let found = {
+        let before = tets.iter().map(|&t| mesh.grade(t).six_volume).collect();
+        let star = Star {
+            mesh,
+            freedoms,
+            vertex,
+            tets,
+            before,
+        };
+        climb(&star, &directions).map(|p| (p, star.tets))
+    };
+    let Some((p, tets)) = found else {
+        return false;
+    };
+    mesh.put(vertex, p);
+    if let Some((other, turn)) = partner {
+        mesh.put(other, turn.apply(p));
+    }
+    for tet in tets {
+        mesh.regrade(tet);
+    }
+    true
+}
+
+/// The best place found for the vertex, if it is better than where it is.
+fn climb(star: &Star<'_, '_>, directions: &[DVec3]) -> Option<DVec3> {
+    let mesh = star.mesh;
+    let start = mesh.positions[star.vertex as usize];
+    let size = {
+        let at = star.positions(start);
+        let own = star.freedoms.partner(star.vertex).map(|p| p.0);
+        let mut nearest = f64::INFINITY;
+        for &tet in &star.tets {
+            let corners = mesh.corners(tet);
+            let here = corners
+                .iter()
+                .find(|&&u| u == star.vertex || Some(u) == own);
+            let Some(&here) = here else { continue };
+            for u in corners {
+                if u != star.vertex && Some(u) != own {
+                    nearest = nearest.min((at(u) - at(here)).length_squared());
+                }
+            }
+        }
+        nearest.sqrt()
+    };
+    if !(size > 0.0 && size.is_finite()) {
+        return None;
+    }
+    let mut p = start;
+    let mut qualities: Vec<f64> = star.tets.iter().map(|&t| mesh.grade(t).quality).collect();
+    let smallest = |list: &[f64]| list.iter().fold(f64::INFINITY, |m, &q| m.min(q));
+    let mut least = smallest(&qualities);
+    let mut step = FIRST * size;
+    for _ in 0..STEPS {
+        if least >= 1.0 {
+            break;
+        }
+        let difference = DIFFERENCE * size;
+        let gradients: Vec<DVec3> = star
+            .tets
+            .iter()
+            .zip(&qualities)
+            .filter(|&(_, &q)| q <= least + ACTIVE * least.abs())
+            .map(|(&t, &q)| star.gradient(t, p, q, directions, difference))
+            .collect();
+        let Some(up) = shortest_in_hull(&gradients).and_then(DVec3::try_normalize) else {
+            break;
+        };
+        // Rounding must not lead away from where the vertex belongs.
+        let up: DVec3 = directions.iter().map(|&d| d * d.dot(up)).sum();
+        let mut better = None;
+        for _ in 0..HALVINGS {
+            let q = star.freedoms.place(star.vertex, p + up * step);
+            let above = (least + GAIN * least.abs()).max(LEAST);
+            if let Some(list) = star.qualities(q, above) {
+                better = Some((q, list));
+                break;
+            }
+            step *= 0.5;
+        }
+        let Some((q, list)) = better else { break };
+        (p, qualities) = (q, list);
+        least = smallest(&qualities);
+        step *= 2.0;
+    }
+    (p != start).then_some(p)
+}
+
+/// The shortest vector in the convex hull of some, unless it is next to nothing, by Gilbert's algorithm (E. Gilbert, "An iterative
+/// procedure for computing the minimum of a quadratic form on a convex set", 1966).
+fn shortest_in_hull(list: &[DVec3]) -> Option<DVec3> {
+    /// Iterations; more precision than this is of no use.
+    const ROUNDS: usize = 20;
+    let mut x = list
+        .iter()
+        .copied()
+        .min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
+    for _ in 0..ROUNDS {
+        let lowest = list
+            .iter()
+            .copied()
+            .min_by(|a, b| a.dot(x).total_cmp(&b.dot(x)))?;
+        let gap = x.length_squared() - lowest.dot(x);
+        if gap.is_nan() || gap <= 1e-3 * x.length_squared() {
+            break;
+        }
+        let along = lowest - x;
+        let t = (-x.dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        x += along * t;
+    }
+    let longest = list.iter().map(|g| g.length_squared()).fold(0.0, f64::max);
+    (x.length_squared() > NO_WAY * NO_WAY * longest).then_some(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_vector_is_found() {
+        let found = shortest_in_hull(&[DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)]);
+        assert!((found.unwrap() - DVec3::X).length() < 1e-2);
+        let around = [DVec3::X, DVec3::NEG_X, DVec3::Y];
+        assert_eq!(shortest_in_hull(&around), None);
+        assert_eq!(shortest_in_hull(&[DVec3::Z]), Some(DVec3::Z));
+        assert_eq!(shortest_in_hull(&[]), None);
+    }
+}
