@@ -13,6 +13,7 @@ mod cli;
 mod clip;
 mod error;
 mod finish;
+mod halved;
 mod hub;
 mod opening;
 mod plan;
@@ -194,7 +195,7 @@ fn cut_as_planned(
 ) -> Result<(Document, Report), CutError> {
     let mut document = document.clone();
     let mut template = std::mem::take(&mut document.templates[0]);
-    document.frame = frame(symmetry, &plan, params, &template.vertices, tolerances)?;
+    document.frame = frame(symmetry, &plan, params, &template, tolerances)?;
     for p in &mut template.vertices {
         *p = document.frame.to_canonical(*p);
     }
@@ -319,7 +320,7 @@ fn frame(
     symmetry: &Symmetry,
     plan: &Plan,
     params: &Params,
-    vertices: &[DVec3],
+    body: &Template,
     tolerances: &Tolerances,
 ) -> Result<Frame, CutError> {
     let axis = DVec3::from(symmetry.axis.direction);
@@ -329,9 +330,28 @@ fn frame(
     let base = Frame::from_axis(origin, axis, reference)
         .filter(|f| f.rotation.is_finite() && f.origin.is_finite())
         .ok_or_else(bad)?;
+    let canonical = || -> Vec<DVec3> {
+        let to_canonical = |&p| base.to_canonical(p);
+        body.vertices.iter().map(to_canonical).collect()
+    };
     let angle = if plan.mirror {
         let step = std::f64::consts::PI / f64::from(symmetry.order);
-        let angle = params.start_angle.unwrap_or(0.0);
+        // Both walls are images of the same mirror plane, and there are others to choose.
+        let choice = (symmetry.order / plan.order).is_multiple_of(2) && plan.region_maps.is_empty();
+        let angle = params.start_angle.unwrap_or_else(|| {
+            if !choice {
+                return 0.0;
+            }
+            let vertices = canonical();
+            let [given, other] =
+                [0.0, step].map(|a| halved::harm(&vertices, &body.triangles, a, tolerances.plane));
+            // Rounding does not choose.
+            if other < given * (1.0 - 1e-6) {
+                step
+            } else {
+                0.0
+            }
+        });
         let planes = (angle / step).round();
         if (angle - planes * step).abs() > 1e-9 {
             let (angle, step) = (angle.to_degrees(), step.to_degrees());
@@ -341,10 +361,9 @@ fn frame(
     } else if plan.is_whole() {
         0.0
     } else {
-        params.start_angle.unwrap_or_else(|| {
-            let canonical: Vec<DVec3> = vertices.iter().map(|&p| base.to_canonical(p)).collect();
-            plan::clear_angle(&canonical, plan.order, tolerances.plane)
-        })
+        params
+            .start_angle
+            .unwrap_or_else(|| plan::clear_angle(&canonical(), plan.order, tolerances.plane))
     };
     if angle == 0.0 {
         return Ok(base);
