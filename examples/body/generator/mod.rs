@@ -6,6 +6,7 @@
 mod body;
 mod output;
 mod placement;
+pub mod random;
 mod rotors;
 mod solids;
 mod sweep;

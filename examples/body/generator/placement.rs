@@ -1,25 +1,8 @@
 //! Where a body is put, and how it is disturbed.
 
 use super::Body;
+use super::random::Random;
 use glam::{DMat3, DQuat, DVec3};
-
-/// Deterministic pseudo-random numbers (SplitMix64, Steele, Lea and Flood 2014).
-struct Random(u64);
-
-impl Random {
-    /// The next number in [-1, 1).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (x ^ (x >> 31)) as i64 as f64 / 2.0_f64.powi(63)
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.next(), self.next(), self.next())
-    }
-}
 
 /// A rigid motion, a scale and a disturbance, applied as jitter, motion, scale.
 #[derive(Clone, Copy, Debug)]
@@ -38,10 +21,10 @@ impl Placement {
         let Some(seed) = self.rotate else {
             return (DMat3::IDENTITY, DVec3::ZERO);
         };
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         // A uniform rotation: a point of the 4-ball, not too near to its centre.
         let rotation = loop {
-            let (v, w) = (random.vector(), random.next());
+            let (v, w) = (random.vector(), random.signed());
             let q = DQuat::from_xyzw(v.x, v.y, v.z, w);
             if (0.1..=1.0).contains(&q.length()) {
                 break DMat3::from_quat(q.normalize());
@@ -53,7 +36,7 @@ impl Placement {
     /// Moves a body.
     pub fn apply(&self, body: &mut Body) {
         let (rotation, shift) = self.motion();
-        let mut random = Random(self.rotate.unwrap_or(0) ^ 0x6a69_7474_6572);
+        let mut random = Random::new(self.rotate.unwrap_or(0) ^ 0x6a69_7474_6572);
         for p in &mut body.vertices {
             let disturbed = *p + self.jitter * random.vector();
             *p = self.scale * (rotation * disturbed + shift);
