@@ -373,6 +373,14 @@ fn restore_walls(
     }
     axis.sort_unstable();
     axis.dedup();
+    let new_on_axis = || axis.iter().filter(|&&v| v as usize >= first_new);
+    for wall in &mut walls {
+        if let Wall::Seam(seam) = wall {
+            // The copies of a wedge that only touches the axis meet there.
+            seam.vertex_pairs.extend(new_on_axis().map(|&v| [v, v]));
+            seam.vertex_pairs.sort_unstable();
+        }
+    }
 
     for _ in 0..rounds {
         for &(v, projection) in &projections {
@@ -388,8 +396,7 @@ fn restore_walls(
             *p = image;
         }
     }
-    let new_on_axis = axis.iter().filter(|&&v| v as usize >= first_new);
-    for &v in new_on_axis {
+    for &v in new_on_axis() {
         let p = &mut filled.template.vertices[v as usize];
         *p = DVec3::new(0.0, 0.0, p.z);
     }
