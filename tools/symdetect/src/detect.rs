@@ -2,6 +2,7 @@
 
 use crate::Params;
 use crate::candidates::{self, distinct};
+use crate::complete::Found;
 use crate::error::{At, Error};
 use crate::order::{FACETS, Limits, Rotation, find_rotation};
 use crate::shape::Shape;
@@ -76,7 +77,7 @@ impl Job<'_> {
     }
 
     fn run(mut self, log: &mut dyn FnMut(&str)) -> Result<Detection, Error> {
-        let (directions, mut rotations) = if self.params.order == Some(1) {
+        let (directions, rotations) = if self.params.order == Some(1) {
             (self.directions(log), Vec::new())
         } else {
             self.rotations(log)
@@ -87,12 +88,43 @@ impl Job<'_> {
             let (_, wider) = self.rotations(log);
             if best(&wider) > best(&rotations) {
                 log("facets of smooth surfaces allowed for");
-                rotations = wider;
-            } else {
-                self.limits.facets = false;
+                if let Some(found) = self.certified(wider.clone(), log) {
+                    return Ok(self.report(found, &wider, log));
+                }
+            }
+            self.limits.facets = false;
+        }
+        if let Some(found) = self.certified(rotations.clone(), log) {
+            return Ok(self.report(found, &rotations, log));
+        }
+        if let Some(n) = self.params.order.filter(|&n| n > 1) {
+            return Err(self.order_fails(n, &directions));
+        }
+        for facets in [false, true] {
+            self.limits.facets = facets;
+            if let Some(found) = self.mirror_only(&directions) {
+                log("a single mirror plane");
+                return Ok(self.report(found, &[], log));
             }
         }
-        let mut candidates = rotations.clone();
+        let closest = self.closest(&directions);
+        let error = Error::Asymmetric {
+            closest,
+            tolerance: self.params.tolerance,
+        };
+        if self.params.allow_asymmetric {
+            Ok(self.asymmetric(closest, error.to_string()))
+        } else {
+            Err(error)
+        }
+    }
+
+    /// The best of the rotations that holds everywhere, with all that holds beside it.
+    fn certified(
+        &self,
+        mut candidates: Vec<Rotation>,
+        log: &mut dyn FnMut(&str),
+    ) -> Option<Found> {
         while let Some(best) = self.take_best(&mut candidates) {
             log(&format!(
                 "order {} about {} by a quick test",
@@ -121,28 +153,9 @@ impl Job<'_> {
                 continue;
             }
             log(&format!("group {} verified in full", found.group.symbol()));
-            return Ok(self.report(found, &rotations, log));
+            return Some(found);
         }
-        if let Some(n) = self.params.order.filter(|&n| n > 1) {
-            return Err(self.order_fails(n, &directions));
-        }
-        for facets in [false, true] {
-            self.limits.facets = facets;
-            if let Some(found) = self.mirror_only(&directions) {
-                log("a single mirror plane");
-                return Ok(self.report(found, &[], log));
-            }
-        }
-        let closest = self.closest(&directions);
-        let error = Error::Asymmetric {
-            closest,
-            tolerance: self.params.tolerance,
-        };
-        if self.params.allow_asymmetric {
-            Ok(self.asymmetric(closest, error.to_string()))
-        } else {
-            Err(error)
-        }
+        None
     }
 
     /// Whether a higher order would hold with a few times the tolerance, and differences between facets may
