@@ -144,7 +144,10 @@ fn enters(node: &Node, origin: DVec3, inverse: DVec3, best: f64) -> bool {
     for axis in 0..3 {
         let a = (node.low[axis] - origin[axis]) * inverse[axis];
         let b = (node.high[axis] - origin[axis]) * inverse[axis];
-        // A ray in the plane of a box side gives NaN, which min and max ignore.
+        // A ray in the plane of a box's side: it is between the two sides all along.
+        if a.is_nan() || b.is_nan() {
+            continue;
+        }
         from = from.max(a.min(b));
         to = to.min(a.max(b));
     }
@@ -194,5 +197,23 @@ mod tests {
         let rays = Rays::new(&vertices, &triangles);
         assert_eq!(rays.nearest(vertices[3], DVec3::Z, u32::MAX), Some(1.0));
         assert_eq!(rays.nearest(vertices[3], -DVec3::Z, u32::MAX), None);
+    }
+
+    #[test]
+    fn rays_along_the_side_of_a_box_enter_it() {
+        // A row of triangles above z = 0.
+        let mut vertices = Vec::new();
+        let mut triangles = Vec::new();
+        for i in 0..8_u32 {
+            let x = f64::from(i);
+            let corners = [[x, 1.0, 0.0], [x + 1.0, 1.0, 0.0], [x + 0.5, 1.0, 1.0]];
+            vertices.extend(corners.map(DVec3::from_array));
+            triangles.push([3 * i, 3 * i + 1, 3 * i + 2]);
+        }
+        let rays = Rays::new(&vertices, &triangles);
+        for x in [0.25, 3.5, 7.75] {
+            let origin = DVec3::new(x, 0.0, 0.0);
+            assert_eq!(rays.nearest(origin, DVec3::Y, u32::MAX), Some(1.0), "{x}");
+        }
     }
 }
