@@ -120,11 +120,7 @@ impl Job<'_> {
     }
 
     /// The best of the rotations that holds everywhere, with all that holds beside it.
-    fn certified(
-        &self,
-        mut candidates: Vec<Rotation>,
-        log: &mut dyn FnMut(&str),
-    ) -> Option<Found> {
+    fn certified(&self, mut candidates: Vec<Rotation>, log: &mut dyn FnMut(&str)) -> Option<Found> {
         while let Some(best) = self.take_best(&mut candidates) {
             log(&format!(
                 "order {} about {} by a quick test",

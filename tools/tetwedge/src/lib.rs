@@ -5,6 +5,7 @@
 //! face. Seams and faces shared with another template are preserved. Afterwards every wall, volume
 //! and orientation is checked again.
 
+mod bound;
 mod cells;
 mod check;
 mod cli;

@@ -1,5 +1,6 @@
 //! The whole document: every template meshed, walls between templates renumbered.
 
+use crate::bound::Bound;
 use crate::diagnose::{Chatter, failure};
 use crate::fill::{Filled, NONE, fill};
 use crate::params::switches;
@@ -70,6 +71,7 @@ pub fn tetrahedralize(
         );
     }
     for (index, d) in done.iter().enumerate() {
+        advice.extend(d.advice.clone());
         if d.failed > 0 {
             facts.push(format!(
                 "template {index}: TetGen failed on {} equivalent description(s) of the surface \
@@ -190,6 +192,7 @@ fn renumber_second(pairs: &mut [[u32; 2]], new: &[u32]) -> bool {
 struct Done {
     filled: Filled,
     switches: String,
+    advice: Option<String>,
     preserved: bool,
     /// Descriptions that failed before.
     failed: usize,
@@ -200,6 +203,8 @@ pub struct Answer {
     pub plc: Plc,
     pub mesh: Mesh,
     pub switches: String,
+    /// What became of the bounds, if they could not be met.
+    pub advice: Option<String>,
     /// When TetGen was done.
     pub meshed: Instant,
 }
@@ -249,27 +254,36 @@ pub fn run(
     let begun = Instant::now();
     check_count(document, index, sizes)?;
     let plc = Plc::new(document, index, sizes, DESCRIPTIONS[number])?;
-    let switches = switches(params, plc.max_volume, plc.per_region, preserve(&plc));
-    log(&format!(
-        "template {index}: {} points, {} triangles in {} facets, {} void(s); switches {switches}",
-        plc.points.len(),
-        plc.facets.of_triangle.len(),
-        plc.facets.facets.len(),
-        plc.hole_count(),
-    ));
     let prepared = Instant::now();
-    let limits = Limits {
-        timeout: deadline.map(|d| d.saturating_duration_since(prepared)),
+    let mut bound = Bound::new(document, index, params, sizes, &plc);
+    let (mesh, switches) = loop {
+        let preserve = preserve(&plc);
+        let mut switches = switches(&bound.params, plc.max_volume, plc.per_region, preserve);
+        switches.push_str(&bound.switches());
+        log(&format!(
+            "template {index}: {} points, {} triangles in {} facets, {} void(s); switches {switches}",
+            plc.points.len(),
+            plc.facets.of_triangle.len(),
+            plc.facets.facets.len(),
+            plc.hole_count(),
+        ));
+        let limits = Limits {
+            timeout: deadline.map(|d| d.saturating_duration_since(Instant::now())),
+        };
+        let mut chatter = Chatter::new(log);
+        let mesh = tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |bytes| {
+            chatter.take(bytes);
+        })
+        .map_err(|error| {
+            // Looking for the place takes time, and makes sense once there is nothing left to try.
+            let last = number + 1 == DESCRIPTIONS.len();
+            failure(error, &chatter, &plc, params.timeout, last)
+        })?;
+        match bound.next(&plc, &mesh) {
+            Some(next) => bound = next,
+            None => break (mesh, switches),
+        }
     };
-    let mut chatter = Chatter::new(log);
-    let mesh = tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |bytes| {
-        chatter.take(bytes);
-    })
-    .map_err(|error| {
-        // Looking for the place takes time, and makes sense once there is nothing left to try.
-        let last = number + 1 == DESCRIPTIONS.len();
-        failure(error, &chatter, &plc, params.timeout, last)
-    })?;
     let meshed = Instant::now();
     log(&format!(
         "template {index}: {} tetrahedra; prepared in {:.3} s, meshed in {:.3} s",
@@ -281,6 +295,7 @@ pub fn run(
         plc,
         mesh,
         switches,
+        advice: bound.advice(),
         meshed,
     })
 }
@@ -318,6 +333,7 @@ fn template(
         Ok(Done {
             filled,
             switches: answer.switches,
+            advice: answer.advice,
             preserved: answer.plc.faces.preserve(),
             failed: 0,
         })

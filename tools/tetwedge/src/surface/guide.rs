@@ -76,8 +76,12 @@ fn attempt(
     };
     let (made, _) = persist(index, params, log, |number, deadline| {
         let attempt = (number, deadline);
-        let Answer { plc, mesh, .. } =
-            run(document, index, params, &sizes, attempt, |_| false, log)?;
+        let Answer {
+            plc, mesh, advice, ..
+        } = run(document, index, params, &sizes, attempt, |_| false, log)?;
+        if let Some(advice) = advice {
+            log(&format!("template {index}: {advice}"));
+        }
         let kept = plc.points.len();
         if mesh.points().len() < kept || mesh.points()[..kept] != plc.points {
             return Err(unusable("input points were moved or left out".to_owned()));
