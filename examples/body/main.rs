@@ -8,8 +8,8 @@ mod generator;
 
 use clap::{Parser, ValueEnum};
 use generator::{
-    Body, Coating, Encoding, Gear, Impeller, Placement, PracticalTsv, Prism, Ratchet, Tessellation,
-    Tsv,
+    Body, Coating, Encoding, Gear, Impeller, Placement, PracticalTsv, Prism, Ratchet, Screw,
+    Tessellation, Tsv,
 };
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -32,6 +32,9 @@ enum Kind {
     Ratchet,
     /// Hub with twisted blades; rotations only
     Impeller,
+    /// Tapered screw with rounded threads, drawn with facets that do not share its symmetry;
+    /// rotations only
+    Screw,
     /// Axis-aligned cube
     Cube,
 }
@@ -67,8 +70,8 @@ struct Cli {
     #[arg(long, value_name = "FMT")]
     to: Option<FileFormat>,
 
-    /// Order of the rotation: corners, teeth or blades [default: 16; practical-tsv 24, gear and
-    /// ratchet 12, impeller 7]
+    /// Order of the rotation: corners, teeth, blades or threads [default: 16; practical-tsv 24, gear
+    /// and ratchet 12, impeller 7, screw 5]
     #[arg(long, value_name = "N")]
     order: Option<u32>,
 
@@ -89,7 +92,7 @@ struct Cli {
     #[arg(long, value_name = "R")]
     bore: Option<f64>,
 
-    /// Thickness of a second material that lines a ratchet's bore, 0 for none
+    /// Thickness of a second material that lines the bore of a ratchet or screw, 0 for none
     #[arg(long, value_name = "T", default_value_t = 0.0)]
     coating: f64,
 
@@ -97,7 +100,7 @@ struct Cli {
     #[arg(long, value_name = "R")]
     core: Option<f64>,
 
-    /// Twist of the impeller from bottom to top, degrees
+    /// Twist of impeller or screw from bottom to top, degrees
     #[arg(
         long,
         value_name = "DEG",
@@ -106,9 +109,13 @@ struct Cli {
     )]
     twist: f64,
 
-    /// Films of practical-tsv, or levels of facets of the impeller [default: 6]
+    /// Films of practical-tsv, or levels of facets of impeller or screw [default: 6]
     #[arg(long, value_name = "N", default_value_t = 6)]
     layers: u32,
+
+    /// Facets around each level of the screw, at least; each has up to a quarter more
+    #[arg(long, value_name = "N", default_value_t = 150)]
+    facets: u32,
 
     /// Turn and shift the body at random; the same seed gives the same placement
     #[arg(long, value_name = "SEED")]
@@ -125,6 +132,11 @@ struct Cli {
     /// Split flat parts differently from sector to sector
     #[arg(long)]
     asymmetric_tessellation: bool,
+
+    /// Split all quadrilaterals by a random choice, bent ones too, so that the shape as drawn is only
+    /// nearly symmetric; of the screw: draw other facets
+    #[arg(long, value_name = "SEED", conflicts_with = "asymmetric_tessellation")]
+    redraw: Option<u64>,
 
     /// Digits after the point in ASCII STL [default: all that a double has]
     #[arg(long, value_name = "D")]
@@ -145,6 +157,7 @@ impl Cli {
             Kind::PracticalTsv => 24,
             Kind::Gear | Kind::Ratchet => 12,
             Kind::Impeller => 7,
+            Kind::Screw => 5,
             Kind::Prism | Kind::Ring | Kind::Tsv | Kind::Cube => 16,
         })
     }
@@ -152,7 +165,7 @@ impl Cli {
     fn body(&self) -> Result<Body, String> {
         let order = self.order();
         let least = match self.kind {
-            Kind::Gear | Kind::Ratchet => 2,
+            Kind::Gear | Kind::Ratchet | Kind::Screw => 2,
             _ => 3,
         };
         if !(least..=1000).contains(&order) {
@@ -165,9 +178,10 @@ impl Cli {
         if self.layers == 0 {
             return Err("--layers must be positive".to_owned());
         }
-        let tessellation = match self.asymmetric_tessellation {
-            true => Tessellation::Asymmetric,
-            false => Tessellation::Symmetric,
+        let tessellation = match (self.redraw, self.asymmetric_tessellation) {
+            (Some(seed), _) => Tessellation::Redrawn(seed),
+            (None, true) => Tessellation::Asymmetric,
+            (None, false) => Tessellation::Symmetric,
         };
         let (radius, height) = (1.0, self.height);
         // Flat-to-flat lengths of the sections have to leave room for each other.
@@ -293,6 +307,33 @@ impl Cli {
                     twist: self.twist.to_radians(),
                     layers: self.layers,
                     tessellation,
+                }
+                .build()
+            }
+            Kind::Screw => {
+                let bore = within("--bore", self.bore.unwrap_or(0.3), 0.0, Screw::LEAST)?;
+                let coating = match self.coating {
+                    0.0 => 0.0,
+                    t if bore > 0.0 => within("--coating", t, 0.0, Screw::LEAST - bore)?,
+                    _ => return Err("--coating needs a --bore".to_owned()),
+                };
+                // A level's facets must not be taken for those of the next thread.
+                let facets = within(
+                    "--facets",
+                    f64::from(self.facets),
+                    f64::from(4 * order),
+                    1e6,
+                )?;
+                Screw {
+                    order,
+                    radius,
+                    bore,
+                    coating,
+                    height,
+                    twist: self.twist.to_radians(),
+                    layers: self.layers,
+                    facets: facets as u32,
+                    drawing: self.redraw.unwrap_or(0),
                 }
                 .build()
             }

@@ -8,6 +8,7 @@ mod output;
 mod placement;
 pub mod random;
 mod rotors;
+mod screw;
 mod solids;
 mod sweep;
 
@@ -15,5 +16,6 @@ pub use body::{Body, Face, Material};
 pub use output::{Encoding, write};
 pub use placement::Placement;
 pub use rotors::{Gear, Impeller, Ratchet};
+pub use screw::Screw;
 pub use solids::{Coating, PracticalTsv, Prism, Tsv, cube};
 pub use sweep::Tessellation;

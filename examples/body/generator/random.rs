@@ -21,6 +21,11 @@ impl Random {
         x ^ (x >> 31)
     }
 
+    /// The next number in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        0.5 + 0.5 * self.signed()
+    }
+
     /// The next number in [-1, 1).
     pub fn signed(&mut self) -> f64 {
         self.bits() as i64 as f64 / 2.0_f64.powi(63)

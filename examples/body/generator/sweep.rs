@@ -17,6 +17,9 @@ pub enum Tessellation {
     /// Flat parts are split differently from place to place: the shape keeps its symmetry, the
     /// triangles do not.
     Asymmetric,
+    /// As `Asymmetric`, by a random choice for each quadrilateral, bent ones too: there the drawn
+    /// shape is only nearly as symmetric as the one that it stands for.
+    Redrawn(u64),
 }
 
 /// A ring added to a [`Sweep`].
@@ -81,7 +84,7 @@ impl Sweep {
 
     /// The body. `flat` says that all strips are made of plane quadrilaterals.
     pub fn build(self, order: u32, mirror: bool, flat: bool, tessellation: Tessellation) -> Body {
-        let asymmetric = tessellation == Tessellation::Asymmetric;
+        let asymmetric = tessellation != Tessellation::Symmetric;
         let mut vertices = Vec::new();
         // First vertex of each ring; axis points are only added where a strip needs them.
         let starts: Vec<Option<u32>> = self
@@ -108,12 +111,25 @@ impl Sweep {
             let (from, to) = (&self.rings[strip.from.0], &self.rings[strip.to.0]);
             match (starts[strip.from.0], starts[strip.to.0], from, to) {
                 (Some(a), Some(b), Points::Loop(low), Points::Loop(high)) => {
+                    if low.len() != high.len() {
+                        zip(low, high, |[v, w, x]| {
+                            let id = |(ring, i): (u32, usize)| [a, b][ring as usize] + i as u32;
+                            add([id(v), id(w), id(x)]);
+                        });
+                        continue;
+                    }
                     let level = |p: &[DVec3]| p.iter().all(|q| q.z == p[0].z);
                     let horizontal = level(low) && level(high) && low[0].z == high[0].z;
                     let n = low.len() as u32;
                     for i in 0..n {
                         let j = (i + 1) % n;
-                        let other = asymmetric && (flat || horizontal) && scramble(index, i);
+                        let other = match tessellation {
+                            Tessellation::Symmetric => false,
+                            Tessellation::Asymmetric => {
+                                (flat || horizontal) && scramble(0, index, i)
+                            }
+                            Tessellation::Redrawn(seed) => scramble(seed, index, i),
+                        };
                         if other {
                             add([a + i, a + j, b + i]);
                             add([a + j, b + j, b + i]);
@@ -160,9 +176,32 @@ impl Sweep {
     }
 }
 
+/// Triangles between two rings of different numbers of points, each starting within a step from the
+/// x axis: a point is its ring (0 or 1) and its place there.
+fn zip(low: &[DVec3], high: &[DVec3], mut add: impl FnMut([(u32, usize); 3])) {
+    let turn = |ring: &[DVec3], i: usize| {
+        let p = ring[i % ring.len()];
+        let turn = libm::atan2(p.y, p.x) / std::f64::consts::TAU;
+        turn - libm::floor(turn) + (i / ring.len()) as f64
+    };
+    let (n, m) = (low.len(), high.len());
+    let (mut i, mut j) = (0, 0);
+    while i < n || j < m {
+        let (p, q) = ((0, i % n), (1, j % m));
+        if j == m || i < n && turn(low, i + 1) < turn(high, j + 1) {
+            i += 1;
+            add([p, (0, i % n), q]);
+        } else {
+            j += 1;
+            add([p, (1, j % m), q]);
+        }
+    }
+}
+
 /// A fixed pseudo-random choice per strip and sector.
-fn scramble(strip: usize, sector: u32) -> bool {
-    let mut x = (strip as u64) << 32 | u64::from(sector);
+fn scramble(seed: u64, strip: usize, sector: u32) -> bool {
+    let mut x =
+        seed.wrapping_mul(0x94d0_49bb_1331_11eb) ^ ((strip as u64) << 32 | u64::from(sector));
     x = (x ^ (x >> 31)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     x = (x ^ (x >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     (x >> 40) & 1 == 1

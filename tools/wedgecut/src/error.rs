@@ -125,6 +125,27 @@ pub enum CutError {
     Empty,
 }
 
+impl CutError {
+    /// Whether the body's shape where it was cut is the reason, so that another cut may do.
+    pub fn is_of_the_shape(&self) -> bool {
+        match self {
+            Self::BadSection { .. }
+            | Self::SectionsDiffer { .. }
+            | Self::SectionsJoinedDifferently { .. }
+            | Self::NotClosed { .. }
+            | Self::VolumeDiffers { .. }
+            | Self::BadHub { .. }
+            | Self::Empty => true,
+            Self::NoSymmetry
+            | Self::NotASurface(_)
+            | Self::NotADivisor { .. }
+            | Self::NoMirror(_)
+            | Self::NotAMirrorPlane { .. }
+            | Self::BadAxis(..) => false,
+        }
+    }
+}
+
 impl From<CutError> for Failure {
     fn from(error: CutError) -> Self {
         match error {

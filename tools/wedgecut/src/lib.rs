@@ -7,6 +7,8 @@
 //! for rotation wedges, the two sections paired and made exact images ([`seam`]); where there is a
 //! hub, what lies in front of its plane united to a template of its own ([`hub`]).
 
+mod align;
+mod chains;
 mod choose;
 mod clean;
 mod cli;
@@ -78,20 +80,92 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         Hub::Radius(radius) => Some(plan.hub(radius)?),
         Hub::Auto | Hub::None => None,
     };
-    // Order and hub are chosen by the wedge of the order found.
     if !params.chooses() || plan.is_whole() {
-        return cut_as_planned(&document, &symmetry, plan, hub, params, &tolerances);
+        return cut_as_planned(&document, &symmetry, &plan, hub, params, &tolerances);
     }
-    let (first, report) = cut_as_planned(&document, &symmetry, plan, None, params, &tolerances)?;
-    let Some((choice, why)) = choose(&first, &symmetry, params) else {
-        return match hub {
-            None => Ok((first, report)),
-            Some(_) => {
-                let plan = Plan::new(&symmetry, params, false)?;
-                cut_as_planned(&document, &symmetry, plan, hub, params, &tolerances)
-            }
-        };
+    // Order and hub are chosen by the wedge of the order found, or of the highest that can be cut.
+    let mut uncut = Uncut::default();
+    let mut orders = match params.order {
+        Some(order) => vec![order],
+        None => orders(&symmetry, params, plan.mirror),
     };
+    let (first, report) = loop {
+        let order = orders.pop().unwrap_or(symmetry.order);
+        let with = Params {
+            order: Some(order),
+            ..params.clone()
+        };
+        let plan = Plan::new(&symmetry, &with, false)?;
+        match cut_as_planned(&document, &symmetry, &plan, None, &with, &tolerances) {
+            Ok(cut) => break cut,
+            Err(error) if error.is_of_the_shape() => {
+                uncut.0.push((order, error));
+                if orders.is_empty() {
+                    return Err(uncut.first());
+                }
+            }
+            Err(error) => return Err(error),
+        }
+    };
+    loop {
+        let Some((choice, why)) = choose(&first, &symmetry, params, &uncut) else {
+            if !uncut.0.is_empty() {
+                return Err(uncut.first());
+            }
+            return match hub {
+                None => Ok((first, report)),
+                Some(_) => {
+                    let plan = Plan::new(&symmetry, params, false)?;
+                    cut_as_planned(&document, &symmetry, &plan, hub, params, &tolerances)
+                }
+            };
+        };
+        let first = (&first, &report);
+        match cut_as_chosen(&document, &symmetry, &choice, first, params, &tolerances) {
+            Ok((document, mut report)) => {
+                report.notes.extend(uncut.notes());
+                report.notes.push(why);
+                return Ok((document, report));
+            }
+            Err(error) if error.is_of_the_shape() && params.order.is_none() => {
+                uncut.0.push((choice.order, error));
+            }
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Orders that could not be cut, and why.
+#[derive(Default)]
+struct Uncut(Vec<(u32, CutError)>);
+
+impl Uncut {
+    /// Why the order that was tried first could not be cut.
+    fn first(self) -> CutError {
+        let first = self.0.into_iter().next();
+        first.map_or(CutError::Empty, |(_, error)| error)
+    }
+
+    fn has(&self, order: u32) -> bool {
+        self.0.iter().any(|(o, _)| *o == order)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let note = |(order, error): &(u32, CutError)| format!("order {order} not cut: {error}");
+        self.0.iter().map(note).collect()
+    }
+}
+
+/// Cuts with the order, hub and planes chosen, with fewer planes if it has to be. `first`: the wedge
+/// that they were chosen by.
+fn cut_as_chosen(
+    document: &Document,
+    symmetry: &Symmetry,
+    choice: &choose::Choice,
+    first: (&Document, &Report),
+    params: &Params,
+    tolerances: &Tolerances,
+) -> Result<(Document, Report), CutError> {
     let params = Params {
         order: Some(choice.order),
         ..params.clone()
@@ -105,13 +179,13 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
     tried.dedup();
     let mut failed = None;
     for (radius, level) in tried {
-        let plan = Plan::new(&symmetry, &params, level)?;
+        let plan = Plan::new(symmetry, &params, level)?;
         let hub = radius.map(|radius| plan.hub(radius)).transpose()?;
         let (document, mut report) =
-            if hub.is_none() && !level && first.instances.len() == plan.instances.len() {
-                (first.clone(), report.clone())
+            if hub.is_none() && !level && first.0.instances.len() == plan.instances.len() {
+                (first.0.clone(), first.1.clone())
             } else {
-                match cut_as_planned(&document, &symmetry, plan, hub, &params, &tolerances) {
+                match cut_as_planned(document, symmetry, &plan, hub, &params, tolerances) {
                     Ok(cut) => cut,
                     Err(error) => {
                         failed.get_or_insert(error);
@@ -122,10 +196,23 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         if let Some(error) = failed {
             report.notes.push(format!("cut with fewer planes: {error}"));
         }
-        report.notes.push(why);
         return Ok((document, report));
     }
     Err(failed.unwrap_or(CutError::Empty))
+}
+
+/// Orders to choose from, increasing: the divisors of the order found.
+fn orders(symmetry: &Symmetry, params: &Params, mirror: bool) -> Vec<u32> {
+    // A mesh without symmetry is not what a symmetric body is cut for.
+    let least = match params.hub {
+        _ if symmetry.order == 1 => 1,
+        Hub::Radius(_) => plan::HUB_LEAST_ORDER,
+        _ if mirror => 1,
+        _ => 2,
+    };
+    let mut orders = plan::divisors(symmetry.order);
+    orders.retain(|&n| n >= least);
+    orders
 }
 
 /// Chooses order and hub, and says why.
@@ -133,24 +220,18 @@ fn choose(
     wedge: &Document,
     symmetry: &Symmetry,
     params: &Params,
+    uncut: &Uncut,
 ) -> Option<(choose::Choice, String)> {
     let mirror = matches!(wedge.templates[0].walls.first(), Some(Wall::Mirror(_)));
     let max_volume = |region: u32| {
         let at = wedge.regions.binary_search_by_key(&region, |r| r.id).ok()?;
         wedge.regions[at].max_volume.or(params.max_volume)
     };
-    let orders: Vec<u32> = match params.order {
+    let mut orders = match params.order {
         Some(order) => vec![order],
-        None => plan::divisors(symmetry.order),
+        None => orders(symmetry, params, mirror),
     };
-    // A mesh without symmetry is not what a symmetric body is cut for.
-    let least = match params.hub {
-        _ if params.order.is_some() || (symmetry.order == 1) => 1,
-        Hub::Radius(_) => plan::HUB_LEAST_ORDER,
-        _ if mirror => 1,
-        _ => 2,
-    };
-    let orders: Vec<u32> = orders.into_iter().filter(|&n| n >= least).collect();
+    orders.retain(|&n| !uncut.has(n));
     let options = choose::Options {
         orders: &orders,
         mirror,
@@ -184,18 +265,46 @@ fn choose(
     Some((choice, why))
 }
 
-/// Cuts as a plan says.
+/// Cuts as a plan says, elsewhere if it cannot be done where it is best.
 fn cut_as_planned(
     document: &Document,
     symmetry: &Symmetry,
-    mut plan: Plan,
+    plan: &Plan,
     hub: Option<HubPlan>,
     params: &Params,
     tolerances: &Tolerances,
 ) -> Result<(Document, Report), CutError> {
+    let frames = frames(symmetry, plan, params, &document.templates[0], tolerances)?;
+    let mut failed = None;
+    for (i, frame) in frames.iter().enumerate() {
+        match cut_in_frame(document, symmetry, plan.clone(), hub, *frame, tolerances) {
+            Ok((document, mut report)) => {
+                if let Some(error) = failed {
+                    report.notes.push(format!(
+                        "cut at the angle tried as number {} (--start-angle says which): {error}",
+                        i + 1
+                    ));
+                }
+                return Ok((document, report));
+            }
+            Err(error) => failed = failed.or(Some(error)),
+        }
+    }
+    Err(failed.unwrap_or(CutError::Empty))
+}
+
+/// Cuts with the first side in the frame's plane y = 0.
+fn cut_in_frame(
+    document: &Document,
+    symmetry: &Symmetry,
+    mut plan: Plan,
+    hub: Option<HubPlan>,
+    frame: Frame,
+    tolerances: &Tolerances,
+) -> Result<(Document, Report), CutError> {
     let mut document = document.clone();
     let mut template = std::mem::take(&mut document.templates[0]);
-    document.frame = frame(symmetry, &plan, params, &template, tolerances)?;
+    document.frame = frame;
     for p in &mut template.vertices {
         *p = document.frame.to_canonical(*p);
     }
@@ -240,8 +349,10 @@ fn cut_as_planned(
         .map(|i| volumes[i.template as usize])
         .sum();
     let relative = (wedge_volume - body_volume).abs() / body_volume.abs();
-    let drift =
-        symmetry.residual.max(0.0) * tolerances.radius + tolerances.plane + tolerances.detail;
+    let drift = symmetry.residual.max(0.0) * tolerances.radius
+        + tolerances.plane
+        + tolerances.detail
+        + tolerances.near;
     let allowed = 1e-6 + 4.0 * drift * body_area / body_volume.abs();
     if relative > allowed {
         return Err(CutError::VolumeDiffers {
@@ -270,6 +381,8 @@ struct Tolerances {
     flat: f64,
     /// Edges that are collapsed; 0 for none.
     detail: f64,
+    /// Edges at the cut planes that are collapsed: what the body is symmetric to.
+    near: f64,
     /// Points of the two sections that count as partners.
     partner: f64,
 }
@@ -310,19 +423,24 @@ impl Tolerances {
             plane,
             flat: equal,
             detail: params.clean * radius,
+            near: match params.clean > 0.0 && drift > params.clean * radius {
+                true => drift,
+                false => 0.0,
+            },
             partner,
         }
     }
 }
 
-/// The canonical frame: z along the axis, x in the first side of the wedge.
-fn frame(
+/// The canonical frames to try, z along the axis, x in the first side of the wedge: of rotation
+/// wedges some that start elsewhere, unless it was said where.
+fn frames(
     symmetry: &Symmetry,
     plan: &Plan,
     params: &Params,
     body: &Template,
     tolerances: &Tolerances,
-) -> Result<Frame, CutError> {
+) -> Result<Vec<Frame>, CutError> {
     let axis = DVec3::from(symmetry.axis.direction);
     let origin = DVec3::from(symmetry.axis.point);
     let reference = DVec3::from(symmetry.mirror_direction);
@@ -334,7 +452,7 @@ fn frame(
         let to_canonical = |&p| base.to_canonical(p);
         body.vertices.iter().map(to_canonical).collect()
     };
-    let angle = if plan.mirror {
+    let angles = if plan.mirror {
         let step = std::f64::consts::PI / f64::from(symmetry.order);
         // Both walls are images of the same mirror plane, and there are others to choose.
         let choice = (symmetry.order / plan.order).is_multiple_of(2) && plan.region_maps.is_empty();
@@ -357,19 +475,22 @@ fn frame(
             let (angle, step) = (angle.to_degrees(), step.to_degrees());
             return Err(CutError::NotAMirrorPlane { angle, step });
         }
-        angle
+        vec![angle]
     } else if plan.is_whole() {
-        0.0
+        vec![0.0]
+    } else if let Some(angle) = params.start_angle {
+        vec![angle]
     } else {
-        params
-            .start_angle
-            .unwrap_or_else(|| plan::clear_angle(&canonical(), plan.order, tolerances.plane))
+        plan::clear_angles(&canonical(), plan.order, tolerances.plane)
     };
-    if angle == 0.0 {
-        return Ok(base);
-    }
-    let x = base.rotation * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0);
-    Frame::from_axis(origin, axis, x).ok_or_else(bad)
+    let at = |angle: f64| {
+        if angle == 0.0 {
+            return Ok(base);
+        }
+        let x = base.rotation * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0);
+        Frame::from_axis(origin, axis, x).ok_or_else(bad)
+    };
+    angles.into_iter().map(at).collect()
 }
 
 /// What is needed to cut the templates.
@@ -410,6 +531,13 @@ impl Cutter<'_> {
             clip::clip(&mut surface, &opening, side, split_at_axis);
         }
         collapse(&mut surface, tolerances, notes);
+        if tolerances.near > 0.0 {
+            let joined = clean::collapse_at_sides(&mut surface, tolerances.near);
+            notes.push(format!(
+                "{joined} points within {:.1e} of others on a cut plane joined to them",
+                tolerances.near
+            ));
+        }
         if self.hub.is_some() {
             clip::divide_at_hub(&mut surface, &opening);
         }

@@ -273,10 +273,14 @@ impl Permutations {
     }
 }
 
-/// Angle for the first side of a rotation wedge, radians: the middle of the largest gap between the
-/// angles of the vertices modulo the wedge's opening, so that the sides cut edges cleanly between
-/// vertices. The smallest such angle when several gaps are equal.
-pub fn clear_angle(vertices: &[DVec3], order: u32, axis_tolerance: f64) -> f64 {
+/// Parts of the wedge's opening of which each has an angle to try.
+const PLACES: usize = 4;
+
+/// Angles for the first side of a rotation wedge, radians, best first: the middle of the largest gap
+/// between the angles of the vertices modulo the wedge's opening, so that the sides cut edges cleanly
+/// between vertices, the smallest such angle when several gaps are equal; then the same about a
+/// quarter of the opening further on each.
+pub fn clear_angles(vertices: &[DVec3], order: u32, axis_tolerance: f64) -> Vec<f64> {
     let opening = std::f64::consts::TAU / f64::from(order);
     let mut angles: Vec<f64> = vertices
         .iter()
@@ -285,18 +289,29 @@ pub fn clear_angle(vertices: &[DVec3], order: u32, axis_tolerance: f64) -> f64 {
         .collect();
     angles.sort_unstable_by(f64::total_cmp);
     let (Some(first), Some(last)) = (angles.first(), angles.last()) else {
-        return 0.0;
+        return vec![0.0];
     };
     let wrap = (last - opening, *first);
-    let gaps = std::iter::once(wrap).chain(angles.windows(2).map(|w| (w[0], w[1])));
+    let gaps = || std::iter::once(wrap).chain(angles.windows(2).map(|w| (w[0], w[1])));
     // Gaps equal up to rounding count as equal, so that noise does not choose.
-    let mut best = wrap;
-    for gap in gaps {
-        if gap.1 - gap.0 > (best.1 - best.0) * (1.0 + 1e-6) {
-            best = gap;
-        }
-    }
-    (0.5 * (best.0 + best.1)).rem_euclid(opening)
+    let largest = |gaps: &mut dyn Iterator<Item = (f64, f64)>| {
+        gaps.reduce(
+            |best, gap| match gap.1 - gap.0 > (best.1 - best.0) * (1.0 + 1e-6) {
+                true => gap,
+                false => best,
+            },
+        )
+    };
+    let middle = |gap: (f64, f64)| (0.5 * (gap.0 + gap.1)).rem_euclid(opening);
+    let best = largest(&mut gaps()).map_or(0.0, middle);
+    let part = opening / PLACES as f64;
+    let others = (1..PLACES).filter_map(|k| {
+        let around = best + part * k as f64;
+        let off = |gap: (f64, f64)| (middle(gap) - around + 0.5 * opening).rem_euclid(opening);
+        let is_near = |gap: &(f64, f64)| (off(*gap) - 0.5 * opening).abs() <= 0.5 * part;
+        largest(&mut gaps().filter(is_near)).map(middle)
+    });
+    std::iter::once(best).chain(others).collect()
 }
 
 #[cfg(test)]
@@ -311,7 +326,10 @@ mod tests {
         };
         let vertices = [at(0.0), at(10.0), at(90.0), at(100.0), at(200.0)];
         // Modulo 90: 0, 10, 0, 10, 20; the largest gap is 20 to 90.
-        let angle = clear_angle(&vertices, 4, 1e-9).to_degrees();
-        assert!((angle - 55.0).abs() < 1e-9, "{angle}");
+        let angles = clear_angles(&vertices, 4, 1e-9);
+        assert!((angles[0].to_degrees() - 55.0).abs() < 1e-9, "{angles:?}");
+        // The gaps between 10 and 20, and between 0 and 10.
+        let others: Vec<f64> = angles[1..].iter().map(|a| a.to_degrees().round()).collect();
+        assert_eq!(others, [5.0, 15.0]);
     }
 }

@@ -1,18 +1,15 @@
 //! Giving two sections of a rotation wedge the same points.
 //!
 //! Where the tessellation does not share the body's symmetry, the two sections are the same curves
-//! with different points on them. Each point without a partner is then inserted into the other
-//! section's nearest edge, and the faces at that edge are divided.
+//! with different points on them. Each point without a partner is then inserted into an edge of the
+//! other section ([`crate::align`] says which), and the faces at that edge are divided.
 
 use crate::opening::{Class, Opening, Side};
 use crate::section::{Extent, Section};
 use crate::surface::Surface;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::Triangle;
-
-/// Smallest distance of an inserted point from the ends of its edge, relative to the edge.
-const END_MARGIN: f64 = 0.1;
 
 /// A point of one section that the other one gets as well.
 #[derive(Clone, Copy, Debug)]
@@ -23,70 +20,6 @@ pub struct Insertion {
     pub edge: usize,
     /// Where along that edge, from its first end (0) to its second (1).
     pub at: f64,
-    /// Distance of the point from there, model units.
-    pub distance: f64,
-}
-
-/// For each lone point the nearest edge of the other section between the same two regions; `None`
-/// where there is no such edge.
-///
-/// `lone`: points of `own` without a partner. Distances in the plane (radius, height).
-pub fn insertions(
-    surface: &Surface,
-    opening: &Opening,
-    own: &Section,
-    other: &Section,
-    lone: &[u32],
-    reach: f64,
-) -> Vec<Result<Insertion, u32>> {
-    let plane = |section: &Section, v: u32| {
-        let p = surface.points[v as usize];
-        DVec2::new(section.extent.radius(opening, p), p.z)
-    };
-    let mut kinds: FxHashMap<u32, Vec<[u32; 2]>> = FxHashMap::default();
-    for e in &own.edges {
-        for v in e.ends {
-            kinds.entry(v).or_default().push(kind(e.left, e.right));
-        }
-    }
-    let spans: Vec<(DVec2, DVec2, [u32; 2])> = other
-        .edges
-        .iter()
-        .map(|e| {
-            let [a, b] = e.ends.map(|v| plane(other, v));
-            (a, b, kind(e.left, e.right))
-        })
-        .collect();
-    lone.iter()
-        .map(|&v| {
-            let p = plane(own, v);
-            let mine = kinds.get(&v).map_or(&[][..], |k| k.as_slice());
-            let mut best: Option<Insertion> = None;
-            for (edge, &(a, b, k)) in spans.iter().enumerate() {
-                if !mine.contains(&k) {
-                    continue;
-                }
-                let along = b - a;
-                let length = along.length();
-                let margin = END_MARGIN.min(reach / length.max(f64::MIN_POSITIVE));
-                let at = ((p - a).dot(along) / along.length_squared()).clamp(margin, 1.0 - margin);
-                let distance = (a + along * at).distance(p);
-                if best.is_none_or(|b| distance < b.distance) {
-                    best = Some(Insertion {
-                        of: v,
-                        edge,
-                        at,
-                        distance,
-                    });
-                }
-            }
-            best.ok_or(v)
-        })
-        .collect()
-}
-
-fn kind(left: u32, right: u32) -> [u32; 2] {
-    [left.min(right), left.max(right)]
 }
 
 /// Inserts points into the edges of a section and divides the faces there. Returns the new point

@@ -5,7 +5,7 @@ use crate::opening::{Class, Opening, Side};
 use crate::planar::{PlanarError, Segment, triangulate};
 use crate::surface::Surface;
 use geom::edges::orientation;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Frame, OUTSIDE, Triangle};
 
@@ -176,6 +176,12 @@ impl Section {
             points,
             edges,
         }
+    }
+
+    /// Distance from the axis and height of a point.
+    pub fn place(&self, surface: &Surface, opening: &Opening, v: u32) -> DVec2 {
+        let p = surface.points[v as usize];
+        DVec2::new(self.extent.radius(opening, p), p.z)
     }
 
     /// The regions beside an edge: those that its outermost faces turn towards the wall.
