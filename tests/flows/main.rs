@@ -11,4 +11,5 @@ mod makefiles;
 mod pipe;
 mod referee;
 mod seams;
+mod sections;
 mod support;

@@ -8,7 +8,7 @@ use crate::order::{deviation_measured, powers};
 use crate::placement;
 use crate::refine::{Canonical, refine};
 use crate::shape::Motion;
-use crate::verify::{Bound, Operation};
+use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DVec3;
 use tmesh::{Axis, Frame, RejectedOrder, Symmetry};
 
@@ -67,12 +67,27 @@ impl Job<'_> {
         } else {
             (frame, as_is)
         };
+        let deviation = match order {
+            _ if deviation.value > self.params.tolerance * radius => deviation,
+            1 => mirror(&frame, samples.len()),
+            n => self.beyond(&frame, n, deviation),
+        };
         Some(Closest {
             order,
             residual: deviation.value / radius,
             direction: At(frame.rotation.z_axis),
             place: At(shape.to_world(deviation.at)),
         })
+    }
+
+    /// Where an order fails that a few samples have pass: the first place beyond the tolerance that a
+    /// full verification finds.
+    fn beyond(&self, frame: &Frame, order: u32, measured: Deviation) -> Deviation {
+        let bound = Bound::plain(self.params.tolerance * self.shape.radius(frame));
+        match self.shape.verify_rotation(frame, order, bound, Depth::Full) {
+            Ok(_) => measured,
+            Err(beyond) => measured.max(beyond),
+        }
     }
 
     /// Why an order asked for does not hold.
@@ -82,17 +97,22 @@ impl Job<'_> {
             let frame = Frame::from_axis(self.centre, d, d.any_orthogonal_vector())?;
             let radius = shape.radius(&frame).max(1e-12);
             let deviation = deviation_measured(shape, &frame, order, 3_000, f64::MAX);
-            Some((deviation.value / radius, deviation.at, frame))
+            Some((deviation.value / radius, deviation, frame))
         });
         let best = measured.min_by(|a, b| a.0.total_cmp(&b.0));
-        let (residual, at, frame) = best.unwrap_or((1.0, DVec3::ZERO, Frame::IDENTITY));
+        let (mut residual, mut deviation, frame) =
+            best.unwrap_or((1.0, Deviation::NONE, Frame::IDENTITY));
+        if residual <= self.params.tolerance {
+            deviation = self.beyond(&frame, order, deviation);
+            residual = deviation.value / shape.radius(&frame).max(1e-12);
+        }
         Error::OrderFails {
             order,
             tolerance: self.params.tolerance,
             residual,
             axis: At(frame.rotation.z_axis),
             centre: At(shape.to_world(frame.origin)),
-            place: At(shape.to_world(at)),
+            place: At(shape.to_world(deviation.at)),
         }
     }
 

@@ -173,7 +173,7 @@ pub fn align(first: &Chain, second: &Chain, tolerance: f64) -> Result<Vec<Step>,
         steps.push(Step::Both(k, l));
     }
     debug_assert_eq!(pairs.last(), Some(&[n - 1, m - 1]));
-    spread(&mut steps);
+    spread(&mut steps, &a, &b, SAME * tolerance);
     match worst.distance > tolerance {
         true => Err(worst),
         false => Ok(steps),
@@ -234,8 +234,9 @@ fn nearest(
         .collect()
 }
 
-/// Keeps points that one edge gets apart from each other and from its ends.
-fn spread(steps: &mut [Step]) {
+/// Keeps points that one edge gets apart from each other and from its ends, without moving them by
+/// more than `reach` for each.
+fn spread(steps: &mut [Step], a: &Line<'_>, b: &Line<'_>, reach: f64) {
     for first in [true, false] {
         let mut of_edge: Vec<&mut Place> = (steps.iter_mut())
             .filter_map(|step| match step {
@@ -246,7 +247,10 @@ fn spread(steps: &mut [Step]) {
             .collect();
         for group in of_edge.chunk_by_mut(|p, q| p.edge == q.edge) {
             let count = group.len() as f64;
-            let gap = APART / (count + 1.0);
+            let line = if first { b } else { a };
+            let edge = group[0].edge;
+            let length = line.length[edge + 1] - line.length[edge];
+            let gap = APART.min(reach / length.max(f64::MIN_POSITIVE)) / (count + 1.0);
             let mut least = gap;
             for place in group.iter_mut() {
                 place.at = place.at.max(least);

@@ -47,7 +47,7 @@ pub enum CutError {
     /// The section of the body with a cut plane is not a clean planar figure.
     #[error(
         "the body's section at {wall} is not a clean figure: {reason}, near ({:.6}, {:.6}, {:.6}); \
-         the surface intersects itself there", .near.x, .near.y, .near.z
+         the surface intersects or touches itself there", .near.x, .near.y, .near.z
     )]
     BadSection {
         /// The wall's name.
@@ -75,12 +75,16 @@ pub enum CutError {
         /// Where.
         near: DVec3,
     },
-    /// The sections have matching points, but other edges or regions between them.
+    /// A curve of one section has no counterpart between the same points and regions in the other.
     #[error(
-        "the sections at the two sides of the wedge have the same points but are joined differently \
-         near ({:.6}, {:.6}, {:.6})", .near.x, .near.y, .near.z
+        "the sections at the two sides of the wedge are joined differently: {low} curves against {high}, one \
+         of them without counterpart near ({:.6}, {:.6}, {:.6})", .near.x, .near.y, .near.z
     )]
     SectionsJoinedDifferently {
+        /// Curves of the low side.
+        low: usize,
+        /// Curves of the high side.
+        high: usize,
         /// Where.
         near: DVec3,
     },

@@ -155,6 +155,7 @@ impl Matcher<'_> {
         low: Vec<Chain>,
         high: Vec<Chain>,
     ) -> Result<Vec<(Chain, Chain, bool)>, CutError> {
+        let count = [low.len(), high.len()];
         let ends = |c: &Chain, image: &dyn Fn(u32) -> Option<u32>| {
             let [first, last] = [c.points[0], c.points[c.points.len() - 1]];
             let node = image(first).zip(image(last));
@@ -189,13 +190,15 @@ impl Matcher<'_> {
             });
             let Some(mut other) = best else {
                 let v = chain.points[chain.points.len() / 2];
-                return Err(self.without_counterpart(v));
+                return Err(self.without_counterpart(count, v));
             };
             let apart = of.is_none() && !begin_alike(&mut chain, &mut other, self.tolerance);
             found.push((chain, other, apart));
         }
         match by_ends.values().flatten().next() {
-            Some(chain) => Err(self.without_counterpart(chain.points[chain.points.len() / 2])),
+            Some(chain) => {
+                Err(self.without_counterpart(count, chain.points[chain.points.len() / 2]))
+            }
             None => Ok(found),
         }
     }
@@ -243,8 +246,10 @@ impl Matcher<'_> {
         Ok((into_low, into_high))
     }
 
-    fn without_counterpart(&self, v: u32) -> CutError {
+    fn without_counterpart(&self, [low, high]: [usize; 2], v: u32) -> CutError {
         CutError::SectionsJoinedDifferently {
+            low,
+            high,
             near: self.frame.to_world(self.surface.points[v as usize]),
         }
     }
@@ -302,6 +307,8 @@ fn check_edges(
 ) -> Result<(), CutError> {
     let image = |v: u32| partner.get(&v).copied();
     let differs = |v: u32| CutError::SectionsJoinedDifferently {
+        low: low.edges.len(),
+        high: high.edges.len(),
         near: frame.to_world(surface.points[v as usize]),
     };
     for e in &low.edges {
