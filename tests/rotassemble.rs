@@ -443,7 +443,7 @@ fn the_table_of_pairs() {
     assert_eq!(faces, seam.triangle_pairs.len());
 
     // Counted as in the mesh file.
-    succeeds(&["--sector", "--to", "inp", "--pairs", &json], &input);
+    succeeds(&["-q", "--sector", "--to", "inp", "--pairs", &json], &input);
     let table: serde_json::Value = serde_json::from_slice(&fs::read(json).unwrap()).unwrap();
     assert_eq!(table["first_id"], 1);
     let first = &table["couplings"][0]["nodes"][0];
@@ -458,6 +458,129 @@ fn the_table_of_pairs() {
     assert_eq!(table["couplings"], serde_json::json!([]));
     assert_eq!(table["mirrors"][0]["name"], "wall-a");
     fails(&["--pairs", "x.csv"], &input, 2, "--sector");
+}
+
+/// Nodes of a set in an INP file.
+fn nodes_of(text: &str, set: &str) -> Vec<u32> {
+    let from = text.find(&format!("*NSET, NSET={set}\n"));
+    let lines = text[from.expect("the set")..].lines().skip(1);
+    let lines = lines.take_while(|l| !l.starts_with('*'));
+    let words = lines.flat_map(|l| l.split(','));
+    words.filter_map(|w| w.trim().parse().ok()).collect()
+}
+
+#[test]
+fn conditions_at_mirror_planes() {
+    let deck = |options: &[&str], input: &[u8]| {
+        let options = [&["--sector", "--to", "inp"], options].concat();
+        String::from_utf8(succeeds(&options, input)).unwrap()
+    };
+    // Nodes and directions of all lines of a keyword.
+    let fixed = |text: &str| -> Vec<(u32, u32)> {
+        let Some((_, lines)) = text.split_once("*BOUNDARY\n") else {
+            return Vec::new();
+        };
+        let lines = lines.lines().take_while(|l| !l.starts_with('*'));
+        let numbers = lines.map(|l| {
+            let words: Vec<u32> = l.split(", ").map(|w| w.parse().unwrap()).collect();
+            assert_eq!(words[1], words[2]);
+            (words[0], words[1])
+        });
+        numbers.collect()
+    };
+    // Half a sector: nobody is given half the body for the whole.
+    let half = |bore| Structured {
+        mirror: false,
+        flip: true,
+        bore,
+        ..wedge()
+    };
+    let input = bytes(&half(0.4).document());
+    let sector = ["--sector", "--to", "inp"];
+    fails(&sector, &input, 1, "--horizontal-mirror off");
+    fails(&sector, &input, 1, "--mirror symmetric");
+    let text = deck(&["--mirror", "none"], &input);
+    assert!(text.contains("*CYCLIC SYMMETRY MODEL, N=6,"));
+    assert!(!text.contains("*BOUNDARY") && !text.contains("*EQUATION"));
+    // What the tie gives is not given twice.
+    let dependent = nodes_of(&text, "wall-a");
+    let level = nodes_of(&text, "floor");
+    let free: Vec<u32> = level
+        .iter()
+        .copied()
+        .filter(|v| !dependent.contains(v))
+        .collect();
+    assert!(!free.is_empty() && free.len() < level.len());
+    assert_eq!(nodes_of(&text, "floor-untied"), free);
+    let text = deck(&["--mirror", "symmetric"], &input);
+    let expected: Vec<(u32, u32)> = free.iter().map(|&v| (v, 3)).collect();
+    assert_eq!(fixed(&text), expected);
+    let text = deck(&["--mirror", "floor=antisymmetric"], &input);
+    let expected: Vec<(u32, u32)> = free.iter().flat_map(|&v| [(v, 1), (v, 2)]).collect();
+    let mut found = fixed(&text);
+    found.sort_unstable();
+    assert_eq!(found, expected);
+    assert!(!text.contains("*EQUATION"));
+
+    // On the axis CalculiX has conditions of its own.
+    let input = bytes(&half(0.0).document());
+    fails(
+        &[&sector[..], &["--mirror", "symmetric"]].concat(),
+        &input,
+        1,
+        "on the axis",
+    );
+    let output = run(&[&sector[..], &["--mirror", "none"]].concat(), &input);
+    assert_eq!(output.status.code(), Some(0));
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.contains("nodal diameter 1"), "{stderr}");
+
+    // Between mirror planes there is no model, and conditions where they are wished for. Those of
+    // several planes fix a line or a point.
+    let input = bytes(&wedge().document());
+    let text = deck(&[], &input);
+    assert!(!text.contains("*BOUNDARY") && !text.contains("*EQUATION"));
+    assert!(!text.contains("-untied"));
+    let text = deck(&["--mirror", "symmetric"], &input);
+    let axis = nodes_of(&text, "axis");
+    let walls = [nodes_of(&text, "wall-a"), nodes_of(&text, "wall-b")];
+    let mut expected = walls[0].iter().map(|&v| (v, 2)).collect::<Vec<_>>();
+    expected.extend(axis.iter().map(|&v| (v, 1)));
+    let mut found = fixed(&text);
+    found.sort_unstable();
+    expected.sort_unstable();
+    assert_eq!(found, expected);
+    let equations = text.matches("*EQUATION\n2\n").count();
+    assert_eq!(equations, walls[1].len() - axis.len());
+    let one = deck(
+        &["--mirror", "symmetric", "--mirror", "wall-b=none"],
+        &input,
+    );
+    assert!(!one.contains("*EQUATION"));
+    assert_eq!(fixed(&one).len(), walls[0].len());
+
+    let wrong = |how| [&sector[..], &["--mirror", how]].concat();
+    fails(
+        &wrong("wall-c=none"),
+        &input,
+        2,
+        "these are: wall-a, wall-b",
+    );
+    fails(&wrong("even"), &input, 2, "`even` is none of");
+    fails(&["--mirror", "none"], &input, 2, "--sector");
+    fails(
+        &["--sector", "--mirror", "none"],
+        &input,
+        2,
+        "vtk has no conditions",
+    );
+    let whole = bytes(&chiral().document());
+    fails(
+        &wrong("symmetric"),
+        &whole,
+        2,
+        "no wall of the sector is a mirror plane",
+    );
 }
 
 #[test]

@@ -1,13 +1,21 @@
-//! Frequencies of a chiral body: one sector with cyclic symmetry against the whole, by CalculiX.
+//! Frequencies of one sector, by CalculiX, against those of the whole: with cyclic symmetry, and with
+//! conditions at mirror planes.
 
-use crate::generator::{Encoding, Impeller, Tessellation};
+use crate::generator::{Body, Encoding, Gear, Impeller, Placement, Ratchet, Tessellation};
 use crate::tools::{coarse_mesh, encode, rotassemble};
 use std::path::Path;
 use std::process::Command;
 
-const ORDER: u32 = 5;
 const MATERIAL: &str = "*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.8e-9\n\
                         *SOLID SECTION, ELSET=all-elements, MATERIAL=steel\n";
+
+fn is_there() -> bool {
+    let there = Command::new("ccx").arg("-v").output().is_ok();
+    if !there {
+        println!("skipped: CalculiX (ccx) is not installed; run make test as root");
+    }
+    there
+}
 
 /// Solves a deck; returns nodal diameter (0 when it has none) and frequency of each mode.
 fn solve(folder: &Path, name: &str, deck: &str, cyclic: bool) -> Vec<(u32, f64)> {
@@ -36,71 +44,178 @@ fn solve(folder: &Path, name: &str, deck: &str, cyclic: bool) -> Vec<(u32, f64)>
         .collect()
 }
 
-#[test]
-fn a_sector_has_the_frequencies_of_the_whole() {
-    if Command::new("ccx").arg("-v").output().is_err() {
-        println!("skipped: CalculiX (ccx) is not installed; run make test as root");
-        return;
+/// The frequencies of the whole mesh, rigid motions left out, and the largest one.
+fn of_whole(folder: &Path, modes: usize) -> (Vec<f64>, f64) {
+    let deck =
+        format!("*INCLUDE, INPUT=whole.inp\n{MATERIAL}*STEP\n*FREQUENCY\n{modes}\n*END STEP\n");
+    let all = solve(folder, "full", &deck, false);
+    let largest = all.iter().map(|m| m.1).fold(0.0, f64::max);
+    let elastic = all.iter().map(|m| m.1).filter(|&f| !rigid(f, largest));
+    (elastic.collect(), largest)
+}
+
+fn rigid(frequency: f64, largest: f64) -> bool {
+    frequency < 1e-4 * largest
+}
+
+/// Frequencies of a sector of `order` with cyclic symmetry, each as often as it is one of the whole,
+/// and how far up they are complete.
+fn of_sector(folder: &Path, deck: &str, order: u32, modes: usize, largest: f64) -> (Vec<f64>, f64) {
+    let mut deck = format!("*INCLUDE, INPUT={deck}\n{MATERIAL}");
+    for diameter in 0..=order / 2 {
+        deck += &format!(
+            "*STEP\n*FREQUENCY\n{modes}\n*SELECT CYCLIC SYMMETRY MODES, NMIN={diameter}, \
+             NMAX={diameter}\n*END STEP\n"
+        );
     }
+    let found = solve(folder, "cyclic", &deck, true);
+    // Every mode comes as a pair of waves; without nodal diameters the two are one.
+    let (mut merged, mut limit) = (Vec::new(), largest);
+    for diameter in 0..=order / 2 {
+        let all = found
+            .iter()
+            .filter(|m| m.0 == diameter && !rigid(m.1, largest));
+        let all: Vec<f64> = all.map(|m| m.1).collect();
+        assert!(all.len() >= 8, "{found:?}");
+        limit = limit.min(*all.last().expect("some"));
+        let single = diameter == 0 || 2 * diameter == order;
+        merged.extend(all.iter().step_by(if single { 2 } else { 1 }));
+    }
+    (merged, limit)
+}
+
+/// Both lists are the same below a limit, to a thousandth.
+#[track_caller]
+fn same(what: &str, mut found: Vec<f64>, mut whole: Vec<f64>, limit: f64) {
+    for list in [&mut found, &mut whole] {
+        list.retain(|&f| f < 0.999 * limit);
+        list.sort_by(f64::total_cmp);
+    }
+    assert_eq!(found.len(), whole.len(), "{what}: {found:?} {whole:?}");
+    assert!(whole.len() >= 10, "{what}: {whole:?}");
+    let pairs = found.iter().zip(&whole);
+    let worst = pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+    println!("{what}: {} modes, worst deviation {worst:.1e}", found.len());
+    assert!(worst < 1e-3, "{what}: {found:?} {whole:?}");
+}
+
+fn impeller(order: u32, bore: f64) -> Body {
     let body = Impeller {
-        order: ORDER,
+        order,
         radius: 1.0,
-        bore: 0.2,
+        bore,
         height: 1.0,
         twist: 0.5,
         layers: 4,
         tessellation: Tessellation::Symmetric,
+    };
+    body.build()
+}
+
+/// Somewhere, so that no direction is one of the coordinates'.
+fn placed(mut body: Body) -> Body {
+    let placement = Placement {
+        rotate: Some(7),
+        scale: 1.0,
+        jitter: 0.0,
+    };
+    placement.apply(&mut body);
+    body
+}
+
+#[test]
+fn a_sector_has_the_frequencies_of_the_whole() {
+    if !is_there() {
+        return;
     }
-    .build();
+    // With two sectors the conditions that CalculiX sets on the axis are those of the whole body.
+    for (blades, bore, order, modes) in [(5, 0.2, 5, 16), (4, 0.0, 2, 28)] {
+        let temporary = tempfile::tempdir().expect("a folder");
+        let folder = temporary.path();
+        let surface = encode(&impeller(blades, bore), Encoding::Obj);
+        let cut = ["--order", &order.to_string(), "--hub", "none"];
+        let input = coarse_mesh(folder, &surface, &cut);
+        for elements in [&[][..], &["--second-order"]] {
+            let path = |name: &str| folder.join(name).to_str().expect("text").to_owned();
+            let [sector, whole] = ["sector.inp", "whole.inp"].map(path);
+            rotassemble(&input, &[&["--sector", "-o", &sector], elements].concat());
+            rotassemble(&input, &[&["-o", &whole], elements].concat());
+            let (whole, largest) = of_whole(folder, 40);
+            let (found, limit) = of_sector(folder, "sector.inp", order, modes, largest);
+            same(&format!("order {order}, {elements:?}"), found, whole, limit);
+        }
+    }
+}
+
+#[test]
+fn half_a_sector_has_the_frequencies_of_the_whole() {
+    if !is_there() {
+        return;
+    }
+    let body = Ratchet {
+        order: 5,
+        radius: 1.0,
+        bore: 0.3,
+        coating: 0.0,
+        height: 0.8,
+        tessellation: Tessellation::Symmetric,
+    };
     let temporary = tempfile::tempdir().expect("a folder");
     let folder = temporary.path();
-    let surface = encode(&body, Encoding::Obj);
-    let input = coarse_mesh(folder, &surface, &["--order", "5", "--hub", "none"]);
-    for order in [&[][..], &["--second-order"]] {
-        let path = |name: &str| folder.join(name).to_str().expect("text").to_owned();
-        let [sector, whole] = ["sector.inp", "whole.inp"].map(path);
-        rotassemble(&input, &[&["--sector", "-o", &sector], order].concat());
-        rotassemble(&input, &[&["-o", &whole], order].concat());
-        let mut deck = format!("*INCLUDE, INPUT=sector.inp\n{MATERIAL}");
-        for diameter in 0..=ORDER / 2 {
-            deck += &format!(
-                "*STEP\n*FREQUENCY\n16\n*SELECT CYCLIC SYMMETRY MODES, NMIN={diameter}, \
-                 NMAX={diameter}\n*END STEP\n"
-            );
-        }
-        let of_sector = solve(folder, "cyclic", &deck, true);
-        let deck =
-            format!("*INCLUDE, INPUT=whole.inp\n{MATERIAL}*STEP\n*FREQUENCY\n40\n*END STEP\n");
-        let of_whole = solve(folder, "full", &deck, false);
-        let largest = of_whole.iter().map(|m| m.1).fold(0.0, f64::max);
-        let rigid = |f: f64| f < 1e-4 * largest;
-
-        // Every mode comes as a pair of waves; without nodal diameters the two are one.
-        let mut merged = Vec::new();
-        let mut limit = largest;
-        for diameter in 0..=ORDER / 2 {
-            let all = of_sector.iter().filter(|m| m.0 == diameter && !rigid(m.1));
-            let all: Vec<f64> = all.map(|m| m.1).collect();
-            assert!(all.len() >= 8, "{of_sector:?}");
-            limit = limit.min(*all.last().expect("some"));
-            let single = diameter == 0 || 2 * diameter == ORDER;
-            merged.extend(all.iter().step_by(if single { 2 } else { 1 }));
-        }
-        merged.sort_by(f64::total_cmp);
-        let elastic: Vec<f64> = of_whole
-            .iter()
-            .map(|m| m.1)
-            .filter(|&f| !rigid(f))
-            .collect();
-        let below = |list: &[f64]| list.iter().filter(|&&f| f < 0.999 * limit).count();
-        let count = below(&elastic);
-        assert!(count >= 10, "{elastic:?}");
-        assert_eq!(below(&merged), count, "{merged:?} {elastic:?}");
-        let mut worst = 0.0_f64;
-        for (a, b) in merged.iter().zip(&elastic[..count]) {
-            worst = worst.max((a / b - 1.0).abs());
-        }
-        println!("{count} modes, {order:?}: worst deviation {worst:.1e}");
-        assert!(worst < 1e-3, "{merged:?} {elastic:?}");
+    let surface = encode(&placed(body.build()), Encoding::Obj);
+    let input = coarse_mesh(folder, &surface, &["--order", "5"]);
+    let path = |name: &str| folder.join(name).to_str().expect("text").to_owned();
+    // Of first order there were fewer unknowns than modes wanted.
+    rotassemble(&input, &["--second-order", "-o", &path("whole.inp")]);
+    let (whole, largest) = of_whole(folder, 40);
+    let (mut found, mut limit) = (Vec::new(), largest);
+    for parity in ["symmetric", "wall-level=antisymmetric"] {
+        let options = ["--sector", "--second-order", "--mirror", parity, "-o"];
+        rotassemble(&input, &[&options[..], &[&path("half.inp")]].concat());
+        let (some, complete) = of_sector(folder, "half.inp", 5, 16, largest);
+        found.extend(some);
+        limit = limit.min(complete);
     }
+    same("halves", found, whole, limit);
+}
+
+#[test]
+fn a_wedge_between_mirror_planes_has_the_frequencies_of_the_whole() {
+    if !is_there() {
+        return;
+    }
+    let body = Gear {
+        order: 6,
+        radius: 1.0,
+        bore: 0.0,
+        height: 0.5,
+        tessellation: Tessellation::Symmetric,
+    };
+    let temporary = tempfile::tempdir().expect("a folder");
+    let folder = temporary.path();
+    let surface = encode(&placed(body.build()), Encoding::Obj);
+    let cut = ["--order", "2", "--hub", "none"];
+    let cut = [&cut[..], &["--horizontal-mirror", "off"]].concat();
+    let input = coarse_mesh(folder, &surface, &cut);
+    let path = |name: &str| folder.join(name).to_str().expect("text").to_owned();
+    rotassemble(&input, &["-o", &path("whole.inp")]);
+    let (whole, largest) = of_whole(folder, 40);
+    // A quarter: each mode of the whole is even or odd at each of the two planes.
+    let (mut found, mut limit) = (Vec::new(), largest);
+    for [a, b] in [["", ""], ["anti", ""], ["", "anti"], ["anti", "anti"]] {
+        let [a, b] = [
+            format!("wall-a={a}symmetric"),
+            format!("wall-b={b}symmetric"),
+        ];
+        let options = ["--sector", "--mirror", &a, "--mirror", &b, "-o"];
+        rotassemble(&input, &[&options[..], &[&path("quarter.inp")]].concat());
+        let deck =
+            format!("*INCLUDE, INPUT=quarter.inp\n{MATERIAL}*STEP\n*FREQUENCY\n12\n*END STEP\n");
+        let all = solve(folder, "quarter-of", &deck, false);
+        let elastic = all.iter().map(|m| m.1).filter(|&f| !rigid(f, largest));
+        let elastic: Vec<f64> = elastic.collect();
+        limit = limit.min(*elastic.last().expect("some"));
+        found.extend(elastic);
+    }
+    same("quarters", found, whole, limit);
 }

@@ -43,6 +43,6 @@ pub use stream::{
     TetRegionBlock, TetRegionSink, TetSink, TriangleBlock, TriangleSink,
 };
 pub use write::{
-    Plain, Surface, WriteError, WriteOptions, file_parts, parse_promise, placed_side,
+    Parity, Plain, Surface, WriteError, WriteOptions, file_parts, parse_promise, placed_side,
     promise_title, size_estimate, write, write_document, write_part, write_pieces, write_text,
 };

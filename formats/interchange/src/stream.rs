@@ -194,6 +194,11 @@ pub trait MeshStream {
     fn is_second_order(&self) -> bool {
         false
     }
+    /// For each of [`MeshStream::wall_names`] the unit normal of the mirror plane it lies on, world
+    /// coordinates; none where it is no such face.
+    fn wall_normals(&self) -> &[Option<DVec3>] {
+        &[]
+    }
     /// Faces that are images of each other; none in an assembled mesh.
     fn couplings(&self) -> &[Coupling] {
         &[]

@@ -47,6 +47,7 @@ pub struct Assembled<'a> {
 #[derive(Default)]
 struct Open {
     names: Vec<String>,
+    normals: Vec<Option<DVec3>>,
     /// Wall per triangle of each template, as in [`TriangleBlock::walls`]; empty when nothing is open.
     walls: Vec<Vec<u32>>,
     couplings: Vec<Coupling>,
@@ -177,6 +178,7 @@ impl<'a> Assembled<'a> {
             couplings: couplings.collect(),
             axis_edges: plain.axis_edges().iter().map(|e| e.map(locate)).collect(),
             names: plain.wall_names().to_vec(),
+            normals: plain.wall_normals().to_vec(),
             walls: (0..templates).map(|t| plain.walls_of(t).to_vec()).collect(),
         }
     }
@@ -603,6 +605,10 @@ impl MeshStream for Assembled<'_> {
 
     fn is_second_order(&self) -> bool {
         self.middles.is_some()
+    }
+
+    fn wall_normals(&self) -> &[Option<DVec3>] {
+        &self.open.normals
     }
 
     fn couplings(&self) -> &[Coupling] {

@@ -1,8 +1,8 @@
 //! The command line of `rotassemble`.
 
 use crate::{
-    Assembled, NumberingError, Piece, TableFormat, sector, sort_by_region, write_expanded,
-    write_pairs,
+    Assembled, MirrorWish, NumberingError, Piece, TableFormat, conditions, sector, sort_by_region,
+    write_expanded, write_pairs,
 };
 use clap::ValueEnum;
 use interchange::{
@@ -64,6 +64,12 @@ pub struct Cli {
     /// Of a sector, also write the table of coupled nodes and faces: JSON, or CSV by the extension
     #[arg(long, value_name = "PATH", requires = "sector")]
     pairs: Option<PathBuf>,
+
+    /// Of a sector, also write the conditions on displacements at its mirror planes, or at the wall named:
+    /// `symmetric` (nothing moves out of the plane), `antisymmetric` (nothing moves within it) or
+    /// `none`, which is right for heat; repeatable (inp)
+    #[arg(long, value_name = "[WALL=]HOW", requires = "sector")]
+    mirror: Vec<MirrorWish>,
 }
 
 const EXAMPLES: &str = "\
@@ -79,6 +85,8 @@ Examples:
   rotassemble a.tet.tmesh --sector -o wedge.inp --pairs pairs.json
       For cyclic-symmetric analysis: one wedge with sets, tie and number of sectors, and the table
       of coupled nodes, counted as in the mesh file.
+  rotassemble a.tet.tmesh --sector --mirror symmetric -o wedge.inp
+      For solutions that are symmetric at all mirror planes of the wedge.
   rotassemble a.tet.tmesh -o a.msh
       For Gmsh and what reads its files: regions and markers are physical groups.
   rotassemble a.tet.tmesh -o a.pvtu
@@ -113,7 +121,13 @@ impl Command for Cli {
                 format.name()
             )));
         }
-        let options = WriteOptions {
+        if !self.mirror.is_empty() && format != Format::Inp {
+            return Err(Failure::Usage(format!(
+                "{} has no conditions; --mirror goes with --to inp",
+                format.name()
+            )));
+        }
+        let mut options = WriteOptions {
             boundary: self.boundary,
             surface: match self.surface {
                 SurfaceArg::Boundary => Surface::Boundary,
@@ -121,6 +135,7 @@ impl Command for Cli {
             },
             ascii: self.ascii,
             compress: self.compress,
+            parities: Vec::new(),
         };
         let listed = self.instances || format == Format::Text;
         if self.second_order && (as_is || listed) {
@@ -155,9 +170,21 @@ impl Command for Cli {
         }
         // Nothing to assemble: each template as it is, with all its walls.
         let apart = document.instances.len() <= document.templates.len() && !mesh.is_welded();
+        let plain = if apart || self.pairs.is_some() {
+            Some(plain(&document, middles)?)
+        } else {
+            None
+        };
+        let shown: &dyn MeshStream = match &plain {
+            Some(plain) if apart => plain,
+            _ => &mesh,
+        };
+        if self.sector && format == Format::Inp {
+            let settled = conditions(shown, &self.mirror)?;
+            settled.note.iter().for_each(|note| session.note(note));
+            options.parities = settled.parities;
+        }
         if let Some(path) = &self.pairs {
-            let plain = plain(&document, middles)?;
-            let shown: &dyn MeshStream = if apart { &plain } else { &mesh };
             let table = match path.extension() {
                 Some(e) if e.eq_ignore_ascii_case("csv") => TableFormat::Csv,
                 _ => TableFormat::Json,
@@ -174,7 +201,7 @@ impl Command for Cli {
             if as_is {
                 return session.write_in(&document, format);
             }
-            return write_mesh(session, &plain(&document, middles)?, format, &options);
+            return write_mesh(session, shown, format, &options);
         }
         session.info(&format!(
             "{} instances make {} points, {} tetrahedra",

@@ -12,6 +12,7 @@ mod pairs;
 mod piece;
 mod promise;
 mod sector;
+mod solver;
 
 pub use assembled::Assembled;
 pub use cli::Cli;
@@ -20,3 +21,4 @@ pub use numbering::{Numbering, NumberingError};
 pub use pairs::{TableFormat, write_pairs};
 pub use piece::Piece;
 pub use sector::{sector, sort_by_region};
+pub use solver::{Conditions, MirrorWish, conditions};

@@ -34,9 +34,9 @@ fn document() -> Document {
     document
 }
 
-fn written(mesh: &dyn MeshStream, format: Format, options: WriteOptions) -> Vec<u8> {
+fn written(mesh: &dyn MeshStream, format: Format, options: &WriteOptions) -> Vec<u8> {
     let mut bytes = Vec::new();
-    interchange::write(mesh, format, &options, &mut bytes).unwrap();
+    interchange::write(mesh, format, options, &mut bytes).unwrap();
     bytes
 }
 
@@ -65,7 +65,7 @@ fn legacy_vtk_holds_the_mesh() {
     let document = document();
     let assembled = Assembled::new(&document).unwrap();
     let mesh = gather(&assembled);
-    let bytes = written(&assembled, Format::Vtk, WriteOptions::default());
+    let bytes = written(&assembled, Format::Vtk, &WriteOptions::default());
     let (points, tets) = (mesh.points.len(), mesh.tets.len());
     let title = String::from_utf8_lossy(&bytes)
         .lines()
@@ -112,7 +112,7 @@ fn the_same_input_gives_the_same_bytes() {
             surface: Surface::All,
             ..WriteOptions::default()
         };
-        let [a, b] = [0; 2].map(|_| written(&Assembled::new(&document).unwrap(), format, options));
+        let [a, b] = [0; 2].map(|_| written(&Assembled::new(&document).unwrap(), format, &options));
         assert!(a == b);
     }
 }
@@ -151,7 +151,7 @@ fn stl_of_the_boundary_bounds_the_volume() {
     let document = document();
     let assembled = Assembled::new(&document).unwrap();
     let mesh = gather(&assembled);
-    let bytes = written(&assembled, Format::Stl, WriteOptions::default());
+    let bytes = written(&assembled, Format::Stl, &WriteOptions::default());
     let (records, _) = bytes[84..].as_chunks::<50>();
     let sides = |t: &&tmesh::Triangle| (t.front == OUTSIDE) != (t.back == OUTSIDE);
     assert_eq!(records.len(), mesh.triangles.iter().filter(sides).count());

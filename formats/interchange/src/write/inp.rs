@@ -2,26 +2,34 @@
 //!
 //! Format: CalculiX CrunchiX user's manual, "Input deck format". Sets of elements are regions; sets
 //! of nodes and surfaces made of element faces are markers and walls. On a sector with a seam there
-//! are a tie of the two faces and the number of sectors with two points of the axis. Names are made
-//! to fit: letters, digits, `_` and `-`, unique without regard to case.
+//! are a tie of the two faces and the number of sectors with two points of the axis, and of every
+//! set of nodes the part that is not tied, for boundary conditions. Where a parity is given for a
+//! mirror plane, its condition is there. Names are made to fit: letters, digits, `_` and `-`, unique
+//! without regard to case.
 
-use super::WriteError;
 use super::bytes::ByteSink;
 use super::tags::{Tags, runs};
 use super::title::one_line;
+use super::{Parity, WriteError, conditions};
 use crate::{Coupling, Label, MeshStream, Side};
+use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// Longest name.
 const MAX_NAME: usize = 60;
 /// Nodes per line.
-const PER_LINE: u32 = 10;
+const PER_LINE: usize = 10;
 /// Number of the face opposite to each vertex.
 const FACE: [u8; 4] = [3, 4, 2, 1];
 const LIMIT: u64 = i32::MAX as u64;
 
-pub fn write(mesh: &dyn MeshStream, out: &mut dyn Write) -> Result<(), WriteError> {
+/// Writes the file; `parities` are those of the walls, by position.
+pub fn write(
+    mesh: &dyn MeshStream,
+    parities: &[Option<Parity>],
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
     let elements = mesh.tet_count().max(mesh.triangle_count());
     for (what, count) in [("points", mesh.point_count()), ("elements", elements)] {
         if count > LIMIT {
@@ -51,7 +59,11 @@ pub fn write(mesh: &dyn MeshStream, out: &mut dyn Write) -> Result<(), WriteErro
     for (patch, name) in mesh.patches().iter().zip(patch_names) {
         let what = match patch.label {
             Label::Marker(id) => format!("marker {id}"),
-            Label::Wall(_) => "wall".to_owned(),
+            Label::Wall(wall) => match parities.get(wall as usize).copied().flatten() {
+                Some(Parity::Symmetric) => "wall with a symmetric solution".to_owned(),
+                Some(Parity::Antisymmetric) => "wall with an antisymmetric solution".to_owned(),
+                None => "wall".to_owned(),
+            },
             Label::Unnamed => continue,
         };
         let given = one_line(&mesh.patch_name(patch.label).unwrap_or_default());
@@ -96,12 +108,14 @@ pub fn write(mesh: &dyn MeshStream, out: &mut dyn Write) -> Result<(), WriteErro
     } else {
         write_shells(mesh, patch_names, &mut sink)?;
     }
-    write_node_sets(mesh, patch_names, &mut sink)?;
+    let tied = tied(mesh);
+    write_node_sets(mesh, patch_names, &tied, &mut sink)?;
     if mesh.tet_count() > 0 {
         write_surfaces(mesh, patch_names, &mut sink)?;
     }
     write_axis(mesh, &mut sink)?;
     write_ties(mesh, patch_names, &mut sink)?;
+    conditions::write(mesh, parities, &tied, &mut sink)?;
     Ok(sink.finish()?)
 }
 
@@ -112,7 +126,7 @@ pub fn size_estimate(mesh: &dyn MeshStream) -> u64 {
 
 /// A number in at most 20 characters, all that CalculiX reads of one; 14 significant digits where the
 /// shortest exact form is longer.
-fn coordinate(x: f64) -> String {
+pub fn coordinate(x: f64) -> String {
     let exact = format!("{x:?}");
     if exact.len() <= 20 {
         return exact;
@@ -194,13 +208,24 @@ fn write_shells(
     Ok(())
 }
 
-/// Points of each patch, each once and increasing, by way of a bit per point of the mesh.
+/// Points whose values the tie of a seam or the solver's own conditions on the axis give.
+fn tied(mesh: &dyn MeshStream) -> FxHashSet<u32> {
+    let couplings = mesh.couplings().iter().filter(|c| c.low != c.high);
+    couplings.flat_map(|c| &c.points).map(|p| p[0]).collect()
+}
+
+/// Points of each patch, each once and increasing, by way of a bit per point of the mesh; where some
+/// of them are tied, the others once more.
 fn write_node_sets(
     mesh: &dyn MeshStream,
     names: &[String],
+    tied: &FxHashSet<u32>,
     sink: &mut ByteSink<'_>,
 ) -> io::Result<()> {
     let mut set = vec![0_u64; mesh.point_count().div_ceil(64) as usize];
+    let taken = names.iter().cloned().map(Some);
+    let untied = names.iter().map(|n| Some(format!("{n}-untied")));
+    let untied = fitting(taken.chain(untied)).split_off(names.len());
     for (i, name) in names.iter().enumerate() {
         if mesh.patches()[i].label == Label::Unnamed {
             continue;
@@ -218,20 +243,34 @@ fn write_node_sets(
             Ok(())
         })?;
         touched.sort_unstable();
-        sink.text(&format!("*NSET, NSET={name}\n"))?;
-        let mut on_line = 0;
+        let mut nodes = Vec::new();
         for at in touched {
             let mut bits = std::mem::take(&mut set[at as usize]);
             while bits != 0 {
-                let v = 64 * u64::from(at) + u64::from(bits.trailing_zeros());
+                nodes.push(64 * at + bits.trailing_zeros());
                 bits &= bits - 1;
-                on_line += 1;
-                let end = if on_line % PER_LINE == 0 { ",\n" } else { ", " };
-                sink.write_fmt(format_args!("{}{end}", v + 1))?;
             }
         }
-        if on_line % PER_LINE != 0 {
-            sink.text("\n")?;
+        write_set(name, &nodes, sink)?;
+        let count = nodes.len();
+        nodes.retain(|v| !tied.contains(v));
+        if !nodes.is_empty() && nodes.len() < count {
+            write_set(&untied[i], &nodes, sink)?;
+        }
+    }
+    Ok(())
+}
+
+fn write_set(name: &str, nodes: &[u32], sink: &mut ByteSink<'_>) -> io::Result<()> {
+    sink.text(&format!("*NSET, NSET={name}\n"))?;
+    for line in nodes.chunks(PER_LINE) {
+        for (k, v) in line.iter().enumerate() {
+            let end = match (k + 1 == line.len(), k + 1 == PER_LINE) {
+                (true, true) => ",\n",
+                (true, false) => "\n",
+                _ => ", ",
+            };
+            sink.write_fmt(format_args!("{}{end}", u64::from(*v) + 1))?;
         }
     }
     Ok(())
@@ -299,6 +338,14 @@ fn write_ties(mesh: &dyn MeshStream, names: &[String], sink: &mut ByteSink<'_>) 
             "** No cyclic symmetry model: the column around the axis has a symmetry of its own, and\n\
              ** faces that other sectors touch elsewhere. Cut without it (wedgecut --hub none).\n",
         );
+    }
+    if seams.first().is_some_and(|s| s.1 > 2) && !mesh.axis_edges().is_empty() {
+        sink.text(
+            "** Material lies on the axis. In frequency steps CalculiX holds these nodes by nodal diameter:\n\
+             ** along the axis (1), across it (0) or both (above), each in a step of its own. For nodal\n\
+             ** diameter 1 that leaves them more freedom than they have in the whole body, which has them\n\
+             ** move on a circle; take its frequencies from the whole mesh.\n",
+        )?;
     }
     let tied = fitting(seams.iter().map(|s| Some(s.0.name.clone())));
     for ((_, _, low, high), tie) in seams.iter().zip(&tied) {

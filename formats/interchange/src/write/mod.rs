@@ -2,6 +2,7 @@
 
 mod bytes;
 mod cells;
+mod conditions;
 mod couplings;
 mod error;
 mod inp;
@@ -18,6 +19,7 @@ mod title;
 mod vtk;
 mod vtu;
 
+pub use conditions::Parity;
 pub use error::WriteError;
 pub use plain::{Plain, placed_side};
 pub use stl::Surface;
@@ -30,7 +32,7 @@ use std::io::Write;
 use tmesh::Document;
 
 /// What goes into a file, where the format leaves a choice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
     /// Add the surface triangles to the cells of a file that has tetrahedra, with all cell arrays.
     /// A mesh without tetrahedra is always written as triangles.
@@ -41,6 +43,9 @@ pub struct WriteOptions {
     pub ascii: bool,
     /// Compress the arrays of a VTU file.
     pub compress: bool,
+    /// The condition to write for each wall of a sector that is a mirror plane, by position in
+    /// [`MeshStream::wall_names`]; none beyond the end. Only INP has conditions.
+    pub parities: Vec<Option<Parity>>,
 }
 
 /// Writes a mesh in a foreign format.
@@ -60,7 +65,7 @@ pub fn write(
         Format::Msh => msh::write(mesh, options.ascii, out),
         Format::Msh2 => msh2::write(mesh, options.ascii, out),
         Format::Medit => medit::write(mesh, out),
-        Format::Inp => inp::write(mesh, out),
+        Format::Inp => inp::write(mesh, &options.parities, out),
         Format::Node | Format::Pvtu => Err(WriteError::SeveralFiles(format.name())),
         other => Err(WriteError::NotAnOutput(other.name())),
     }

@@ -27,6 +27,7 @@ pub struct Plain<'a> {
     /// First point id of each template.
     first: Vec<u32>,
     wall_names: Vec<String>,
+    wall_normals: Vec<Option<DVec3>>,
     /// Wall per triangle of each template, numbered as in [`MeshStream::wall_names`] plus one.
     walls: Vec<Vec<u32>>,
     patches: Vec<Patch>,
@@ -97,7 +98,9 @@ impl<'a> Plain<'a> {
                 });
             }
         }
+        let isometries: Vec<Isometry> = shown.iter().map(|(i, _)| i.isometry).collect();
         let (wall_names, walls) = label_walls(document);
+        let wall_normals = wall_normals(document, &isometries, wall_names.len());
         let labelled: Vec<_> = document
             .templates
             .iter()
@@ -118,7 +121,6 @@ impl<'a> Plain<'a> {
             .into_iter()
             .map(|(label, triangles)| Patch { label, triangles })
             .collect();
-        let isometries: Vec<Isometry> = shown.iter().map(|(i, _)| i.isometry).collect();
         Ok(Self {
             couplings: couplings(document, &isometries, &first),
             axis_edges: axis_edges(document, &first, middles),
@@ -126,6 +128,7 @@ impl<'a> Plain<'a> {
             shown,
             first,
             wall_names,
+            wall_normals,
             walls,
             patches,
             labelled,
@@ -238,6 +241,22 @@ fn label_walls(document: &Document) -> (Vec<String>, Vec<Vec<u32>>) {
         }
     }
     (names.names, labels)
+}
+
+/// Normals of the mirror planes among `count` walls, of templates placed as they are shown.
+fn wall_normals(document: &Document, shown: &[Isometry], count: usize) -> Vec<Option<DVec3>> {
+    let mut normals = vec![None; count];
+    let mut names = WallNames::default();
+    for (t, template) in document.templates.iter().enumerate() {
+        for wall in &template.walls {
+            let [at, _] = names.of(t, wall);
+            if let Wall::Mirror(mirror) = wall {
+                let placed = shown[t].matrix() * mirror.plane.normal;
+                normals[at as usize] = Some((document.frame.rotation * placed).normalize());
+            }
+        }
+    }
+    normals
 }
 
 /// Gives walls their names.
@@ -439,6 +458,10 @@ impl MeshStream for Plain<'_> {
 
     fn is_second_order(&self) -> bool {
         self.middles.is_some()
+    }
+
+    fn wall_normals(&self) -> &[Option<DVec3>] {
+        &self.wall_normals
     }
 
     fn couplings(&self) -> &[Coupling] {
