@@ -41,6 +41,10 @@ MESHQUAL_FLAGS ?= --check
 %.vtk: %.tet.tmesh
 	$(BIN)rotassemble $(ROTASSEMBLE_FLAGS) $< -o $@
 
+# For Gmsh and what takes meshes from it.
+%.msh: %.tet.tmesh
+	$(BIN)rotassemble $(ROTASSEMBLE_FLAGS) $< -o $@
+
 %.quality.txt: %.tet.tmesh
 	$(BIN)meshqual $(MESHQUAL_FLAGS) $< -o $@
 

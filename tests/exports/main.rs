@@ -10,6 +10,7 @@ mod generator;
 mod boundary;
 mod calculix;
 mod heat;
+mod poisson;
 mod referee;
 mod sweep;
 mod tools;

@@ -266,6 +266,10 @@ fn write_pvtu(
         paths.push(folder.join(&name));
         sources.push(format!("{stem}/{name}"));
     }
+    let sources: Vec<String> = evenly(document)
+        .into_iter()
+        .map(|i| std::mem::take(&mut sources[i]))
+        .collect();
     paths.push(path.to_owned());
     let fresh = !folder.exists();
     std::fs::create_dir_all(&folder)
@@ -285,6 +289,29 @@ fn write_pvtu(
         let _ = std::fs::remove_dir(&folder);
     }
     written
+}
+
+/// Instances in an order in which those of each template are spread evenly: parallel readers give
+/// every rank a stretch of the list.
+fn evenly(document: &Document) -> Vec<usize> {
+    let mut of_template = vec![0_u64; document.templates.len()];
+    let mut before = Vec::new();
+    for instance in &document.instances {
+        let count = &mut of_template[instance.template as usize];
+        before.push(*count);
+        *count += 1;
+    }
+    let mut order: Vec<usize> = (0..before.len()).collect();
+    // The middle of its share of the list, a fraction: (2 k + 1) of (2 n).
+    let place = |i: usize| {
+        let count = of_template[document.instances[i].template as usize];
+        (u128::from(2 * before[i] + 1), u128::from(2 * count))
+    };
+    order.sort_by(|&i, &j| {
+        let ((a, b), (c, d)) = (place(i), place(j));
+        (a * d).cmp(&(c * b)).then(i.cmp(&j))
+    });
+    order
 }
 
 fn write_mesh(
