@@ -13,8 +13,11 @@ TOOLS := symdetect wedgecut periodic-surf tetwedge rotassemble meshqual
 # Python with meshio, vtk and gmsh, which read meshes independently of this project, and Snakemake, which
 # runs a flow: in tests only.
 REFEREE := $(TARGET)/referee
+FUZZ := tests/fuzz
+# Cargo's own tools, where make installs them when they are missing.
+TOOLBOX := $(TARGET)/tools/bin
 
-.PHONY: help setup build demo test check fmt lint bench bench-quick bench-publish bench-programs manual install dist clean
+.PHONY: help setup build demo test check fmt lint fuzz fuzz-tool audit bench bench-quick bench-publish bench-programs manual install dist clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -38,11 +41,27 @@ test: setup ## run every test
 
 fmt: ## check the formatting
 	$(CARGO) fmt --all --check
+	$(CARGO) fmt --manifest-path $(FUZZ)/Cargo.toml --check
 
 lint: setup ## run clippy, warnings are errors
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
+	$(CARGO) clippy --manifest-path $(FUZZ)/Cargo.toml --target-dir $(TARGET) --all-targets -- -D warnings
 
 check: fmt lint test ## what CI runs: formatting, lints, every test
+
+# Seconds per fuzz target.
+SECONDS ?= 60
+
+fuzz-tool:
+	@PATH=$(TOOLBOX):$$PATH cargo fuzz --version >/dev/null 2>&1 || $(CARGO) install cargo-fuzz@0.13.2 --locked --root $(TARGET)/tools
+
+fuzz: setup fuzz-tool ## fuzz decoder and readers, SECONDS (default 60) each; TARGETS="stl obj" for some
+	$(CARGO) run --quiet --manifest-path $(FUZZ)/Cargo.toml --target-dir $(TARGET)/fuzz --example seeds -- $(TARGET)/fuzz/seeds
+	CARGO_TARGET_DIR=$(TARGET)/fuzz PATH=$(TOOLBOX):$$PATH $(CARGO) fuzz build --fuzz-dir $(FUZZ) --sanitizer none --release
+	CARGO_TARGET_DIR=$(TARGET)/fuzz $(FUZZ)/run $(SECONDS) $(TARGETS)
+
+audit: ## check licences, sources and known vulnerabilities of all dependencies (cargo-deny)
+	@PATH=$(TOOLBOX):$$PATH .ci/audit $(TARGET)/tools
 
 BENCH := python3 examples/benchmark/bench.py
 # More options of `bench.py run`, such as --hxt or --stop-after 60.

@@ -161,6 +161,11 @@ pub fn build(grid: Grid, format: &'static str) -> Result<Imported, ReadError> {
     if tets == 0 && sides.is_none() {
         return as_soup(grid, format);
     }
+    if tets == 0 && triangles == 0 {
+        return Err(ReadError::BadSurface(
+            "it has neither tetrahedra nor triangles".to_owned(),
+        ));
+    }
     let region = grid.array("region");
     let marker = grid.array("marker");
     let mut template = Template {

@@ -24,7 +24,8 @@ pub fn remove(surface: &mut Surface, rounding: f64) -> usize {
             break;
         }
     }
-    before - flat_ones(surface, rounding).len()
+    // Where coordinates are hardly known, contracting may leave more than it removes.
+    before.saturating_sub(flat_ones(surface, rounding).len())
 }
 
 /// Triangles lower than `rounding`, each with its corner opposite to the longest edge.

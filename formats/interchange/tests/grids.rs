@@ -190,6 +190,31 @@ fn ascii_files_of_others() {
 }
 
 #[test]
+fn files_without_cells_are_refused() {
+    let array = |kind: &str, name: &str| format!("<DataArray type='{kind}' Name='{name}'/>");
+    let cells: String = [
+        ("Int32", "connectivity"),
+        ("Int32", "offsets"),
+        ("UInt8", "types"),
+    ]
+    .map(|(kind, name)| array(kind, name))
+    .concat();
+    let points = "<DataArray type='Float32' NumberOfComponents='3'/>";
+    for sides in [
+        String::new(),
+        array("Int32", "front") + &array("Int32", "back"),
+    ] {
+        let xml = format!(
+            "<?xml version='1.0'?>\n<VTKFile type='UnstructuredGrid' byte_order='LittleEndian'>\
+             <UnstructuredGrid><Piece NumberOfPoints='0' NumberOfCells='0'><Points>{points}</Points>\
+             <Cells>{cells}</Cells><CellData>{sides}</CellData></Piece></UnstructuredGrid></VTKFile>"
+        );
+        let message = refused(xml.as_bytes(), Vtu);
+        assert!(message.contains("triangles"), "{message}");
+    }
+}
+
+#[test]
 fn faults_are_located() {
     let fault = |from: &str, to: &str| refused(ASCII.replacen(from, to, 1).as_bytes(), Vtk);
     assert_eq!(

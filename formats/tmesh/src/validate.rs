@@ -35,6 +35,7 @@ pub fn validate(document: &Document) -> Vec<Violation> {
     check_frame(document, &mut found);
     let regions: HashSet<u32> = document.regions.iter().map(|r| r.id).collect();
     check_tables(document, &regions, &mut found);
+    check_numbers(document, &mut found);
     check_turns(document, &mut found);
     if let Some(symmetry) = &document.symmetry {
         check_symmetry(symmetry, &mut found);
@@ -99,6 +100,57 @@ fn check_tables(document: &Document, regions: &HashSet<u32>, found: &mut Collect
                 id: *to,
             });
         }
+    }
+}
+
+/// Checks the numbers of the tables: JSON has no infinite ones, and none that is not a number.
+fn check_numbers(document: &Document, found: &mut Collector) {
+    let mut check = |value: f64, positive: bool, what: &dyn Fn() -> String| {
+        if !value.is_finite() || positive && value <= 0.0 {
+            found.add(Violation::BadNumber {
+                what: what(),
+                value,
+                positive,
+            });
+        }
+    };
+    for region in &document.regions {
+        let name = &region.name;
+        if let Some(limit) = region.max_volume {
+            check(limit, true, &|| {
+                format!("the volume limit of region '{name}'")
+            });
+        }
+        if let Some(volume) = region.volume {
+            check(volume, false, &|| format!("the volume of region '{name}'"));
+        }
+    }
+    for marker in &document.markers {
+        if let Some(area) = marker.area {
+            check(area, false, &|| format!("the area of '{}'", marker.name));
+        }
+    }
+    if let Some(source) = &document.source {
+        let numbers = [
+            (source.volume, "volume"),
+            (source.boundary_area, "boundary area"),
+            (source.precision, "precision"),
+        ];
+        for (value, what) in numbers {
+            check(value, false, &|| format!("the source's {what}"));
+        }
+    }
+    let Some(symmetry) = &document.symmetry else {
+        return;
+    };
+    let own = [symmetry.residual, symmetry.tolerance, symmetry.radius];
+    let rejected = symmetry.rejected.iter().map(|r| r.residual);
+    let others = symmetry.other_axes.iter();
+    let others = others.flat_map(|o| o.direction.into_iter().chain([o.residual]));
+    let promise = symmetry.promise.iter();
+    let promise = promise.flat_map(|p| p.rotation.into_iter().flatten().chain(p.origin));
+    for value in own.into_iter().chain(rejected).chain(others).chain(promise) {
+        check(value, false, &|| "a number of the symmetry".to_owned());
     }
 }
 

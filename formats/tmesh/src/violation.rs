@@ -85,6 +85,16 @@ pub enum Violation {
         /// The id.
         id: u32,
     },
+    /// A number of the tables is not one, or has a value that it cannot have.
+    #[error("{what} is {value}, and must be a finite{} number", if *.positive { " positive" } else { "" })]
+    BadNumber {
+        /// Such as `the volume of region 'copper'`.
+        what: String,
+        /// The value.
+        value: f64,
+        /// Whether it must be above zero.
+        positive: bool,
+    },
     /// A wall's list is not increasing.
     #[error(
         "wall '{wall}' of template {template}: its list of {what} is not increasing at entry {index}"

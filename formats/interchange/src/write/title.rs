@@ -1,7 +1,7 @@
 //! The title line, which carries the promised symmetry through formats that have no place for it.
 
 use glam::DVec3;
-use tmesh::{Document, Outside, Promise};
+use tmesh::{Document, MAX_TURN_DENOMINATOR, Outside, Promise};
 
 /// Longest title of a legacy VTK file, without the line end.
 pub const MAX_TITLE: usize = 255;
@@ -72,7 +72,7 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
     let mut outside = None;
     for word in words {
         match word.split_once('=') {
-            Some(("order", v)) => order = v.parse().ok().filter(|&n: &u32| n > 0),
+            Some(("order", v)) => order = parse_order(v),
             Some(("mirror", v)) => mirror = v == "1",
             Some(("horizontal", v)) => horizontal_mirror = v == "1",
             Some(("axis", v)) => {
@@ -87,9 +87,13 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
     let z = DVec3::new(n[3], n[4], n[5]);
     let x = DVec3::new(n[6], n[7], n[8]);
     let y = z.cross(x);
-    let orthonormal = (z.length() - 1.0).abs() < 1e-9 && (y.length() - 1.0).abs() < 1e-9;
+    let is_unit = |v: DVec3| (v.length() - 1.0).abs() < 1e-9;
+    // Two unit vectors whose product is one too are orthogonal.
+    let orthonormal = [x, y, z].into_iter().all(is_unit);
+    let order = order?;
+    let outside = outside.filter(|o| o.order.is_multiple_of(order));
     orthonormal.then_some(Promise {
-        order: order?,
+        order,
         mirror,
         horizontal_mirror,
         rotation: [[x.x, y.x, z.x], [x.y, y.y, z.y], [x.z, y.z, z.z]],
@@ -98,9 +102,15 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
     })
 }
 
+/// An order that a document may have.
+fn parse_order(text: &str) -> Option<u32> {
+    let orders = 1..=MAX_TURN_DENOMINATOR / 2;
+    text.parse().ok().filter(|n| orders.contains(n))
+}
+
 fn parse_outside(text: &str) -> Option<Outside> {
     let mut parts = text.split(',');
-    let order = parts.next()?.parse().ok().filter(|&n: &u32| n > 0)?;
+    let order = parse_order(parts.next()?)?;
     let mirror = parts.next()? == "1";
     let radius = parts.next()?.parse().ok();
     let radius = radius.filter(|r| (0.0..f64::INFINITY).contains(r))?;
@@ -180,7 +190,16 @@ mod tests {
             "{title}"
         );
         assert_eq!(parse_promise(&title), Some(promise));
-        for odd in ["", "16,1", "0,1,1", "16,1,nan", "16,1,-1", "16,1,1,1"] {
+        for odd in [
+            "",
+            "15,1,1",
+            "32772,1,1",
+            "16,1",
+            "0,1,1",
+            "16,1,nan",
+            "16,1,-1",
+            "16,1,1,1",
+        ] {
             let title = format!("symtet C4 order=4 axis=0,0,0,0,0,1,1,0,0 outside={odd}");
             let promise = parse_promise(&title).unwrap();
             assert_eq!(promise.outside, None, "{odd}");
@@ -211,6 +230,13 @@ mod tests {
         );
         assert_eq!(parse_promise("vtk output"), None);
         assert_eq!(parse_promise("symtet order=4 axis=1,2"), None);
+        for odd in [
+            "4 axis=0,0,0,1,0,0,2,1,0",
+            "4 axis=0,0,0,0,0,1,0,0,1",
+            "40000 axis=0,0,0,0,0,1,1,0,0",
+        ] {
+            assert_eq!(parse_promise(&format!("symtet order={odd}")), None);
+        }
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 #![allow(dead_code)]
 
+pub mod samples;
+
 use interchange::{Format, Imported, read};
 use std::fmt::Write;
 

@@ -499,6 +499,46 @@ fn elements_and_tables_that_contradict_each_other() {
 }
 
 #[test]
+fn numbers_of_the_tables_that_are_none() {
+    type Change = fn(&mut Document);
+    let cases: [(Change, &str); 6] = [
+        (
+            |d| d.regions[0].max_volume = Some(f64::NAN),
+            "the volume limit of region 'copper' is NaN, and must be a finite positive number",
+        ),
+        (
+            |d| d.regions[0].max_volume = Some(0.0),
+            "the volume limit of region 'copper' is 0, and must be a finite positive number",
+        ),
+        (
+            |d| d.regions[1].volume = Some(f64::INFINITY),
+            "the volume of region 'Silizium \u{3b1}' is inf, and must be a finite number",
+        ),
+        (
+            |d| d.markers[0].area = Some(f64::NAN),
+            "the area of 'side' is NaN, and must be a finite number",
+        ),
+        (
+            |d| d.source.as_mut().expect("there").precision = f64::NAN,
+            "the source's precision is NaN, and must be a finite number",
+        ),
+        (
+            |d| d.symmetry.as_mut().expect("there").rejected[0].residual = f64::NAN,
+            "a number of the symmetry is NaN, and must be a finite number",
+        ),
+    ];
+    for (change, text) in cases {
+        let mut document = column();
+        change(&mut document);
+        let found: Vec<String> = tmesh::validate(&document)
+            .iter()
+            .map(ToString::to_string)
+            .collect();
+        assert_eq!(found, [text]);
+    }
+}
+
+#[test]
 fn walls_that_do_not_match() {
     let mut document = pyramid();
     document.templates[0].vertices[1].y = 1e-9;
