@@ -5,7 +5,7 @@ use crate::group::{Flip, Group, Verified};
 use crate::mirror::{
     Found as MirrorFound, HALF_TURN, VERTICAL, find_flip, find_mirror_plane, find_turned,
 };
-use crate::order::{Rotation, is_of_facets, powers};
+use crate::order::{COARSE, Limits, Rotation, is_of_facets, powers};
 use crate::permutation::Permutation;
 use crate::placement;
 use crate::refine::{Canonical, refine};
@@ -104,10 +104,19 @@ impl Job<'_> {
         found
     }
 
-    /// Verifies the whole group in full; mirrors and flips that do not hold are dropped. Returns
-    /// whether the rotation holds.
+    /// Verifies the whole group in full, and where a place that the quick test passed over is beyond
+    /// the tolerance, with allowance for facets; mirrors and flips that do not hold are dropped.
+    /// Returns whether the rotation holds.
     pub(crate) fn certify(&self, found: &mut Found) -> bool {
         let bound = self.limits.bound(found.radius);
+        let mut bounds = vec![bound];
+        if !self.limits.facets && self.shape.facets().largest() >= COARSE * bound.limit {
+            let limits = Limits {
+                facets: true,
+                ..self.limits
+            };
+            bounds.push(limits.bound(found.radius));
+        }
         let whole = found.group;
         let parts = [
             whole,
@@ -129,7 +138,8 @@ impl Job<'_> {
             if parts[..i].contains(group) {
                 continue;
             }
-            for frame in [found.frame, found.rough] {
+            let frames = [found.frame, found.rough];
+            for (bound, frame) in bounds.iter().flat_map(|b| frames.map(|f| (*b, f))) {
                 if let Ok(verified) = group.verify(self.shape, &frame, bound, Depth::Full)
                     && self.is_of_facets(group, &frame, &verified, bound.limit)
                 {

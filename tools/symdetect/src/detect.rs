@@ -4,7 +4,7 @@ use crate::Params;
 use crate::candidates::{self, distinct};
 use crate::complete::Found;
 use crate::error::{At, Error};
-use crate::order::{FACETS, Limits, Rotation, find_rotation};
+use crate::order::{COARSE, FACETS, Limits, Rotation, find_rotation};
 use crate::shape::Shape;
 use crate::summary::OrderResidual;
 use crate::verify::Depth;
@@ -162,7 +162,7 @@ impl Job<'_> {
             return false;
         }
         let radius = best.map_or(1.0, |b| b.radius);
-        if self.shape.facets().largest() < 0.1 * self.limits.tolerance * radius {
+        if self.shape.facets().largest() < COARSE * self.limits.tolerance * radius {
             return false;
         }
         let limits = Limits::new((1.0 + FACETS) * self.limits.tolerance);

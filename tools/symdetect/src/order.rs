@@ -83,6 +83,8 @@ const SCAN: usize = 96;
 /// the circle of the radius, by which the exactness of drawings is commonly stated, is `2 sqrt 2`
 /// radii.
 pub const FACETS: f64 = 1.828;
+/// Bulge of some facet, in tolerances, from which facets may matter at all.
+pub const COARSE: f64 = 0.1;
 /// Share of the largest deviation that a place must have for it to count as deviating too: at nine
 /// in ten phases the corner of a facet is that share of the sagitta off another facet.
 const NOTICEABLE: f64 = 0.33;
