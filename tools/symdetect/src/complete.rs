@@ -134,17 +134,19 @@ impl Job<'_> {
                 ..whole
             },
         ];
-        for (i, group) in parts.iter().enumerate() {
-            if parts[..i].contains(group) {
-                continue;
-            }
-            let frames = [found.frame, found.rough];
-            for (bound, frame) in bounds.iter().flat_map(|b| frames.map(|f| (*b, f))) {
-                if let Ok(verified) = group.verify(self.shape, &frame, bound, Depth::Full)
-                    && self.is_of_facets(group, &frame, &verified, bound.limit)
-                {
-                    (found.frame, found.group, found.verified) = (frame, *group, verified);
-                    return true;
+        // What holds without the allowance is not widened by it.
+        for bound in bounds {
+            for (i, group) in parts.iter().enumerate() {
+                if parts[..i].contains(group) {
+                    continue;
+                }
+                for frame in [found.frame, found.rough] {
+                    if let Ok(verified) = group.verify(self.shape, &frame, bound, Depth::Full)
+                        && self.is_of_facets(group, &frame, &verified, bound.limit)
+                    {
+                        (found.frame, found.group, found.verified) = (frame, *group, verified);
+                        return true;
+                    }
                 }
             }
         }
