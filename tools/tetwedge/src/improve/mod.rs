@@ -26,8 +26,12 @@ use tmesh::Template;
 /// touched.
 const LEAST: f64 = 1e-4;
 
-/// Rounds over the worst tetrahedra.
+/// Rounds over the worst tetrahedra, and how many more while there are [`MANY`].
 const ROUNDS: usize = 6;
+const MORE_ROUNDS: usize = 14;
+
+/// Part of the tetrahedra that is many to be bad.
+const MANY: f64 = 0.01;
 
 /// What is asked of the elements.
 pub struct Wish<'a> {
@@ -68,13 +72,16 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
     let mut mesh = Mesh::new(template, wish.scale, goal, &limits);
     let mut done = Improved::default();
     let most = (mesh.len() as f64 * wish.share) as usize;
-    for round in 0..ROUNDS {
+    for round in 0..ROUNDS + MORE_ROUNDS {
         let mut bad: Vec<(f64, u32)> = (0..mesh.len() as u32)
             .map(|t| (mesh.grade(t).quality, t))
             .filter(|b| b.0 < 1.0)
             .collect();
         if round == 0 {
             done.bad = bad.len();
+        }
+        if round >= ROUNDS && (bad.len() as f64) < MANY * mesh.len() as f64 {
+            break;
         }
         bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         bad.truncate(most);
