@@ -21,9 +21,13 @@ const SPAN: f64 = 1.2;
 const SEAM_SPAN: f64 = 0.7;
 /// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
 const ACCEPTED: f64 = 1.15;
+/// The same where a hub or the plane across the axis is cut: their elements are estimated less well.
+const ACCEPTED_MORE_CUTS: f64 = 1.09;
 /// Elements beside a square of the boundary of their size, over those in a cube of it, where a size
 /// that was asked for limits them: wedges have more boundary than their part of the body.
-const SKIN: f64 = 0.45;
+const SKIN: f64 = 0.25;
+/// The same for the wall between wedge and hub, which gets the triangles of two meshes.
+const HUB_SKIN: f64 = 0.6;
 /// Time for an element of the hub, which is meshed twice, over that for one of the wedge.
 const HUB_COST: f64 = 2.0;
 /// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
@@ -262,16 +266,22 @@ impl Estimate {
         }
         outer += SKIN * self.skin;
         for (i, squares) in self.walls.iter().enumerate() {
+            // The plane that halves wedge and hub: as wide as its circle is long, for all copies.
+            let circle = std::f64::consts::TAU * (i as f64 + 0.5) / RADII as f64 * self.extent;
+            let across = match way.level && self.heights[i] > 0.0 {
+                true => SKIN * circle / self.heights[i] * squares,
+                false => 0.0,
+            };
             if i >= self.radius_class(radius) {
-                outer += SKIN * 2.0 * copies[0] * squares;
+                outer += SKIN * 2.0 * copies[0] * squares + across;
             } else {
-                inner += SKIN * 2.0 * copies[1] * squares;
+                inner += SKIN * 2.0 * copies[1] * squares + across;
             }
         }
         if let Some(hub) = hub {
             let squares = self.walls[self.radius_class(hub)] / (self.extent / RADII as f64);
-            outer += SKIN * std::f64::consts::TAU * hub * squares;
-            inner += SKIN * std::f64::consts::TAU * hub * squares;
+            outer += HUB_SKIN * std::f64::consts::TAU * hub * squares;
+            inner += HUB_SKIN * std::f64::consts::TAU * hub * squares;
             // Layers between the hub's wall and steep faces.
             let corner = hub / (0.5 * angle).cos();
             let corner = if mirror { hub / angle.cos() } else { corner };
@@ -373,7 +383,11 @@ impl Estimate {
 
 /// The fastest way within the accepted number of elements, else the one with the fewest.
 pub fn best(ways: &[Choice]) -> Option<Choice> {
-    let accepted = ways.iter().filter(|w| w.elements <= ACCEPTED);
+    let limit = |w: &Choice| match w.hub.is_some() || w.level {
+        true => ACCEPTED_MORE_CUTS,
+        false => ACCEPTED,
+    };
+    let accepted = ways.iter().filter(|w| w.elements <= limit(w));
     let fastest = accepted.min_by(|a, b| a.meshed.total_cmp(&b.meshed));
     let fewest = || ways.iter().min_by(|a, b| a.elements.total_cmp(&b.elements));
     fastest.or_else(fewest).copied()
