@@ -9,6 +9,7 @@ mod messages;
 mod output;
 mod run;
 mod session;
+mod unfinished;
 
 pub use args::CommonArgs;
 pub use failure::Failure;

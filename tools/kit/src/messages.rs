@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use serde_json::json;
 use std::ffi::OsString;
+use std::io::{self, Write};
 
 /// Form of the messages on standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -73,6 +74,12 @@ impl MessageFormat {
         }
         object.to_string()
     }
+}
+
+/// Writes a line to standard error. Where nobody listens, nobody is told.
+pub(crate) fn say(line: &str) {
+    // In one piece, so that the lines of tools that run side by side do not mix.
+    let _ = io::stderr().write_all(format!("{line}\n").as_bytes());
 }
 
 /// The sentence of clap's message about a mistake on the command line: its first paragraph, without

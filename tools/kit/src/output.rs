@@ -1,6 +1,6 @@
 //! Writing the one output: to standard output, or to a file that appears only when it is whole.
 
-use crate::{Failure, Session};
+use crate::{Failure, Session, unfinished};
 use interchange::{Format, WriteError, write_document, write_text};
 use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
@@ -65,12 +65,14 @@ impl Output {
                 _ => Path::new("."),
             };
             let stem = path.file_name().unwrap_or_default().to_string_lossy();
-            let file = tempfile::Builder::new()
-                .prefix(&format!(".{stem}."))
-                .suffix(".part")
-                .permissions(default_permissions())
-                .tempfile_in(folder)
-                .map_err(fail)?;
+            let file = unfinished::create(|| {
+                tempfile::Builder::new()
+                    .prefix(&format!(".{stem}."))
+                    .suffix(".part")
+                    .permissions(default_permissions())
+                    .tempfile_in(folder)
+            })
+            .map_err(fail)?;
             let file = BufWriter::with_capacity(BUFFER, file);
             Target::File {
                 file,
@@ -124,9 +126,9 @@ impl Closed {
     /// Moves a file to its final name.
     pub fn publish(self) -> Result<(), Failure> {
         match self.file {
-            Some((file, path)) => file
-                .persist(path)
-                .map_err(|e| Failure::writing(&self.name, &e.error)),
+            Some((file, path)) => {
+                unfinished::persist(file, path).map_err(|e| Failure::writing(&self.name, &e))
+            }
             None => Ok(()),
         }
     }

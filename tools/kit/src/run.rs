@@ -1,7 +1,7 @@
 //! The frame around a tool's run.
 
-use crate::messages::{Level, usage_sentence};
-use crate::{CommonArgs, Failure, MessageFormat, Session};
+use crate::messages::{Level, say, usage_sentence};
+use crate::{CommonArgs, Failure, MessageFormat, Session, unfinished};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
@@ -27,7 +27,7 @@ pub fn main<C: Command>() -> ExitCode {
             if code == 2 && form == MessageFormat::Json {
                 let name = C::command().get_name().to_owned();
                 let text = usage_sentence(&error);
-                eprintln!("{}", form.line(&name, Level::Error(code), &text));
+                say(&form.line(&name, Level::Error(code), &text));
                 return ExitCode::from(code);
             }
             return match error.print() {
@@ -48,9 +48,10 @@ pub fn main<C: Command>() -> ExitCode {
             let text = panic.payload_as_str().unwrap_or("unknown");
             let place = place.unwrap_or_default();
             let text = format!("internal error{place}: {text}; this is a bug, please report it");
-            eprintln!("{}", form.line(&name, Level::Error(1), &text));
+            say(&form.line(&name, Level::Error(1), &text));
         }
     }));
+    unfinished::watch();
     match catch_unwind(AssertUnwindSafe(|| cli.run(&session))) {
         Ok(Ok(())) => ExitCode::SUCCESS,
         Ok(Err(failure)) => {

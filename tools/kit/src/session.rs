@@ -1,6 +1,6 @@
 //! One run of a tool: its name, its options, and the way it talks to the user.
 
-use crate::messages::Level;
+use crate::messages::{self, Level};
 use crate::{CommonArgs, MessageFormat};
 use indicatif::{ProgressBar, ProgressStyle};
 use interchange::OddEdges;
@@ -100,7 +100,7 @@ impl Session {
 
     fn say(&self, level: Level, text: &str) {
         let line = self.common.message_format.line(&self.name, level, text);
-        eprintln!("{line}");
+        messages::say(&line);
     }
 
     /// A progress bar for work of `length` steps; shown on a terminal only, and only when the work

@@ -125,10 +125,12 @@ bool enter_child(pid_t parent, int result, int chatter) {
     return false;
   }
   // Crashes must look like crashes, not run handlers of the parent.
-  const int handled[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPIPE, SIGTERM};
+  const int handled[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPIPE, SIGTERM, SIGINT, SIGHUP};
   for (const int signal_number : handled) {
     signal(signal_number, SIG_DFL);
   }
+  // A result that is too large fails to be written, and that is said.
+  signal(SIGXFSZ, SIG_IGN);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
