@@ -17,7 +17,7 @@ FUZZ := tests/fuzz
 # Cargo's own tools, where make installs them when they are missing.
 TOOLBOX := $(TARGET)/tools/bin
 
-.PHONY: help setup build demo test check fmt lint fuzz fuzz-tool audit bench bench-quick bench-publish bench-programs manual install dist clean
+.PHONY: help setup build demo test check fmt lint fuzz fuzz-tool audit soak faults bench bench-quick bench-publish bench-programs manual install dist clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -62,6 +62,22 @@ fuzz: setup fuzz-tool ## fuzz decoder and readers, SECONDS (default 60) each; TA
 
 audit: ## check licences, sources and known vulnerabilities of all dependencies (cargo-deny)
 	@PATH=$(TOOLBOX):$$PATH .ci/audit $(TARGET)/tools
+
+# Number of bodies, seed of the first, trials at the same time, other options of `soak run`.
+N ?= 1000
+SEED ?= 1
+JOBS ?= 1
+SOAK_OPTIONS ?=
+
+soak: setup build ## send N=1000 random bodies through the whole pipe; goes on where it was interrupted
+	$(CARGO) build --release --example soak
+	$(TARGET)/release/examples/soak run --count $(N) --seed $(SEED) --jobs $(JOBS) --binaries $(TARGET)/release --out $(TARGET)/soak $(SOAK_OPTIONS)
+
+# How often each fault is injected, in units of what `make test` does.
+FAULTS ?= 20
+
+faults: setup ## inject faults into every stage, many times; prints kind, stage, runs and violations
+	FAULTS=$(FAULTS) $(CARGO) test --release --test faults -- --nocapture --test-threads 1 | grep -E '^fault|^test result|panicked'
 
 BENCH := python3 examples/benchmark/bench.py
 # More options of `bench.py run`, such as --hxt or --stop-after 60.
