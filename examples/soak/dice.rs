@@ -38,7 +38,7 @@ impl Dice {
     }
 
     /// An integer from `low` to `high`, both possible.
-    pub fn from_to(&mut self, low: usize, high: usize) -> usize {
+    pub fn integer(&mut self, low: usize, high: usize) -> usize {
         low + self.below(high - low + 1)
     }
 

@@ -27,7 +27,7 @@ pub fn fill(
     };
     // From which ring on there are teeth, with gaps in which sectors.
     let toothed = dice.chance(0.5);
-    let foot = dice.from_to(usize::from(grid.rings > 1), grid.rings);
+    let foot = dice.integer(usize::from(grid.rings > 1), grid.rings);
     let gap: Vec<bool> = (0..grid.sectors).map(|_| dice.chance(0.5)).collect();
     let scattered = if dice.chance(0.4) {
         dice.between(0.0, 0.5)

@@ -50,17 +50,17 @@ pub fn solid(seed: u64) -> Solid {
     let family = dice.pick(&Family::ALL);
     let order = match dice.below(100) {
         0..4 => 1,
-        4..64 => dice.from_to(2, 8),
-        64..86 => dice.from_to(9, 16),
-        _ => dice.from_to(17, 64),
+        4..64 => dice.integer(2, 8),
+        64..86 => dice.integer(9, 16),
+        _ => dice.integer(17, 64),
     };
     let pitch = pitch(family, order, &mut dice);
     // Fewer cells along the others where there are many around.
     let most = if order * pitch > 36 { 2 } else { 4 };
     let grid = Grid {
-        rings: dice.from_to(1, most),
+        rings: dice.integer(1, most),
         sectors: order * pitch,
-        levels: dice.from_to(1, most),
+        levels: dice.integer(1, most),
         bored: dice.chance(0.4),
     };
     let motions = group::motions(family, order, pitch, &mut dice);
@@ -129,8 +129,8 @@ fn pitch(family: Family, order: usize, dice: &mut Dice) -> usize {
         _ => 2,
     };
     loop {
-        let pitch = dice.from_to(1, most.max(3_usize.div_ceil(order)));
-        if pitch * order >= 3 && (!family.halves_pitch() || pitch % 2 == 0) {
+        let pitch = dice.integer(1, most.max(3_usize.div_ceil(order)));
+        if pitch * order >= 3 && (!family.halves_pitch() || pitch.is_multiple_of(2)) {
             return pitch;
         }
     }
@@ -170,7 +170,7 @@ fn steps(
         for i in 0..values.len() / 2 {
             values[count - i] = -values[i];
         }
-        if count % 2 == 0 {
+        if count.is_multiple_of(2) {
             values[count / 2] = 0.0;
         }
     }
