@@ -115,6 +115,10 @@ mod tests {
         assert_eq!(params.optimize, None);
         assert_eq!(params.switches, "T1e-10");
         assert_eq!(params.timeout, Some(Duration::from_millis(500)));
+        for (size, bytes) in [("64", 64 << 20), ("1.5g", 3 << 29), ("2M", 2 << 20)] {
+            let params = parse(&["--max-memory", size]).unwrap();
+            assert_eq!(params.max_memory, Some(bytes));
+        }
     }
 
     #[test]
@@ -134,6 +138,9 @@ mod tests {
             ["--region", ":max-volume=1"],
             ["--region", "copper:max-volume=x"],
             ["--timeout", "0"],
+            ["--max-memory", "0"],
+            ["--max-memory", "G"],
+            ["--max-memory", "1e300G"],
             ["--switches", "a b"],
             ["--threads", "0"],
         ] {

@@ -93,6 +93,9 @@ pub fn failure(
         MesherError::TimedOut(_) => {
             "raise --timeout, or ask for larger elements (--max-volume, --edge-length) or fewer (--radius-edge, --min-dihedral)"
         }
+        MesherError::MemoryLimit(_) => {
+            "raise --max-memory, or ask for larger elements (--max-volume, --edge-length)"
+        }
         MesherError::Killed | MesherError::Failed(Failure::OutOfMemory) => {
             "ask for larger elements (--max-volume, --edge-length)"
         }
@@ -119,6 +122,7 @@ fn intersections(plc: &Plc, timeout: Duration) -> Intersections {
     let mut text = Vec::new();
     let limits = Limits {
         timeout: Some(timeout),
+        ..Limits::default()
     };
     // Only what it prints is of interest; 1 MiB of it is plenty.
     let _ = tetrahedralize(&plc.complex(), "pd", limits, &mut |bytes| {

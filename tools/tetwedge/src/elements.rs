@@ -38,6 +38,10 @@ pub struct ElementArgs {
     /// Time limit for the mesher, per template [default: none]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     timeout: Option<f64>,
+
+    /// Memory that the mesher may take, per template, in MiB or with a unit: 512M, 8G [default: none]
+    #[arg(long, value_name = "SIZE", value_parser = memory)]
+    max_memory: Option<u64>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -72,6 +76,21 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(x)
     } else {
         Err("must be above 0".to_owned())
+    }
+}
+
+/// Bytes in a size such as `512M`, `1.5G`, or `512` for MiB.
+fn memory(text: &str) -> Result<u64, String> {
+    let (digits, unit) = match text.to_ascii_uppercase().chars().last() {
+        Some('M') => (&text[..text.len() - 1], 20),
+        Some('G') => (&text[..text.len() - 1], 30),
+        _ => (text, 20),
+    };
+    let bytes = positive(digits)? * f64::from(1 << unit);
+    if bytes < 1e18 {
+        Ok(bytes.ceil() as u64)
+    } else {
+        Err("more than there is anywhere".to_owned())
     }
 }
 
@@ -138,6 +157,7 @@ impl ElementArgs {
             timeout: self
                 .timeout
                 .and_then(|s| Duration::try_from_secs_f64(s).ok()),
+            max_memory: self.max_memory,
             ..Params::default()
         }
     }

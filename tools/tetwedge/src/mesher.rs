@@ -269,6 +269,7 @@ pub fn run(
         ));
         let limits = Limits {
             timeout: deadline.map(|d| d.saturating_duration_since(Instant::now())),
+            memory: params.max_memory,
         };
         let mut chatter = Chatter::new(log);
         let mesh = tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |bytes| {

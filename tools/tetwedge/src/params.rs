@@ -33,6 +33,8 @@ pub struct Params {
     pub switches: String,
     /// Time limit for each template.
     pub timeout: Option<Duration>,
+    /// Memory that the mesher may take for each template, bytes.
+    pub max_memory: Option<u64>,
     /// Templates meshed at the same time, at least 1.
     pub threads: usize,
 }
@@ -56,6 +58,7 @@ impl Default for Params {
             region_sizes: Vec::new(),
             switches: String::new(),
             timeout: None,
+            max_memory: None,
             threads: 1,
         }
     }

@@ -544,6 +544,7 @@ fn equivalent_descriptions_give_equivalent_meshes() {
             let switches = switches(&params, plc.max_volume, false, plc.faces.preserve());
             let limits = tetgen_sys::Limits {
                 timeout: params.timeout,
+                ..tetgen_sys::Limits::default()
             };
             let mesh =
                 tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |_| ()).unwrap();

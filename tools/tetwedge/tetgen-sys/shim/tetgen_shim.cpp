@@ -100,15 +100,17 @@ void *mesh(void *argument) {
   finish(output->numberofcorners == 4 ? 0 : TETGEN_SHIM_NOT_LINEAR, output);
 }
 
+// Size of the stack of the thread that meshes, unless the system refuses it.
+constexpr size_t STACK = size_t(256) << 20;
+
 // Runs `mesh` on a thread of its own, with a stack that deep recursion does not exhaust; only pages
 // in use take memory.
 void run(const tetgen_shim_input &in) {
   std::set_terminate(report_exception);
-  const size_t stack = size_t(256) << 20;
   pthread_attr_t attributes;
   pthread_t thread;
   void *argument = const_cast<tetgen_shim_input *>(&in);
-  if (pthread_attr_init(&attributes) != 0 || pthread_attr_setstacksize(&attributes, stack) != 0) {
+  if (pthread_attr_init(&attributes) != 0 || pthread_attr_setstacksize(&attributes, STACK) != 0) {
     return;
   }
   if (pthread_create(&thread, &attributes, mesh, argument) != 0 &&
@@ -116,6 +118,22 @@ void run(const tetgen_shim_input &in) {
     finish(1, nullptr);
   }
   pthread_join(thread, nullptr);
+}
+
+// Lets this process allocate so many bytes beyond what the fork gave it and the stack.
+bool limit_memory(uint64_t bytes) {
+  if (bytes == 0) {
+    return true;
+  }
+  unsigned long long pages = 0;
+  FILE *sizes = fopen("/proc/self/statm", "r");
+  const bool known = sizes != nullptr && fscanf(sizes, "%*u %*u %*u %*u %*u %llu", &pages) == 1;
+  if (sizes != nullptr) {
+    fclose(sizes);
+  }
+  const rlim_t most = pages * sysconf(_SC_PAGESIZE) + STACK + bytes;
+  const struct rlimit limit = {most, most};
+  return known && setrlimit(RLIMIT_DATA, &limit) == 0;
 }
 
 // Turns the forked copy of our process into one that only has what the mesher needs.
@@ -166,7 +184,7 @@ extern "C" int32_t tetgen_shim_start(const tetgen_shim_input *input, int result,
   if (child != 0) {
     return child;
   }
-  if (enter_child(parent, result, chatter)) {
+  if (enter_child(parent, result, chatter) && limit_memory(input->memory)) {
     run(*input);
   }
   _exit(CANNOT_BEGIN);

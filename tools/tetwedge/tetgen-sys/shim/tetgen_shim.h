@@ -21,6 +21,7 @@ struct tetgen_shim_input {
   int32_t triangle_count;
   int32_t hole_count;
   int32_t region_count;
+  uint64_t memory;          /* bytes the child may allocate; 0 for no limit */
 };
 
 /* Begins the memory file; the arrays follow, each at a multiple of 8 bytes, in the order of the

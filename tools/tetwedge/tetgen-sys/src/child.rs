@@ -21,15 +21,20 @@ pub struct Child {
     result: File,
     chatter: PipeReader,
     switches: String,
+    memory: Option<u64>,
 }
 
 impl Child {
-    /// Starts TetGen on a complex. The thread that calls this must outlive the child: the kernel
+    /// Starts TetGen on a complex, with a limit on the bytes it may take, if any. The thread that calls this must outlive the child: the kernel
     /// ties the child to it.
     ///
     /// # Errors
     /// [`Error::Unfit`], [`Error::BadSwitches`] (a NUL in the switches) and [`Error::System`].
-    pub fn start(complex: &Complex<'_>, switches: &str) -> Result<Self, Error> {
+    pub fn start(
+        complex: &Complex<'_>,
+        switches: &str,
+        memory: Option<u64>,
+    ) -> Result<Self, Error> {
         let text = CString::new(switches).map_err(|_| Error::BadSwitches(switches.to_owned()))?;
         check(complex)?;
         let count = |n: usize, what: &str| {
@@ -46,6 +51,7 @@ impl Child {
             triangle_count: count(complex.triangles.len(), "triangles")?,
             hole_count: count(complex.holes.len(), "holes")?,
             region_count: count(complex.regions.len(), "regions")?,
+            memory: memory.map_or(0, |bytes| bytes.max(1)),
         };
         let result = memory_file()?;
         let (chatter, printing) = std::io::pipe().map_err(|error| Error::System {
@@ -69,6 +75,7 @@ impl Child {
             result,
             chatter,
             switches: switches.to_owned(),
+            memory,
         })
     }
 
@@ -138,7 +145,10 @@ impl Child {
                 ffi::ENDED => Error::Exited { status: exit },
                 ffi::NO_SPACE => Error::Failed(Failure::OutOfMemory),
                 ffi::UNKNOWN_EXCEPTION => Error::Failed(Failure::Internal),
-                thrown => Error::Failed(Failure::from_code(thrown)),
+                thrown => match (Failure::from_code(thrown), self.memory) {
+                    (Failure::OutOfMemory, Some(limit)) => Error::MemoryLimit(limit),
+                    (failure, _) => Error::Failed(failure),
+                },
             }),
             _ => Err(Error::Exited { status: exit }),
         }

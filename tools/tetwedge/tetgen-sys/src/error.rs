@@ -79,6 +79,9 @@ pub enum Error {
     /// TetGen's process was killed from outside; usually the system, for want of memory.
     #[error("TetGen was killed, most likely because memory ran out")]
     Killed,
+    /// The memory limit, in bytes, was not enough.
+    #[error("TetGen needs more than {} MiB of memory, the limit", .0 >> 20)]
+    MemoryLimit(u64),
     /// TetGen ended the process instead of returning.
     #[error("TetGen ended without a result (exit status {status})")]
     Exited {

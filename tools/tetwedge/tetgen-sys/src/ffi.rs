@@ -14,6 +14,7 @@ pub(crate) struct Input {
     pub triangle_count: i32,
     pub hole_count: i32,
     pub region_count: i32,
+    pub memory: u64,
 }
 
 #[derive(Clone, Copy, Debug, Default)]

@@ -34,4 +34,6 @@ pub struct Complex<'a> {
 pub struct Limits {
     /// Wall-clock time after which the mesher is stopped; `None` for no limit.
     pub timeout: Option<Duration>,
+    /// Memory that the mesher may take beyond what the caller holds, bytes; `None` for no limit.
+    pub memory: Option<u64>,
 }

@@ -29,7 +29,7 @@ pub fn tetrahedralize(
     limits: Limits,
     chatter: &mut dyn FnMut(&[u8]),
 ) -> Result<Mesh, Error> {
-    Child::start(complex, switches)?.finish(limits, chatter)
+    Child::start(complex, switches, limits.memory)?.finish(limits, chatter)
 }
 
 #[cfg(test)]

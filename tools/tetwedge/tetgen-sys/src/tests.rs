@@ -59,6 +59,7 @@ fn run(
     let mut text = Vec::new();
     let limits = Limits {
         timeout: Some(Duration::from_secs_f64(seconds)),
+        ..Limits::default()
     };
     let result = tetrahedralize(complex, switches, limits, &mut |bytes| {
         text.extend_from_slice(bytes);
@@ -194,10 +195,11 @@ fn a_time_limit_is_kept() {
 fn crashes_and_kills_are_told_apart() {
     let body = cube();
     for signal in [libc::SIGSEGV, libc::SIGABRT, libc::SIGKILL] {
-        let child = Child::start(&body.complex(), "pq1.1a1e-9").unwrap();
+        let child = Child::start(&body.complex(), "pq1.1a1e-9", None).unwrap();
         let id = child.id() as libc::pid_t;
         let limits = Limits {
             timeout: Some(Duration::from_secs(20)),
+            ..Limits::default()
         };
         // Once it prints, it is past the beginning, where our own signal handlers still apply.
         let result = child.finish(limits, &mut |_| {
@@ -215,8 +217,28 @@ fn crashes_and_kills_are_told_apart() {
 }
 
 #[test]
+fn memory_is_limited() {
+    let body = cube();
+    let meshed = |megabytes: u64| {
+        let limits = Limits {
+            timeout: Some(Duration::from_secs(60)),
+            memory: Some(megabytes << 20),
+        };
+        tetrahedralize(&body.complex(), "pqa1e-5", limits, &mut |_| {})
+    };
+    match meshed(16) {
+        Err(error @ Error::MemoryLimit(_)) => assert_eq!(
+            error.to_string(),
+            "TetGen needs more than 16 MiB of memory, the limit"
+        ),
+        other => panic!("{other:?}"),
+    }
+    assert!(meshed(2048).unwrap().tetrahedra().len() > 100_000);
+}
+
+#[test]
 fn a_dropped_child_is_gone() {
-    let child = Child::start(&cube().complex(), "pq1.1a1e-9").unwrap();
+    let child = Child::start(&cube().complex(), "pq1.1a1e-9", None).unwrap();
     let id = child.id();
     drop(child);
     assert!(!std::path::Path::new(&format!("/proc/{id}")).exists());
