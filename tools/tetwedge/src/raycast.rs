@@ -84,9 +84,11 @@ impl<'a> Rays<'a> {
                 high = high.max(p);
             }
         }
+        // The same slack as for triangles: a ray along the side of a box must not miss it by rounding.
+        let margin = SLACK * (high - low).max_element();
         Node {
-            low,
-            high,
+            low: low - margin,
+            high: high + margin,
             first: first as u32,
             count: count as u32,
         }
@@ -187,6 +189,21 @@ mod tests {
                 .filter_map(|t| rays.hit(t, origin, direction))
                 .min_by(f64::total_cmp);
             assert_eq!(rays.nearest(origin, direction, except), all);
+        }
+    }
+
+    #[test]
+    fn rays_along_the_side_of_a_box_do_not_miss_it_by_rounding() {
+        let vertices = [
+            DVec3::new(4.0, 1.0, 0.0),
+            DVec3::new(5.0, 1.0, 0.0),
+            DVec3::new(4.0, 1.0, 1.0),
+        ];
+        let triangles = [[0, 1, 2]];
+        let rays = Rays::new(&vertices, &triangles);
+        for x in [4.0_f64.next_down(), 4.0, 4.0_f64.next_up()] {
+            let origin = DVec3::new(x, 0.0, 0.25);
+            assert_eq!(rays.nearest(origin, DVec3::Y, u32::MAX), Some(1.0));
         }
     }
 
