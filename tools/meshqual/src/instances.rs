@@ -275,6 +275,8 @@ struct Placements<'a> {
     used: Vec<Vec<u32>>,
     /// Number of instances of each template.
     copies: Vec<u64>,
+    /// Common denominator of all turns of the instances.
+    turns: u64,
 }
 
 impl<'a> Placements<'a> {
@@ -287,6 +289,10 @@ impl<'a> Placements<'a> {
                 .collect(),
             used: document.templates.iter().map(used_regions).collect(),
             copies: Copies::of(document).of_template,
+            turns: document.instances.iter().fold(1, |common, i| {
+                let n = u64::from(i.isometry.n());
+                common / gcd(common, n) * n
+            }),
         }
     }
 
@@ -300,7 +306,10 @@ impl<'a> Placements<'a> {
         let order = (1..=shared as u32)
             .rev()
             .find(|&n| {
-                shared.is_multiple_of(u64::from(n))
+                // A rotation that keeps the instances is a product of their placements.
+                [shared, self.turns]
+                    .iter()
+                    .all(|m| m.is_multiple_of(u64::from(n)))
                     && self.keep(templates, Isometry::rotation(1, n))
             })
             .unwrap_or(1);
