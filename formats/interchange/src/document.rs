@@ -156,10 +156,10 @@ pub fn unique_names<'a>(names: impl Iterator<Item = &'a str>, word: &str) -> Vec
     let mut seen: FxHashMap<String, usize> = FxHashMap::default();
     let mut unique: Vec<String> = Vec::new();
     for (i, name) in names.enumerate() {
-        let base = match name.trim() {
-            "" => format!("{word}{}", i + 1),
-            name => name.to_owned(),
-        };
+        let mut base = plain(name);
+        if base.is_empty() {
+            base = format!("{word}{}", i + 1);
+        }
         let mut candidate = base.clone();
         while seen.contains_key(&candidate) {
             let n = seen.entry(base.clone()).or_insert(1);
@@ -170,6 +170,11 @@ pub fn unique_names<'a>(names: impl Iterator<Item = &'a str>, word: &str) -> Vec
         unique.push(candidate);
     }
     unique
+}
+
+/// A name without control characters, which would break lines of other formats and steer terminals.
+pub fn plain(name: &str) -> String {
+    name.replace(char::is_control, " ").trim().to_owned()
 }
 
 /// A notice about something dropped.
@@ -188,5 +193,7 @@ mod tests {
             unique_names(names.into_iter(), "region"),
             ["a", "a-2", "region3", "a-2-2", "a-3"]
         );
+        assert_eq!(unique_names(["\u{1b}[31m\t"].into_iter(), "x"), ["[31m"]);
+        assert_eq!(unique_names(["\t\u{7f}"].into_iter(), "x"), ["x1"]);
     }
 }

@@ -1,6 +1,6 @@
 //! From an unstructured grid, as the VTK formats hold it, to a document.
 
-use crate::document::{Labelled, check_scale, document, dropped};
+use crate::document::{Labelled, check_scale, document, dropped, plain};
 use crate::place::counted;
 use crate::polygon::Polygons;
 use crate::soup::Group;
@@ -129,7 +129,7 @@ impl Grid {
         text.lines()
             .filter_map(|line| {
                 let (id, name) = line.split_once(' ')?;
-                Some((id.parse().ok()?, name.to_owned()))
+                Some((id.parse().ok()?, plain(name)))
             })
             .collect()
     }

@@ -35,6 +35,7 @@ pub fn validate(document: &Document) -> Vec<Violation> {
     check_frame(document, &mut found);
     let regions: HashSet<u32> = document.regions.iter().map(|r| r.id).collect();
     check_tables(document, &regions, &mut found);
+    check_names(document, &mut found);
     check_numbers(document, &mut found);
     check_turns(document, &mut found);
     if let Some(symmetry) = &document.symmetry {
@@ -98,6 +99,22 @@ fn check_tables(document: &Document, regions: &HashSet<u32>, found: &mut Collect
             found.add(Violation::BadTable {
                 table: "region map",
                 id: *to,
+            });
+        }
+    }
+}
+
+/// Checks that names can stand on a line, in any format and on a terminal.
+fn check_names(document: &Document, found: &mut Collector) {
+    let regions = document.regions.iter().map(|r| ("region", r.name.as_str()));
+    let markers = document.markers.iter().map(|m| ("marker", m.name.as_str()));
+    let walls = document.templates.iter().flat_map(|t| &t.walls);
+    let walls = walls.map(|w| ("wall", w.name()));
+    for (what, name) in regions.chain(markers).chain(walls) {
+        if name.chars().any(char::is_control) {
+            found.add(Violation::BadName {
+                what,
+                name: name.to_owned(),
             });
         }
     }

@@ -85,6 +85,14 @@ pub enum Violation {
         /// The id.
         id: u32,
     },
+    /// A name has a line end or another control character.
+    #[error("the name {name:?} of a {what} has a control character")]
+    BadName {
+        /// `region`, `marker` or `wall`.
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
     /// A number of the tables is not one, or has a value that it cannot have.
     #[error("{what} is {value}, and must be a finite{} number", if *.positive { " positive" } else { "" })]
     BadNumber {

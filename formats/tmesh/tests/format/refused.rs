@@ -499,6 +499,25 @@ fn elements_and_tables_that_contradict_each_other() {
 }
 
 #[test]
+fn names_with_control_characters() {
+    type Change = fn(&mut Document);
+    let cases: [(Change, &str); 3] = [
+        (|d| d.regions[0].name.push('\n'), "region"),
+        (|d| d.markers[0].name.push('\u{1b}'), "marker"),
+        (|d| seam(d, 0).name.push('\0'), "wall"),
+    ];
+    for (change, what) in cases {
+        let mut document = column();
+        change(&mut document);
+        let text = violation(&document).to_string();
+        assert!(
+            text.contains(what) && text.ends_with("has a control character"),
+            "{text}"
+        );
+    }
+}
+
+#[test]
 fn numbers_of_the_tables_that_are_none() {
     type Change = fn(&mut Document);
     let cases: [(Change, &str); 6] = [
