@@ -5,6 +5,8 @@
 mod generator;
 
 mod bodies;
+mod bounds;
+mod determinism;
 mod failures;
 mod hubs;
 mod makefiles;
