@@ -77,6 +77,7 @@ fn assembled(document: &Document, seeds: &mut Seeds) {
                 ascii: bits & 2 != 0,
                 compress: bits & 4 != 0,
                 surface: Surface::default(),
+                ..WriteOptions::default()
             };
             let mut bytes = Vec::new();
             // Without a surface there is nothing to write as STL.

@@ -79,9 +79,14 @@ fn attempt(
         let Answer {
             plc, mesh, advice, ..
         } = run(document, index, params, &sizes, attempt, |_| false, log)?;
-        if let Some(advice) = advice {
-            log(&format!("template {index}: {advice}"));
-        }
+        // Bounds that were eased already are not eased once more.
+        let past = match advice {
+            Some(advice) => {
+                log(&format!("template {index}: {advice}"));
+                0.0
+            }
+            None => past_bound(&mesh, params),
+        };
         let kept = plc.points.len();
         if mesh.points().len() < kept || mesh.points()[..kept] != plc.points {
             return Err(unusable("input points were moved or left out".to_owned()));
@@ -107,7 +112,7 @@ fn attempt(
             facets: plc.facets,
         };
         put_back(&mut refined, plc.shift);
-        Ok((refined, past_bound(&mesh, params)))
+        Ok((refined, past))
     })?;
     Ok(made)
 }
