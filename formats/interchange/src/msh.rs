@@ -4,6 +4,7 @@
 //! regions, physical surfaces are markers; entities without a physical group count by themselves. Of
 //! second-order elements the corners are read.
 
+use crate::document::plain;
 use crate::grid::Grid;
 use crate::place::counted;
 use crate::shells::{Shell, Volume};
@@ -313,7 +314,7 @@ impl Reader<'_> {
                     shown(rest)
                 )));
             };
-            let name = String::from_utf8_lossy(name).into_owned();
+            let name = plain(&String::from_utf8_lossy(name));
             self.file.names.insert((dimension, tag), name);
         }
         Ok(())
