@@ -8,24 +8,26 @@ use rustc_hash::{FxHashMap, FxHashSet};
 const ROUNDS: usize = 8;
 
 /// Removes triangles that are no higher than `rounding` above their longest edge. Returns how many
-/// there were and are no more.
+/// there were and are no more; `None` when the surface is as it was.
 ///
 /// A needle's short edge is contracted. A cap's longest edge, which its apex lies on, is turned: the
 /// triangle beyond the edge is divided at the apex. Nothing moves by more than `rounding`. Those
 /// that cannot be removed without spoiling the surface are left. Linear.
-pub fn remove(surface: &mut Surface, rounding: f64) -> usize {
+pub fn remove(surface: &mut Surface, rounding: f64) -> Option<usize> {
     let before = flat_ones(surface, rounding).len();
     if before == 0 {
-        return 0;
+        return None;
     }
-    contract_needles(surface, rounding);
+    let mut changed = contract_needles(surface, rounding);
     for _ in 0..ROUNDS {
         if turn_caps(surface, rounding) == 0 {
             break;
         }
+        changed = true;
     }
     // Where coordinates are hardly known, contracting may leave more than it removes.
-    before.saturating_sub(flat_ones(surface, rounding).len())
+    let left = flat_ones(surface, rounding).len();
+    changed.then(|| before.saturating_sub(left))
 }
 
 /// Triangles lower than `rounding`, each with its corner opposite to the longest edge.
@@ -41,7 +43,8 @@ fn flat_ones(surface: &Surface, rounding: f64) -> Vec<(u32, usize)> {
         .collect()
 }
 
-fn contract_needles(surface: &mut Surface, rounding: f64) {
+/// Contracts short edges of needles; whether there were any.
+fn contract_needles(surface: &mut Surface, rounding: f64) -> bool {
     let mut new_id: FxHashMap<u32, u32> = FxHashMap::default();
     let mut kept: FxHashSet<u32> = FxHashSet::default();
     for (t, _) in flat_ones(surface, rounding) {
@@ -60,12 +63,13 @@ fn contract_needles(surface: &mut Surface, rounding: f64) {
         }
     }
     if new_id.is_empty() {
-        return;
+        return false;
     }
     for t in &mut surface.triangles {
         *t = t.map(|v| new_id.get(&v).copied().unwrap_or(v));
     }
     surface.drop_degenerate();
+    true
 }
 
 /// Turns the longest edges of caps; returns of how many.

@@ -135,11 +135,11 @@ pub fn build(soup: Soup, format: &'static str) -> Result<Imported, ReadError> {
     }
     if odd.is_empty() {
         let rounding = relative_precision * largest_coordinate(&surface.points);
-        let removed = needles::remove(&mut surface, rounding);
-        if removed > 0 {
-            let (one, many) = ("triangle", "triangles");
-            let what = counted(removed, one, many);
-            notices.push(format!("{what} without area: removed"));
+        if let Some(removed) = needles::remove(&mut surface, rounding) {
+            if removed > 0 {
+                let what = counted(removed, "triangle", "triangles");
+                notices.push(format!("{what} without area: removed"));
+            }
             edges = Edges::new(&surface.triangles);
             odd = odd_edges(&edges);
         }
