@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -21,6 +22,9 @@ namespace {
 
 // Exit status of a child that could not even begin.
 const int CANNOT_BEGIN = 125;
+
+// Exit status of a child that did not survive that its memory is limited.
+const int OUT_OF_MEMORY = 124;
 
 // Copies the input into the structures TetGen frees with delete[].
 void fill(tetgenio &io, const tetgen_shim_input &in) {
@@ -120,6 +124,20 @@ void run(const tetgen_shim_input &in) {
   pthread_join(thread, nullptr);
 }
 
+// Bytes that must be left for a crash not to be put down to the limit on memory.
+size_t left_at_least = 0;
+
+// Tells a crash for want of memory, which TetGen does not check everywhere, from others.
+void crashed(int signal_number) {
+  const void *room = mmap(nullptr, left_at_least, PROT_READ | PROT_WRITE,
+                          MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) {
+    _exit(OUT_OF_MEMORY);
+  }
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);
+}
+
 // Lets this process allocate so many bytes beyond what the fork gave it and the stack.
 bool limit_memory(uint64_t bytes) {
   if (bytes == 0) {
@@ -133,7 +151,10 @@ bool limit_memory(uint64_t bytes) {
   }
   const rlim_t most = pages * sysconf(_SC_PAGESIZE) + STACK + bytes;
   const struct rlimit limit = {most, most};
-  return known && setrlimit(RLIMIT_DATA, &limit) == 0;
+  // TetGen asks for pieces of up to a megabyte, and for more as its lists grow.
+  left_at_least = bytes / 8 + (size_t(4) << 20);
+  return known && setrlimit(RLIMIT_DATA, &limit) == 0 && signal(SIGSEGV, crashed) != SIG_ERR &&
+         signal(SIGABRT, crashed) != SIG_ERR;
 }
 
 // Turns the forked copy of our process into one that only has what the mesher needs.

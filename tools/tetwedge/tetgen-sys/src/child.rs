@@ -137,6 +137,9 @@ impl Child {
                 error: ErrorKind::Other.into(),
             });
         }
+        if let (ffi::OUT_OF_MEMORY, Some(limit)) = (exit, self.memory) {
+            return Err(Error::MemoryLimit(limit));
+        }
         match Mesh::new(&self.result)? {
             Some((mesh, 0)) if exit == 0 => Ok(mesh),
             Some((_, code)) if exit == 0 => Err(match code {

@@ -38,6 +38,7 @@ pub(crate) const NO_SPACE: i64 = 1002;
 pub(crate) const NOT_LINEAR: i64 = 1003;
 pub(crate) const ENDED: i64 = 1004;
 pub(crate) const CANNOT_BEGIN: i32 = 125;
+pub(crate) const OUT_OF_MEMORY: i32 = 124;
 
 unsafe extern "C" {
     pub(crate) fn tetgen_shim_start(input: *const Input, result: c_int, chatter: c_int) -> i32;
