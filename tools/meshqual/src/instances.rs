@@ -403,3 +403,37 @@ fn used_regions(template: &Template) -> Vec<u32> {
 fn gcd(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use tmesh::{Instance, Region, Tet};
+
+    #[test]
+    fn rotations_finer_than_isometries_can_be_are_not_tried() {
+        let mut document = Document::single(Template {
+            vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+            tets: vec![Tet {
+                vertices: [0, 1, 2, 3],
+                region: 1,
+            }],
+            ..Template::default()
+        });
+        document.regions.push(Region {
+            id: 1,
+            name: "a".to_owned(),
+            max_volume: None,
+            volume: None,
+        });
+        // Three copies, but a third of a turn cannot be multiplied with their placements.
+        let place = |k: i64| Instance {
+            template: 0,
+            isometry: Isometry::rotation(k, 32_768),
+            region_map: 0,
+        };
+        document.instances = (0..3).map(place).collect();
+        assert_eq!(tmesh::validate(&document), []);
+        assert_eq!(realized(&document).order, 1);
+    }
+}
