@@ -3,9 +3,10 @@
 
 use crate::generator::random::Random;
 use crate::generator::{Gear, Tessellation};
-use crate::support::{EXACT_STL, TOOLS, encode, run};
+use crate::support::{EXACT_STL, TOOLS, binary, encode, run};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -88,6 +89,15 @@ impl Place {
         let mut all: Vec<String> = stage.arguments.iter().map(|a| (*a).to_owned()).collect();
         all.extend([text(&self.input), "-o".to_owned(), text(&self.output)]);
         all
+    }
+
+    /// Starts a stage on the input, silently.
+    pub fn start(&self, stage: &Stage) -> Child {
+        Command::new(binary(stage.tool))
+            .args(self.arguments(stage))
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the tool starts")
     }
 
     /// Checks that the output is not there, or (with `whole`) may be there if nothing of it is

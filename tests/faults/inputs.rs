@@ -3,7 +3,7 @@
 use crate::bench::{Place, Tally, refused, stages, times};
 use crate::support::binary;
 use std::fs;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 #[test]
 fn inputs_that_fail_to_be_read() {
@@ -30,11 +30,7 @@ fn an_input_that_vanishes() {
         let mut tally = Tally::new("input removed while read", stage.tool);
         for _ in 0..times(1) {
             let place = Place::new(stage);
-            let mut child = Command::new(binary(stage.tool))
-                .args(place.arguments(stage))
-                .stderr(Stdio::null())
-                .spawn()
-                .expect("the tool starts");
+            let mut child = place.start(stage);
             let _ = fs::remove_file(&place.input);
             // Gone before it was opened, or read to its end all the same.
             let status = child.wait().expect("a child can be waited for");
@@ -85,15 +81,7 @@ fn several_runs_write_the_same_output() {
         let mut tally = Tally::new("one output of four runs", stage.tool);
         for _ in 0..times(1) {
             let place = Place::new(stage);
-            let children: Vec<_> = (0..4)
-                .map(|_| {
-                    Command::new(binary(stage.tool))
-                        .args(place.arguments(stage))
-                        .stderr(Stdio::null())
-                        .spawn()
-                        .expect("the tool starts")
-                })
-                .collect();
+            let children: Vec<_> = (0..4).map(|_| place.start(stage)).collect();
             let mut result = Ok(());
             for mut child in children {
                 let status = child.wait().expect("a child can be waited for");

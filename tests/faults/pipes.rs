@@ -3,18 +3,23 @@
 use crate::bench::{Stage, Tally, refused, shares, stages, times};
 use crate::support::{binary, run};
 use std::io::{Read, Write};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread;
 
-/// Runs a stage with the first `length` bytes of its input, written in pieces.
-fn feed(stage: &Stage, length: usize, piece: usize) -> (Option<i32>, Vec<u8>, String) {
-    let mut child = Command::new(binary(stage.tool))
+/// Starts a stage with pipes at all ends.
+fn piped(stage: &Stage) -> Child {
+    Command::new(binary(stage.tool))
         .args(stage.arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .expect("the tool starts");
+        .expect("the tool starts")
+}
+
+/// Runs a stage with the first `length` bytes of its input, written in pieces.
+fn feed(stage: &Stage, length: usize, piece: usize) -> (Option<i32>, Vec<u8>, String) {
+    let mut child = piped(stage);
     let mut stdin = child.stdin.take().expect("piped");
     let output = thread::scope(|scope| {
         scope.spawn(move || {
@@ -78,13 +83,7 @@ fn input_trickles() {
 fn output_is_read_slowly() {
     for stage in stages() {
         let mut tally = Tally::new("output byte by byte", stage.tool);
-        let mut child = Command::new(binary(stage.tool))
-            .args(stage.arguments)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the tool starts");
+        let mut child = piped(stage);
         let mut stdin = child.stdin.take().expect("piped");
         let mut stdout = child.stdout.take().expect("piped");
         let mut found = Vec::new();
@@ -116,13 +115,7 @@ fn downstream_closes() {
         let mut tally = Tally::new("downstream closes", stage.tool);
         for _ in 0..times(5) {
             let length = (share() * share() * stage.output.len() as f64) as usize;
-            let mut child = Command::new(binary(stage.tool))
-                .args(stage.arguments)
-                .stdin(Stdio::piped())
-                .stdout(Stdio::piped())
-                .stderr(Stdio::piped())
-                .spawn()
-                .expect("the tool starts");
+            let mut child = piped(stage);
             let mut stdin = child.stdin.take().expect("piped");
             let mut stdout = child.stdout.take().expect("piped");
             let output = thread::scope(|scope| {

@@ -12,11 +12,7 @@ fn ended_by(name: &'static str, number: i32) {
         let mut tally = Tally::new(name, stage.tool);
         for _ in 0..times(3) {
             let place = Place::new(stage);
-            let mut child = Command::new(binary(stage.tool))
-                .args(place.arguments(stage))
-                .stderr(Stdio::null())
-                .spawn()
-                .expect("the tool starts");
+            let mut child = place.start(stage);
             thread::sleep(stage.time.mul_f64(1.1 * share()));
             let sent = Command::new("kill")
                 .args([format!("-{number}"), child.id().to_string()])

@@ -3,7 +3,8 @@
 #[path = "../../examples/adversarial/shapes.rs"]
 mod shapes;
 
-use crate::generator::{Body, Encoding, Gear, Tessellation};
+use crate::failures::gear;
+use crate::generator::Encoding;
 use crate::support::{Outcome, binary, encode, finish, run};
 use interchange::{Format, write_document};
 use std::process::Command;
@@ -23,17 +24,6 @@ fn within(bytes: usize, tool: &str, arguments: &[&str], input: &[u8]) -> Outcome
         .arg(binary(tool))
         .args(arguments);
     finish(tool, command, input)
-}
-
-fn gear() -> Body {
-    Gear {
-        order: 12,
-        radius: 1.0,
-        bore: 0.3,
-        height: 0.5,
-        tessellation: Tessellation::Symmetric,
-    }
-    .build()
 }
 
 #[test]

@@ -250,7 +250,7 @@ fn detect(body: &Body, arguments: &[&str]) -> Outcome {
     run("symdetect", arguments, &encode(body, EXACT_STL))
 }
 
-fn gear() -> Body {
+pub fn gear() -> Body {
     Gear {
         order: 12,
         radius: 1.0,

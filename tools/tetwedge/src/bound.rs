@@ -27,6 +27,9 @@ const SHRUNK: f64 = 0.05;
 /// Least radius-edge bound when bounds are eased.
 const EASED: f64 = 2.0;
 
+/// TetGen counts points in 32 bits.
+const MOST: f64 = 2e9;
+
 /// Points that may be added for each of the surface when eased bounds do not help either.
 const LAST: f64 = 20.0;
 
@@ -66,7 +69,7 @@ impl Bound {
     pub fn switches(&self) -> String {
         // The user's own limit counts.
         if self.params.quality && !self.params.switches.contains('S') {
-            format!("S{:.0}", self.most)
+            format!("S{:.0}", self.most.min(MOST))
         } else {
             String::new()
         }
@@ -76,7 +79,7 @@ impl Bound {
     /// taken.
     pub fn next(&self, plc: &Plc, mesh: &Mesh) -> Option<Self> {
         let added = mesh.points().len().saturating_sub(plc.points.len());
-        if self.switches().is_empty() || self.last || (added as f64) < self.most {
+        if self.switches().is_empty() || self.last || (added as f64) < self.most.min(MOST) {
             return None;
         }
         let params = self.params.clone();
