@@ -3,6 +3,7 @@
 
     bench.py run --quick        two parameter sets, ends within ten minutes on two cores
     bench.py run                every cell, hours; can be interrupted and started again
+    bench.py direct             only the long direct runs, ahead of `run`, which then takes them over
     bench.py scaling            time against order, triangles and size of the output
     bench.py report             tables and plots of what has been measured so far
 
@@ -10,6 +11,7 @@ Needs nothing but Python 3.9, the release binaries and `tetgen`.
 """
 
 import argparse
+import dataclasses
 import json
 import os
 import shutil
@@ -31,6 +33,9 @@ TOOLS = ("symdetect", "wedgecut", "tetwedge", "rotassemble", "meshqual")
 PLACEMENT = ["--rotate", "1"]
 # Hours of direct meshing can be the answer for the practical via; seconds.
 PRACTICAL_LIMIT = 3600
+# Direct runs from here on are taken over from `bench.py direct`, seconds; shorter ones alternate with
+# the pipe's.
+LONG = 2.0
 # The quick run ends within ten minutes whatever the machine; the last cell, scaling and the report
 # take the rest.
 QUICK_MINUTES = 7.5
@@ -39,8 +44,8 @@ QUICK_MINUTES = 7.5
 class Results:
     """Measurements as lines of JSON, appended as they are made."""
 
-    def __init__(self, folder, header):
-        self.path = os.path.join(folder, "results.jsonl")
+    def __init__(self, path, header):
+        self.path = path
         self.lines = report.load(self.path)
         known = next((r for r in self.lines if r["kind"] == "header"), None)
         if known is None:
@@ -50,10 +55,14 @@ class Results:
                 f"bench: {self.path} was measured with other binaries or on another machine; "
                 "give another --out, or remove it"
             )
-        self.done = {(r["kind"], r.get("key")) for r in self.lines}
+        self.done = {(r["kind"], r.get("key")): r for r in self.lines}
 
     def has(self, kind, key):
         return (kind, key) in self.done
+
+    def get(self, kind, key):
+        """The record of that name, or nothing."""
+        return self.done.get((kind, key))
 
     def append(self, record):
         self.lines.append(record)
@@ -63,7 +72,7 @@ class Results:
                 file.write(b"\n")
             file.write(json.dumps(record).encode() + b"\n")
         if "key" in record:
-            self.done.add((record["kind"], record["key"]))
+            self.done[(record["kind"], record["key"])] = record
 
     @staticmethod
     def ends_with_newline(file):
@@ -80,27 +89,59 @@ def make_body(options, arguments, folder):
         subprocess.run([program, *arguments, *extra], cwd=folder, check=True)
 
 
-def measure_cell(options, cell, folder):
-    """Everything about one cell, as plain data."""
-    make_body(options, cell.body_arguments(), folder)
-    e = cell.elements
-    limit = PRACTICAL_LIMIT if cell.category == "P" and not options.quick else options.limit
-    pipes = {v: contestants.Pipe(options.binaries, e, angle) for v, angle in contestants.VARIANTS.items()}
-    variants = options.variants(cell)
-    record = {"load": os.getloadavg()[0], "pipe": {}, "direct": {}, "stages": {}}
+def limit_of(options, cell):
+    return PRACTICAL_LIMIT if cell.category == "P" and not options.quick else options.limit
 
+
+def kept_of_direct(options, cell, direct, series, folder):
+    """What is kept of the direct mesh."""
+    summary = series.summary()
+    if series.ok:
+        summary["output_seconds"] = direct.output_seconds(folder)
+        summary["quality"] = quality.of_direct(options.binaries, folder, cell.elements.radius_edge)
+    return summary
+
+
+def measure_optimized(options, cell, folder):
+    """The direct mesh with -o/130, once."""
+    direct = contestants.Direct(cell.elements, "130")
+    series = measure.Series([direct.run(folder, limit_of(options, cell))])
+    return kept_of_direct(options, cell, direct, series, folder)
+
+
+def measure_direct(options, cell, folder):
+    """The direct mesh alone, as often as `options.repeats` says."""
+    make_body(options, cell.body_arguments(), folder)
+    direct = contestants.Direct(cell.elements)
+    repeats = dataclasses.replace(options.repeats, seconds=0)
+    series = measure.interleaved({"direct": lambda: direct.run(folder, limit_of(options, cell))}, repeats)["direct"]
+    record = {"load": os.getloadavg()[0], "direct": {"default": kept_of_direct(options, cell, direct, series, folder)}}
+    if cell.elements in cells.OPTIMIZED_SETS and series.ok and cell.category != "P":
+        record["direct"]["130"] = measure_optimized(options, cell, folder)
+    return record
+
+
+def measure_cell(options, cell, folder, ahead=None):
+    """Everything about one cell, as plain data; `ahead` is the record of a long direct run made before."""
+    make_body(options, cell.body_arguments(), folder)
+    e, limit = cell.elements, limit_of(options, cell)
     direct = contestants.Direct(e)
-    tasks = {"direct": lambda: direct.run(folder, limit)}
-    for name in variants:
+    pipes = {v: contestants.Pipe(options.binaries, e, angle) for v, angle in contestants.VARIANTS.items()}
+    record = {"load": os.getloadavg()[0], "switches": direct.switches, "pipe": {}, "direct": {}, "stages": {}}
+    if ahead and ahead["direct"]["default"]["seconds"] < LONG:
+        ahead = None
+
+    tasks = {} if ahead else {"direct": lambda: direct.run(folder, limit)}
+    for name in options.variants(cell):
         tasks[name] = lambda name=name: pipes[name].run(folder, limit, f"pipe-{name}.vtk")
     series = measure.interleaved(tasks, options.repeats)
 
-    record["switches"] = direct.switches
-    record["direct"]["default"] = summary = series["direct"].summary()
-    if series["direct"].ok:
-        summary["output_seconds"] = direct.output_seconds(folder)
-        summary["quality"] = quality.of_direct(options.binaries, folder, e.radius_edge)
-    for name in variants:
+    if ahead:
+        record["direct"] = ahead["direct"]
+        record["direct_load"] = ahead["load"]
+    else:
+        record["direct"]["default"] = kept_of_direct(options, cell, direct, series["direct"], folder)
+    for name in options.variants(cell):
         record["pipe"][name] = summary = series[name].summary()
         if series[name].ok:
             summary["memory_of"] = pipes[name].memory(folder, limit)
@@ -108,16 +149,11 @@ def measure_cell(options, cell, folder):
             summary["bytes"] = os.path.getsize(os.path.join(folder, f"pipe-{name}.vtk"))
             summary["quality"] = quality.of(options.binaries, folder, f"pipe-{name}.vtk", e.radius_edge)
 
-    if "130" in variants and series["direct"].ok and cell.category != "P":
-        optimized = contestants.Direct(e, "130")
-        again = measure.Series([optimized.run(folder, limit)])
-        record["direct"]["130"] = summary = again.summary()
-        if again.ok:
-            summary["output_seconds"] = optimized.output_seconds(folder)
-            summary["quality"] = quality.of_direct(options.binaries, folder, e.radius_edge)
+    if e in cells.OPTIMIZED_SETS and not ahead and series["direct"].ok and cell.category != "P":
+        record["direct"]["130"] = measure_optimized(options, cell, folder)
 
     record["stages"] = measure_stages(options, pipes["default"], folder)
-    if options.hxt and cell.category != "P":
+    if options.hxt and cell.category != "P" and e in cells.OPTIMIZED_SETS:
         hxt = contestants.Hxt(options.gmsh_python, cell)
         again = measure.interleaved({"hxt": lambda: hxt.run(folder, limit)}, options.repeats)["hxt"]
         record["hxt"] = summary = again.summary()
@@ -159,9 +195,27 @@ def describe(record):
     return f"direct {direct['seconds']:.3f} s, {counts}, speed-up {direct['seconds'] / pipe['seconds']:.1f}"
 
 
+def chosen_cells(options):
+    return [c for c in (cells.quick() if options.quick else cells.full()) if options.wants(c)]
+
+
+def run_direct(options):
+    """Measures direct meshes; what takes less than `LONG` is measured by `run` itself again."""
+    results = open_direct(options)
+    chosen = chosen_cells(options)
+    folder = os.path.join(options.out, "work-direct")
+    for number, cell in enumerate(chosen, 1):
+        if not results.has("direct", cell.key):
+            record = {"kind": "direct", "key": cell.key}
+            record.update(measure_direct(options, cell, folder))
+            results.append(record)
+            print(f"[{number}/{len(chosen)}] {cell.key}: {record['direct']['default']['seconds']:.3f} s", flush=True)
+    shutil.rmtree(folder, ignore_errors=True)
+
+
 def run(options):
-    results = open_results(options)
-    chosen = [c for c in (cells.quick() if options.quick else cells.full()) if options.wants(c)]
+    results, ahead = open_results(options), open_direct(options)
+    chosen = chosen_cells(options)
     if options.list:
         for cell in chosen:
             print(cell.key, "done" if results.has("cell", cell.key) else "")
@@ -179,7 +233,7 @@ def run(options):
             break
         record = {"kind": "cell", "key": cell.key, "category": cell.category, "order": cell.order}
         record.update(vars(cell.elements))
-        record.update(measure_cell(options, cell, folder))
+        record.update(measure_cell(options, cell, folder, ahead.get("direct", cell.key)))
         results.append(record)
         print(f"[{number}/{len(chosen)}] {cell.key}: {describe(record)}", flush=True)
     shutil.rmtree(folder, ignore_errors=True)
@@ -199,12 +253,20 @@ def open_results(options):
         "limit": options.limit,
         "hxt": bool(options.hxt),
     }
-    return Results(options.out, header)
+    return Results(os.path.join(options.out, "results.jsonl"), header)
+
+
+def open_direct(options):
+    """Direct runs made ahead; they do not depend on the tools, only on the bodies."""
+    os.makedirs(options.out, exist_ok=True)
+    bodies = machine.fingerprint(os.path.join(options.binaries, "examples"), ("body",))
+    header = {"kind": "header", "machine": machine.describe(), "binaries": bodies}
+    return Results(os.path.join(options.out, "direct.jsonl"), header)
 
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", choices=("run", "scaling", "report"))
+    parser.add_argument("command", choices=("run", "direct", "scaling", "report"))
     parser.add_argument("--quick", action="store_true", help="two parameter sets, one run of what takes long")
     parser.add_argument("--out", help="folder for results [default: target/bench/quick or full]")
     parser.add_argument("--binaries", default=os.path.join(ROOT, "target", "release"), help="folder of the programs")
@@ -228,7 +290,7 @@ def parse():
     options.repeats = measure.Repeats(least=least, seconds=seconds, once=once)
     options.wants = lambda c: not options.cells or any((c.key + "-").startswith(p + "-") for p in options.cells)
     few = options.quick
-    options.variants = lambda c: ["default", "off", "130"] if not few or c.order == 16 else ["default"]
+    options.variants = lambda c: list(contestants.VARIANTS) if not few or c.order == 16 else ["default"]
     return options
 
 
@@ -236,6 +298,8 @@ def main():
     options = parse()
     if options.command == "run":
         run(options)
+    elif options.command == "direct":
+        run_direct(options)
     elif options.command == "scaling":
         results = open_results(options)
         scaling.run(options, results, make_body, quick=options.quick)

@@ -28,6 +28,9 @@ const ACCEPTED_MORE_CUTS: f64 = 1.09;
 const SKIN: f64 = 0.25;
 /// The same for the wall between wedge and hub, which gets the triangles of two meshes.
 const HUB_SKIN: f64 = 0.6;
+/// Elements, up to the same factor as everything here, that a seam costs per copy of the wedge for each
+/// unit of the harm it does to faces it slices: some thirty tetrahedra, of which about 17 make one here.
+const SLICED: f64 = 2.0;
 /// Time for an element of the hub, which is meshed twice, over that for one of the wedge.
 const HUB_COST: f64 = 2.0;
 /// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
@@ -70,6 +73,8 @@ pub struct Estimate {
     solid: bool,
     /// Radii blocked by steep faces, increasing, disjoint.
     steep: Vec<[f64; 2]>,
+    /// What thin triangles cost, see [`crate::needles::needles`].
+    needles: f64,
 }
 
 /// A way to mesh.
@@ -101,22 +106,31 @@ pub struct Options<'a> {
     pub no_hub: bool,
     /// Whether there is a mirror plane across the axis to halve wedges at.
     pub level: bool,
+    /// How much a seam harms the faces it slices, see [`crate::sliced::harm`].
+    pub harm: f64,
 }
 
 impl Estimate {
     /// Looks at the section and the edges of a wedge of the order found. `max_volume` is the largest
     /// volume of an element in a region, model units cubed, where one will be asked for.
-    /// `copies` of the wedge make the body.
-    pub fn new(wedge: &Template, copies: usize, max_volume: impl Fn(u32) -> Option<f64>) -> Self {
+    /// `copies` of the wedge make the body, whose thin triangles cost `needles`.
+    pub fn new(
+        wedge: &Template,
+        copies: usize,
+        needles: f64,
+        max_volume: impl Fn(u32) -> Option<f64>,
+    ) -> Self {
         let sections = sections(wedge);
         let mut extent = 0.0_f64;
         for p in &wedge.vertices {
             extent = extent.max(p.x.hypot(p.y)).max(p.z.abs());
         }
         let mut samples = edge_samples(wedge);
+        // A seam slices corners of the body at any angle: sharp ones of its section tell nothing.
+        let sliced = wedge.walls.iter().any(|w| matches!(w, Wall::Seam(_)));
         for section in &sections {
             let outline = Outline::new(section);
-            outline.thickness(extent, &mut samples);
+            outline.thickness(extent, sliced, &mut samples);
         }
         let samples = thinned(samples, extent);
         let caps = sections.iter().flatten();
@@ -132,6 +146,7 @@ impl Estimate {
             heights: vec![0.0; RADII],
             solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
             steep: steep(wedge),
+            needles,
         };
         let weight = 1.0 / sections.len().max(1) as f64;
         for section in &sections {
@@ -233,7 +248,7 @@ impl Estimate {
     /// Elements of the body meshed as a whole, up to a factor.
     fn whole(&self) -> f64 {
         let inside: f64 = self.classes().map(|(_, size, v)| v / size.powi(3)).sum();
-        inside + SKIN * self.skin
+        inside + SKIN * self.skin + self.needles
     }
 
     /// Elements of wedges and hubs, up to the same factor; `copies` of each.
@@ -264,7 +279,7 @@ impl Estimate {
                 height += v / (std::f64::consts::TAU * r * self.extent / RADII as f64);
             }
         }
-        outer += SKIN * self.skin;
+        outer += SKIN * self.skin + self.needles;
         for (i, squares) in self.walls.iter().enumerate() {
             // The plane that halves wedge and hub: as wide as its circle is long, for all copies.
             let circle = std::f64::consts::TAU * (i as f64 + 0.5) / RADII as f64 * self.extent;
@@ -369,7 +384,8 @@ impl Estimate {
                         meshed: 0.0,
                     };
                     let both = [copies, if hub.is_some() { hub_copies } else { 0.0 }];
-                    let (outer, inner) = self.parts(&way, options.mirror, both);
+                    let (mut outer, inner) = self.parts(&way, options.mirror, both);
+                    outer += SLICED * options.harm * copies;
                     way.elements = (outer + inner) / whole;
                     way.meshed = (outer / copies + HUB_COST * inner / hub_copies) / whole;
                     found.push(way);
@@ -399,7 +415,7 @@ fn opening(order: u32, mirror: bool) -> f64 {
 }
 
 /// Edge of the regular tetrahedron of a volume, model units.
-fn edge_of_volume(volume: f64) -> f64 {
+pub fn edge_of_volume(volume: f64) -> f64 {
     (volume * 6.0 * std::f64::consts::SQRT_2).cbrt()
 }
 
@@ -437,9 +453,10 @@ fn flat(p: DVec3) -> DVec2 {
 }
 
 /// Lengths of the edges of the body, at their ends. Edges in the walls are cuts; those that end at a
-/// wall go on behind it.
+/// mirror plane go on behind it, and those that end at a seam go on from its other face.
 fn edge_samples(wedge: &Template) -> Vec<Sample> {
     let mut on = vec![0_u8; wedge.vertices.len()];
+    let mut partner: FxHashMap<u32, u32> = FxHashMap::default();
     for (i, wall) in wedge.walls.iter().enumerate() {
         match wall {
             Wall::Mirror(m) => m
@@ -447,9 +464,11 @@ fn edge_samples(wedge: &Template) -> Vec<Sample> {
                 .iter()
                 .for_each(|&v| on[v as usize] |= 1 << (i % 8)),
             Wall::Seam(s) => {
-                for p in &s.vertex_pairs {
-                    on[p[0] as usize] |= 1;
-                    on[p[1] as usize] |= 2;
+                for &[low, high] in &s.vertex_pairs {
+                    on[low as usize] |= 1;
+                    on[high as usize] |= 2;
+                    partner.insert(low, high);
+                    partner.insert(high, low);
                 }
             }
             Wall::Hub(_) => {}
@@ -461,11 +480,12 @@ fn edge_samples(wedge: &Template) -> Vec<Sample> {
         let [a, b, c] = geom::measure::corners(&wedge.vertices, &wedge.triangles[t as usize]);
         geom::measure::double_area_vector(a, b, c).normalize_or_zero()
     };
-    let mut samples = Vec::new();
+    let mut pieces: Vec<([u32; 2], f64)> = Vec::new();
+    // Longest piece of an edge that ends at a vertex of the seam.
+    let mut longest: FxHashMap<u32, f64> = FxHashMap::default();
     for e in 0..edges.len() {
         let [a, b] = edges.ends[e];
-        let (at_a, at_b) = (on[a as usize], on[b as usize]);
-        if at_a & at_b != 0 {
+        if on[a as usize] & on[b as usize] != 0 {
             continue;
         }
         let around = edges.around(e);
@@ -474,10 +494,25 @@ fn edge_samples(wedge: &Template) -> Vec<Sample> {
         if is_flat {
             continue;
         }
-        let [p, q] = [a, b].map(|v| wedge.vertices[v as usize]);
-        let behind = if at_a | at_b == 0 { 1.0 } else { 2.0 };
-        let size = behind * p.distance(q);
-        samples.extend([p, q].map(|p| Sample { at: flat(p), size }));
+        let length = wedge.vertices[a as usize].distance(wedge.vertices[b as usize]);
+        for v in [a, b].into_iter().filter(|v| partner.contains_key(v)) {
+            let known = longest.entry(v).or_default();
+            *known = known.max(length);
+        }
+        pieces.push(([a, b], length));
+    }
+    let mut samples = Vec::with_capacity(2 * pieces.len());
+    for (ends, length) in pieces {
+        let behind = |v: u32| match partner.get(&v) {
+            Some(other) => longest.get(other).copied().unwrap_or(0.0),
+            None if on[v as usize] != 0 => length,
+            None => 0.0,
+        };
+        let size = length + behind(ends[0]).max(behind(ends[1]));
+        samples.extend(ends.map(|v| Sample {
+            at: flat(wedge.vertices[v as usize]),
+            size,
+        }));
     }
     samples
 }
@@ -503,6 +538,15 @@ struct OutlineEdge {
     b: DVec2,
     /// Whether there is material to the left, and to the right.
     material: [bool; 2],
+}
+
+impl OutlineEdge {
+    /// Whether two edges have an end in common.
+    fn touches(&self, other: &Self) -> bool {
+        [self.a, self.b]
+            .iter()
+            .any(|p| *p == other.a || *p == other.b)
+    }
 }
 
 struct Outline {
@@ -542,8 +586,9 @@ impl Outline {
         Self { edges }
     }
 
-    /// Thickness of what lies on either side of each edge.
-    fn thickness(&self, extent: f64, samples: &mut Vec<Sample>) {
+    /// Thickness of what lies on either side of each edge; `sliced` for that up to edges next to it not
+    /// to count.
+    fn thickness(&self, extent: f64, sliced: bool, samples: &mut Vec<Sample>) {
         let count = self.edges.len().max(1);
         let most = (PAIRS / count).max(1);
         let length: f64 = self.edges.iter().map(|e| e.a.distance(e.b)).sum();
@@ -557,7 +602,8 @@ impl Outline {
                 let from = edge.a + along * ((i as f64 + 0.5) / parts as f64);
                 for (side, direction) in [normal, -normal].into_iter().enumerate() {
                     if edge.material[side]
-                        && let Some(size) = self.nearest(from, direction, 1e-9 * extent)
+                        && let Some((size, hit)) = self.nearest(from, direction, 1e-9 * extent)
+                        && !(sliced && edge.touches(hit))
                     {
                         samples.push(Sample { at: from, size });
                         samples.push(Sample {
@@ -570,9 +616,10 @@ impl Outline {
         }
     }
 
-    /// Distance to the next edge along a ray.
-    fn nearest(&self, from: DVec2, direction: DVec2, least: f64) -> Option<f64> {
+    /// Distance to the next edge along a ray, and that edge.
+    fn nearest(&self, from: DVec2, direction: DVec2, least: f64) -> Option<(f64, &OutlineEdge)> {
         let mut best = f64::INFINITY;
+        let mut hit = None;
         for e in &self.edges {
             let (u, v) = (e.a - from, e.b - from);
             let (p, q) = (direction.perp_dot(u), direction.perp_dot(v));
@@ -582,9 +629,10 @@ impl Outline {
             let t = direction.dot(u + (v - u) * (p / (p - q)));
             if t > least && t < best {
                 best = t;
+                hit = Some(e);
             }
         }
-        best.is_finite().then_some(best)
+        hit.map(|e| (best, e))
     }
 }
 

@@ -17,12 +17,14 @@ mod error;
 mod finish;
 mod halved;
 mod hub;
+mod needles;
 mod opening;
 mod plan;
 mod planar;
 mod reconcile;
 mod seam;
 mod section;
+mod sliced;
 mod snap;
 mod surface;
 #[cfg(test)]
@@ -38,7 +40,7 @@ use opening::{HubPlane, Opening, Side};
 use plan::{HubPlan, Plan};
 use section::{Borders, Extent, Section};
 use surface::Surface;
-use tmesh::{Document, Frame, Source, Symmetry, Template, Triangle, Wall};
+use tmesh::{Document, Frame, Region, Source, Symmetry, Template, Triangle, Wall};
 
 /// Multiple of the input's precision within which values count as equal: rotation into the axis
 /// frame adds up three coordinates' errors, and the axis has an error of its own.
@@ -54,6 +56,9 @@ const LARGEST_SNAP: f64 = 1e-4;
 pub struct Report {
     /// Sentences for the history and `-v`.
     pub notes: Vec<String>,
+    /// How much the seam harms the faces it slices, see [`sliced::harm`]; zero for mirror planes, whose
+    /// section the body has anyway.
+    pub harm: f64,
 }
 
 /// Cuts the wedge out of a body.
@@ -108,7 +113,8 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         }
     };
     loop {
-        let Some((choice, why)) = choose(&first, &symmetry, params, &uncut) else {
+        let Some((choice, why)) = choose(&document, (&first, &report), &symmetry, params, &uncut)
+        else {
             if !uncut.0.is_empty() {
                 return Err(uncut.first());
             }
@@ -217,16 +223,14 @@ fn orders(symmetry: &Symmetry, params: &Params, mirror: bool) -> Vec<u32> {
 
 /// Chooses order and hub, and says why.
 fn choose(
-    wedge: &Document,
+    document: &Document,
+    (wedge, report): (&Document, &Report),
     symmetry: &Symmetry,
     params: &Params,
     uncut: &Uncut,
 ) -> Option<(choose::Choice, String)> {
     let mirror = matches!(wedge.templates[0].walls.first(), Some(Wall::Mirror(_)));
-    let max_volume = |region: u32| {
-        let at = wedge.regions.binary_search_by_key(&region, |r| r.id).ok()?;
-        wedge.regions[at].max_volume.or(params.max_volume)
-    };
+    let max_volume = |region: u32| params.max_volume_of(&wedge.regions, region);
     let mut orders = match params.order {
         Some(order) => vec![order],
         None => orders(symmetry, params, mirror),
@@ -242,8 +246,12 @@ fn choose(
         },
         no_hub: params.hub == Hub::None,
         level: params.level && symmetry.horizontal_mirror,
+        harm: report.harm,
     };
-    let estimate = choose::Estimate::new(&wedge.templates[0], wedge.instances.len(), max_volume);
+    let (body, copies) = (&document.templates[0], wedge.instances.len());
+    let size = element_size(&document.regions, body, params);
+    let needles = needles::needles(body, size);
+    let estimate = choose::Estimate::new(&wedge.templates[0], copies, needles, max_volume);
     let ways = estimate.ways(&options);
     let choice = choose::best(&ways)?;
     let planes = |c: &choose::Choice| {
@@ -274,11 +282,12 @@ fn cut_as_planned(
     params: &Params,
     tolerances: &Tolerances,
 ) -> Result<(Document, Report), CutError> {
-    let frames = frames(symmetry, plan, params, &document.templates[0], tolerances)?;
+    let frames = frames(document, symmetry, plan, params, tolerances)?;
     let mut failed = None;
-    for (i, frame) in frames.iter().enumerate() {
-        match cut_in_frame(document, symmetry, plan.clone(), hub, *frame, tolerances) {
+    for (i, &(frame, harm)) in frames.iter().enumerate() {
+        match cut_in_frame(document, symmetry, plan.clone(), hub, frame, tolerances) {
             Ok((document, mut report)) => {
+                report.harm = harm;
                 if let Some(error) = failed {
                     report.notes.push(format!(
                         "cut at the angle tried as number {} (--start-angle says which): {error}",
@@ -366,7 +375,7 @@ fn cut_in_frame(
     notes.push(format!(
         "{copies} copies of the wedge differ from the body's volume by {relative:.1e}"
     ));
-    Ok((document, Report { notes }))
+    Ok((document, Report { notes, harm: 0.0 }))
 }
 
 /// Distances, model units.
@@ -432,15 +441,36 @@ impl Tolerances {
     }
 }
 
-/// The canonical frames to try, z along the axis, x in the first side of the wedge: of rotation
-/// wedges some that start elsewhere, unless it was said where.
+/// The size of elements beside a triangle, model units: as asked for, at most that of the body.
+fn element_size(regions: &[Region], body: &Template, params: &Params) -> impl Fn(&Triangle) -> f64 {
+    let low = body.vertices.iter().copied().reduce(DVec3::min);
+    let high = body.vertices.iter().copied().reduce(DVec3::max);
+    let extent = low.zip(high).map_or(0.0, |(a, b)| a.distance(b));
+    move |t| {
+        let cap = |region| {
+            params
+                .max_volume_of(regions, region)
+                .map(choose::edge_of_volume)
+        };
+        let caps = [t.front, t.back].into_iter().filter_map(cap);
+        caps.fold(extent, f64::min)
+    }
+}
+
+/// How many places of the seam are tried, at most.
+const TRIALS: usize = 4;
+
+/// The canonical frames to try, z along the axis, x in the first side of the wedge, with the harm that a
+/// seam there does: of rotation wedges some that start elsewhere, unless it was said where, the
+/// least harm first.
 fn frames(
+    document: &Document,
     symmetry: &Symmetry,
     plan: &Plan,
     params: &Params,
-    body: &Template,
     tolerances: &Tolerances,
-) -> Result<Vec<Frame>, CutError> {
+) -> Result<Vec<(Frame, f64)>, CutError> {
+    let body = &document.templates[0];
     let axis = DVec3::from(symmetry.axis.direction);
     let origin = DVec3::from(symmetry.axis.point);
     let reference = DVec3::from(symmetry.mirror_direction);
@@ -475,20 +505,31 @@ fn frames(
             let (angle, step) = (angle.to_degrees(), step.to_degrees());
             return Err(CutError::NotAMirrorPlane { angle, step });
         }
-        vec![angle]
+        vec![(angle, 0.0)]
     } else if plan.is_whole() {
-        vec![0.0]
-    } else if let Some(angle) = params.start_angle {
-        vec![angle]
+        vec![(0.0, 0.0)]
     } else {
-        plan::clear_angles(&canonical(), plan.order, tolerances.plane)
+        let vertices = canonical();
+        let size = element_size(&document.regions, body, params);
+        let angles = match params.start_angle {
+            Some(angle) => vec![angle],
+            None => plan::clear_angles(&vertices, plan.order, tolerances.plane),
+        };
+        let harm = |angle: f64| sliced::harm(&vertices, &body.triangles, angle, &size);
+        let mut list: Vec<_> = angles.into_iter().map(|a| (a, harm(a))).collect();
+        // Stable, and rounding does not choose: the clearest place stays first among equals.
+        let class = |harm: f64| (harm * 1e3).round();
+        list.sort_by(|a, b| class(a.1).total_cmp(&class(b.1)));
+        list.truncate(TRIALS);
+        list
     };
-    let at = |angle: f64| {
+    let at = |(angle, harm): (f64, f64)| {
         if angle == 0.0 {
-            return Ok(base);
+            return Ok((base, harm));
         }
         let x = base.rotation * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0);
-        Frame::from_axis(origin, axis, x).ok_or_else(bad)
+        let frame = Frame::from_axis(origin, axis, x).ok_or_else(bad)?;
+        Ok((frame, harm))
     };
     angles.into_iter().map(at).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::error::CutError;
 use glam::DVec3;
-use tmesh::{Instance, Isometry, RegionMap, Symmetry};
+use tmesh::{Instance, Isometry, Region, RegionMap, Symmetry};
 
 /// Which walls the wedge gets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -75,6 +75,12 @@ impl Params {
     /// Whether anything is left to choose once the order found is known.
     pub fn chooses(&self) -> bool {
         self.order.is_none() || self.hub == Hub::Auto || self.level
+    }
+
+    /// Largest volume of an element in a region that will be asked for, model units cubed.
+    pub fn max_volume_of(&self, regions: &[Region], region: u32) -> Option<f64> {
+        let at = regions.binary_search_by_key(&region, |r| r.id).ok()?;
+        regions[at].max_volume.or(self.max_volume)
     }
 }
 
@@ -274,12 +280,15 @@ impl Permutations {
 }
 
 /// Parts of the wedge's opening of which each has an angle to try.
-const PLACES: usize = 4;
+const PLACES: usize = 16;
+
+/// Gaps narrower than this part of the largest are places next to a vertex.
+const LEAST_GAP: f64 = 1e-3;
 
 /// Angles for the first side of a rotation wedge, radians, best first: the middle of the largest gap
 /// between the angles of the vertices modulo the wedge's opening, so that the sides cut edges cleanly
 /// between vertices, the smallest such angle when several gaps are equal; then the same about a
-/// quarter of the opening further on each.
+/// part of the opening further on each.
 pub fn clear_angles(vertices: &[DVec3], order: u32, axis_tolerance: f64) -> Vec<f64> {
     let opening = std::f64::consts::TAU / f64::from(order);
     let mut angles: Vec<f64> = vertices
@@ -303,13 +312,16 @@ pub fn clear_angles(vertices: &[DVec3], order: u32, axis_tolerance: f64) -> Vec<
         )
     };
     let middle = |gap: (f64, f64)| (0.5 * (gap.0 + gap.1)).rem_euclid(opening);
-    let best = largest(&mut gaps()).map_or(0.0, middle);
+    let widest = largest(&mut gaps());
+    let best = widest.map_or(0.0, middle);
+    let least = LEAST_GAP * widest.map_or(0.0, |gap| gap.1 - gap.0);
     let part = opening / PLACES as f64;
     let others = (1..PLACES).filter_map(|k| {
         let around = best + part * k as f64;
         let off = |gap: (f64, f64)| (middle(gap) - around + 0.5 * opening).rem_euclid(opening);
         let is_near = |gap: &(f64, f64)| (off(*gap) - 0.5 * opening).abs() <= 0.5 * part;
-        largest(&mut gaps().filter(is_near)).map(middle)
+        let is_open = |gap: &(f64, f64)| gap.1 - gap.0 > least;
+        largest(&mut gaps().filter(is_open).filter(is_near)).map(middle)
     });
     std::iter::once(best).chain(others).collect()
 }
@@ -328,8 +340,8 @@ mod tests {
         // Modulo 90: 0, 10, 0, 10, 20; the largest gap is 20 to 90.
         let angles = clear_angles(&vertices, 4, 1e-9);
         assert!((angles[0].to_degrees() - 55.0).abs() < 1e-9, "{angles:?}");
-        // About half the opening further on: the gap between 0 and 10.
+        // Further on, one for each part with a gap: between 0 and 10, and between 10 and 20.
         let others: Vec<f64> = angles[1..].iter().map(|a| a.to_degrees().round()).collect();
-        assert_eq!(others, [5.0]);
+        assert_eq!(others, [5.0, 15.0]);
     }
 }
