@@ -8,6 +8,8 @@ use crate::plc::{DESCRIPTIONS, Plc};
 use crate::surface::{Other, impose, make};
 use crate::walls::leader;
 use crate::{Error, Params, Sizes};
+use geom::tet::TetMeasures;
+use glam::DVec3;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
@@ -301,6 +303,18 @@ pub fn run(
     })
 }
 
+/// How much the radius-edge bound is eased for the mesher where elements are improved afterwards, which brings
+/// what it left past the bound back below it. On prisms and vias (orders 4 to 128, bound 1.4) it saves 2 to 15 % of the
+/// elements.
+const EASED: f64 = 1.05;
+
+/// With more than this part of the elements left to be better, the bound was eased for too many ...
+const TOO_MANY: f64 = 0.01;
+
+/// ... unless it is the shape: elements past the eased bound, of which each spoils about so many.
+const SPOILED: f64 = 2.0;
+
+/// Meshes a template, with the radius-edge bound eased if that can be mended.
 fn template(
     document: &Document,
     index: usize,
@@ -308,10 +322,41 @@ fn template(
     sizes: &Sizes,
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Done, Error> {
+    if !params.quality || params.optimize.is_none() {
+        return Ok(attempt(document, index, params, params, sizes, log)?.0);
+    }
+    let eased = Params {
+        radius_edge: EASED * params.radius_edge,
+        ..params.clone()
+    };
+    let (done, past) = attempt(document, index, params, &eased, sizes, log)?;
+    let left = done.filled.improved.map_or(0, |i| i.left);
+    let count = done.filled.template.tets.len().max(1);
+    if done.advice.is_some() || left as f64 / count as f64 <= TOO_MANY + SPOILED * past {
+        return Ok(done);
+    }
+    log(&format!(
+        "template {index}: {left} of {count} tetrahedra remain to be improved; once more without the \
+         radius-edge bound eased"
+    ));
+    Ok(attempt(document, index, params, params, sizes, log).map_or(done, |(tight, _)| tight))
+}
+
+/// Meshes a template as `mesher` says and improves it as `params` does; also gives the part of the
+/// mesher's tetrahedra that are past its radius-edge bound.
+fn attempt(
+    document: &Document,
+    index: usize,
+    params: &Params,
+    mesher: &Params,
+    sizes: &Sizes,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<(Done, f64), Error> {
     let preserve = |plc: &Plc| plc.faces.preserve();
-    let (done, failed) = persist(index, params, log, |number, deadline| {
+    let ((done, past), failed) = persist(index, params, log, |number, deadline| {
         let attempt = (number, deadline);
-        let answer = run(document, index, params, sizes, attempt, preserve, log)?;
+        let answer = run(document, index, mesher, sizes, attempt, preserve, log)?;
+        let past = past_bound(&answer.mesh, mesher);
         let filled = fill(document, index, &answer.plc, &answer.mesh, params, sizes)?;
         if let Some(done) = filled.improved {
             log(&format!(
@@ -331,15 +376,25 @@ fn template(
                 filled.dropped
             ));
         }
-        Ok(Done {
+        let done = Done {
             filled,
             switches: answer.switches,
             advice: answer.advice,
             preserved: answer.plc.faces.preserve(),
             failed: 0,
-        })
+        };
+        Ok((done, past))
     })?;
-    Ok(Done { failed, ..done })
+    Ok((Done { failed, ..done }, past))
+}
+
+/// The part of a mesh that is past the radius-edge bound.
+pub fn past_bound(mesh: &Mesh, params: &Params) -> f64 {
+    let past = mesh.tetrahedra().iter().filter(|t| {
+        let corners = t.map(|v| DVec3::from_array(mesh.points()[v as usize]));
+        params.quality && TetMeasures::of(corners).radius_edge_ratio > params.radius_edge
+    });
+    past.count() as f64 / mesh.tetrahedra().len().max(1) as f64
 }
 
 /// Refuses sizes that could only end in running out of memory.

@@ -4,11 +4,9 @@ use crate::cells::{Cells, label};
 use crate::error::Place;
 use crate::facets::Facets;
 use crate::fill::ROUNDS;
-use crate::mesher::{Answer, persist, run};
+use crate::mesher::{Answer, past_bound, persist, run};
 use crate::{Error, Params, Sizes};
-use geom::tet::TetMeasures;
 use glam::DVec3;
-use tetgen_sys::Mesh;
 use tmesh::Document;
 
 /// A refined surface.
@@ -33,16 +31,12 @@ pub struct Refined {
 const EASED: f64 = 1.15;
 
 /// With this part of the guide's tetrahedra past the eased bound and more, the shape does not allow
-/// much better elements near its sharp places, and there the bound itself leaves fewer past it ...
+/// much better elements near its sharp places, and the bound itself leaves fewer past it ...
 const SHARP: f64 = 0.005;
 
 /// ... up to this part: of such shapes the mesh of the whole body has a tenth of its elements past the
 /// bound too, and insisting only multiplies points.
 const HARD: f64 = 0.05;
-
-/// How much the bound is eased then. On wheels of twisted blades (orders 5 to 12) it takes a tenth of the
-/// elements away.
-const EASED_HARD: f64 = 1.2;
 
 /// Meshes template `index` as asked by `params`, but free to put points on every facet, and gives
 /// the surface of that mesh. No facet joins wall faces with anything else, nor the two faces of a
@@ -56,22 +50,20 @@ pub fn refine(
     params: &Params,
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Refined, Error> {
-    let eased = |by: f64| Params {
-        radius_edge: by * params.radius_edge,
+    let eased = Params {
+        radius_edge: EASED * params.radius_edge,
         ..params.clone()
     };
-    let (refined, past) = attempt(document, index, &eased(EASED), log)?;
-    let by = match past {
-        _ if past >= HARD => EASED_HARD,
-        _ if past >= SHARP => 1.0,
-        _ => return Ok(refined),
-    };
+    let (refined, past) = attempt(document, index, &eased, log)?;
+    if !(SHARP..HARD).contains(&past) {
+        return Ok(refined);
+    }
     log(&format!(
         "template {index}: {:.1} % of the guide's elements are past the radius-edge bound eased by {EASED}; \
-         once more, eased by {by}",
+         once more without easing it",
         100.0 * past
     ));
-    Ok(attempt(document, index, &eased(by), log).map_or(refined, |(again, _)| again))
+    Ok(attempt(document, index, params, log).map_or(refined, |(tight, _)| tight))
 }
 
 /// A guide, and the part of its tetrahedra that are past the radius-edge bound.
@@ -127,15 +119,6 @@ fn attempt(
         Ok((refined, past))
     })?;
     Ok(made)
-}
-
-/// The part of a mesh that is past the radius-edge bound.
-fn past_bound(mesh: &Mesh, params: &Params) -> f64 {
-    let past = mesh.tetrahedra().iter().filter(|t| {
-        let corners = t.map(|v| DVec3::from_array(mesh.points()[v as usize]));
-        params.quality && TetMeasures::of(corners).radius_edge_ratio > params.radius_edge
-    });
-    past.count() as f64 / mesh.tetrahedra().len().max(1) as f64
 }
 
 /// Puts new vertices back onto the planes of their facets, which the mesher got shifted by
