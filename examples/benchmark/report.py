@@ -76,9 +76,10 @@ def flat(cell):
     without = row["seconds_direct"] - row["direct_output_seconds"] if row["seconds_direct"] else None
     row["speedup_without_output"] = ratio(without, pipe)
     row["speedup_at_least"] = ratio(row["direct_limit"], pipe)
-    for variant in ("off", "130"):
-        row[f"speedup_{variant}"] = ratio(row["seconds_direct"], row[f"seconds_pipe_{variant}"])
-    row["speedup_130_both"] = ratio(row["seconds_direct_130"], row["seconds_pipe_130"])
+    row["speedup_off"] = ratio(row["seconds_direct"], row["seconds_pipe_off"])
+    row["speedup_130_both"] = ratio(row["seconds_direct_130"], pipe)
+    row["count_ratio_130_both"] = ratio(row["tets_pipe"], row["tets_direct_130"])
+    row["direct_ahead"] = "direct_load" in cell
     row["speedup_hxt"] = ratio(row["seconds_hxt"], pipe)
     row["count_ratio"] = ratio(row["tets_pipe"], row["tets_direct"])
     return row
@@ -105,9 +106,9 @@ def aggregate(rows):
             "speedup_without_output": spread([r["speedup_without_output"] for r in mine]),
             "speedup_at_least": spread([r["speedup_at_least"] for r in mine]),
             "speedup_off": spread([r["speedup_off"] for r in mine]),
-            "speedup_130": spread([r["speedup_130"] for r in mine]),
             "speedup_130_both": spread([r["speedup_130_both"] for r in mine]),
             "count_ratio": spread([r["count_ratio"] for r in mine]),
+            "count_ratio_130_both": spread([r["count_ratio_130_both"] for r in mine]),
             "p01_gain": gain("p01_dihedral"),
             "min_gain": gain("min_dihedral"),
             "violations_pipe": worst("violations_pipe"),
@@ -170,7 +171,7 @@ def mean_histograms(cells):
     wanted = {
         "direct": lambda c: c["direct"].get("default", {}),
         "pipe": lambda c: c["pipe"].get("default", {}),
-        "pipe, --optimize 130": lambda c: c["pipe"].get("130", {}),
+        "pipe, --optimize off": lambda c: c["pipe"].get("off", {}),
     }
     have = lambda summary: (summary.get("quality") or {}).get("histograms")
     usable = [c for c in cells if c["category"] in "ABC" and all(have(get(c)) for get in wanted.values())]

@@ -20,7 +20,7 @@ const GROWTH: f64 = 0.35;
 const SPAN: f64 = 1.2;
 const SEAM_SPAN: f64 = 0.7;
 /// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
-const ACCEPTED: f64 = 1.15;
+const ACCEPTED: f64 = 1.22;
 /// The same where a hub or the plane across the axis is cut: their elements are estimated less well.
 const ACCEPTED_MORE_CUTS: f64 = 1.09;
 /// Elements beside a square of the boundary of their size, over those in a cube of it, where a size

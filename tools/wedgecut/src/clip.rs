@@ -4,7 +4,7 @@
 //! depends on the shape and not on how its flat faces happened to be triangulated. Crossing points
 //! are made once per edge and shared by all patches around it.
 
-use crate::opening::{Opening, Side};
+use crate::opening::{Class, Opening, Side};
 use crate::planar::{Segment, triangulate};
 use crate::surface::Surface;
 use glam::DVec3;
@@ -15,12 +15,17 @@ const INSIDE: u32 = 1;
 const OUT: u32 = 0;
 
 /// Keeps the part of the surface on the wedge's side of a plane. Faces that lie in the plane go
-/// too; the caps replace them.
+/// too; the caps replace them. So do faces that the cut leaves in another side's plane, where it passes a
+/// point on the axis or near it.
 ///
 /// `split_at_axis`: also split what lies in the plane where it passes the axis, for wedges whose
 /// two sides share one plane.
 pub fn clip(surface: &mut Surface, opening: &Opening, side: Side, split_at_axis: bool) {
-    let keeps = |classes: [i8; 3]| classes.iter().all(|&c| c >= 0) && classes != [0; 3];
+    let keeps = |classes: [Class; 3]| {
+        let lies_in = |side| classes.iter().all(|c| c.of(side) == 0);
+        classes.iter().all(|c| c.of(side) >= 0)
+            && ![Side::A, Side::B, Side::Level].into_iter().any(lies_in)
+    };
     divide(surface, opening, side, split_at_axis, keeps);
 }
 
@@ -30,7 +35,8 @@ pub fn divide_at_hub(surface: &mut Surface, opening: &Opening) {
     for (p, class) in surface.points.iter_mut().zip(&mut surface.classes) {
         (*p, *class) = opening.classify_hub(*p, *class);
     }
-    divide(surface, opening, Side::Hub, false, |c| c != [0; 3]);
+    let keeps = |classes: [Class; 3]| classes.iter().any(|c| c.hub != 0);
+    divide(surface, opening, Side::Hub, false, keeps);
 }
 
 /// Divides all patches that cross a plane, and keeps the faces whose points have the right classes.
@@ -39,7 +45,7 @@ fn divide(
     opening: &Opening,
     side: Side,
     split_at_axis: bool,
-    wanted: impl Fn([i8; 3]) -> bool,
+    wanted: impl Fn([Class; 3]) -> bool,
 ) {
     let mut members: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
     let mut cutter = Cutter {
@@ -64,7 +70,7 @@ fn divide(
         }
     }
     let keeps = |surface: &Surface, face: &Triangle| {
-        wanted(face.vertices.map(|v| surface.classes[v as usize].of(side)))
+        wanted(face.vertices.map(|v| surface.classes[v as usize]))
     };
     for (i, (face, &patch)) in faces.iter().zip(&patches).enumerate() {
         match reach[patch as usize] {
