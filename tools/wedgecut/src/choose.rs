@@ -368,6 +368,8 @@ impl Estimate {
                 hubs.extend(radii.iter().map(|&r| Some(r)));
             }
             let mut found: Vec<Choice> = Vec::new();
+            // Halves have half of the seam each.
+            let seam = SLICED * options.harm * f64::from(order);
             // Half a turn between the faces of a seam is left whole: three walls in two planes.
             let half = order == 2 && !options.mirror;
             for &level in levels.iter().filter(|&&level| !(level && half)) {
@@ -385,23 +387,25 @@ impl Estimate {
                     };
                     let both = [copies, if hub.is_some() { hub_copies } else { 0.0 }];
                     let (mut outer, inner) = self.parts(&way, options.mirror, both);
-                    outer += SLICED * options.harm * copies;
+                    outer += seam;
                     way.elements = (outer + inner) / whole;
                     way.meshed = (outer / copies + HUB_COST * inner / hub_copies) / whole;
                     found.push(way);
                 }
             }
-            ways.extend(best(&found));
+            // No other plane changes what the seam costs.
+            ways.extend(best(&found, 1.0 + seam / whole));
         }
         ways
     }
 }
 
-/// The fastest way within the accepted number of elements, else the one with the fewest.
-pub fn best(ways: &[Choice]) -> Option<Choice> {
+/// The fastest way within the accepted number of elements, else the one with the fewest. `base`: the
+/// elements that cannot be avoided, over those of the whole body.
+pub fn best(ways: &[Choice], base: f64) -> Option<Choice> {
     let limit = |w: &Choice| match w.hub.is_some() || w.level {
-        true => ACCEPTED_MORE_CUTS,
-        false => ACCEPTED,
+        true => base * ACCEPTED_MORE_CUTS,
+        false => base * ACCEPTED,
     };
     let accepted = ways.iter().filter(|w| w.elements <= limit(w));
     let fastest = accepted.min_by(|a, b| a.meshed.total_cmp(&b.meshed));
