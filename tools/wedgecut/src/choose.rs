@@ -19,8 +19,11 @@ const GROWTH: f64 = 0.35;
 /// between the faces of a seam, whose triangles stay as they are.
 const SPAN: f64 = 1.2;
 const SEAM_SPAN: f64 = 0.7;
-/// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
+/// Elements of the assembled mesh over those of a mesh of the whole body that are accepted, of wedges
+/// between mirror planes.
 const ACCEPTED: f64 = 1.22;
+/// The same of wedges with a seam: its triangles limit what can be done about bad elements.
+const ACCEPTED_SEAM: f64 = 1.15;
 /// The same where a hub or the plane across the axis is cut: their elements are estimated less well.
 const ACCEPTED_MORE_CUTS: f64 = 1.09;
 /// Elements beside a square of the boundary of their size, over those in a cube of it, where a size
@@ -394,7 +397,7 @@ impl Estimate {
                 }
             }
             // No other plane changes what the seam costs.
-            ways.extend(best(&found, 1.0 + seam / whole));
+            ways.extend(best(&found, options.mirror, 1.0 + seam / whole));
         }
         ways
     }
@@ -402,10 +405,11 @@ impl Estimate {
 
 /// The fastest way within the accepted number of elements, else the one with the fewest. `base`: the
 /// elements that cannot be avoided, over those of the whole body.
-pub fn best(ways: &[Choice], base: f64) -> Option<Choice> {
-    let limit = |w: &Choice| match w.hub.is_some() || w.level {
-        true => base * ACCEPTED_MORE_CUTS,
-        false => base * ACCEPTED,
+pub fn best(ways: &[Choice], mirror: bool, base: f64) -> Option<Choice> {
+    let limit = |w: &Choice| match (w.hub.is_some() || w.level, mirror) {
+        (true, _) => base * ACCEPTED_MORE_CUTS,
+        (false, true) => base * ACCEPTED,
+        (false, false) => base * ACCEPTED_SEAM,
     };
     let accepted = ways.iter().filter(|w| w.elements <= limit(w));
     let fastest = accepted.min_by(|a, b| a.meshed.total_cmp(&b.meshed));
