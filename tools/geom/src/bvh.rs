@@ -1,6 +1,7 @@
-//! Nearest triangle and box queries on a triangle set.
+//! Nearest triangle queries on a triangle set.
 //!
-//! A bounding-volume hierarchy with four children per node and single triangles as leaves, split by
+//! A bounding-volume hierarchy with four children per node and single triangles, or pieces of long and thin
+//! ones, as leaves, split by
 //! the surface-area heuristic over bins of centroids (Wald, "On fast construction of SAH-based
 //! bounding volume hierarchies", 2007). Boxes are in single precision, about the centre of the set
 //! and in units of its size; distances to them are taken a margin too small, so that no rounding can
@@ -79,18 +80,17 @@ impl Bvh {
         for p in triangles.iter_mut().flatten() {
             *p = (*p - centre) / unit;
         }
-        let mut items: Vec<Item> = triangles
-            .iter()
-            .enumerate()
-            .map(|(i, t)| {
-                let bounds = t.iter().fold(Bounds::EMPTY, |b, &p| b.with(p));
-                Item {
+        let mut items: Vec<Item> = Vec::with_capacity(triangles.len());
+        let thin = Thin::new(&triangles);
+        for (i, t) in triangles.iter().enumerate() {
+            thin.for_each_piece(t, |bounds| {
+                items.push(Item {
                     bounds,
                     middle: 0.5 * (bounds.low + bounds.high),
                     index: i as u32,
-                }
-            })
-            .collect();
+                });
+            });
+        }
         let nodes = build(&mut items);
         Self {
             nodes,
@@ -101,7 +101,7 @@ impl Bvh {
         }
     }
 
-    /// Number of triangles.
+    /// Number of leaves: triangles and pieces of them.
     pub fn len(&self) -> usize {
         self.index.len()
     }
@@ -160,37 +160,6 @@ impl Bvh {
             point: q * self.unit + self.centre,
             distance: best.sqrt() * self.unit,
         })
-    }
-
-    /// Calls `visit` with every triangle whose bounding box meets the box from `low` to `high`, in a
-    /// fixed order.
-    pub fn for_each_in_box(&self, low: DVec3, high: DVec3, mut visit: impl FnMut(u32)) {
-        let low = (low - self.centre) / self.unit;
-        let high = (high - self.centre) / self.unit;
-        let mut stack = Vec::new();
-        if !self.nodes.is_empty() {
-            stack.push(0_u32);
-        }
-        while let Some(at) = stack.pop() {
-            if at & LEAF != 0 {
-                let i = (at & !LEAF) as usize;
-                let t = &self.corners[i];
-                let (l, h) = (t[0].min(t[1]).min(t[2]), t[0].max(t[1]).max(t[2]));
-                if l.cmple(high).all() && h.cmpge(low).all() {
-                    visit(self.index[i]);
-                }
-                continue;
-            }
-            let node = &self.nodes[at as usize];
-            for i in (0..WIDTH).rev() {
-                let meets = (0..3).all(|k| {
-                    f64::from(node.low[k][i]) <= high[k] && f64::from(node.high[k][i]) >= low[k]
-                });
-                if meets {
-                    stack.push(node.child[i]);
-                }
-            }
-        }
     }
 }
 
@@ -332,6 +301,86 @@ impl Bounds {
     fn half_area(&self) -> f64 {
         let e = (self.high - self.low).max(DVec3::ZERO);
         e.x * e.y + e.y * e.z + e.z * e.x
+    }
+}
+
+/// What counts as long and thin. The box of such a triangle, if it is oblique, is nearly empty, and where
+/// many of them meet in a point each place is in the boxes of all; boxes of pieces are smaller.
+struct Thin {
+    /// Pieces per unit of half a box's surface over twice the triangle's area; zero for none.
+    rate: f64,
+}
+
+impl Thin {
+    /// Pieces of a triangle, at most.
+    const MOST: usize = 16;
+    /// Half a box's surface over twice the area of a triangle that is not thin, at most.
+    const COMPACT: f64 = 8.0;
+    /// Shorter triangles, in units of half the set's size, are left whole.
+    const SHORT: f64 = 1.0 / 16.0;
+    /// Pieces there may be beyond two for each triangle.
+    const SPARE: usize = 1 << 16;
+
+    fn new(triangles: &[[DVec3; 3]]) -> Self {
+        let mut thin = Self {
+            rate: 1.0 / Self::COMPACT,
+        };
+        // Fewer for each where most triangles are thin.
+        while thin.rate > 1e-6 {
+            let pieces: usize = triangles.iter().map(|t| thin.pieces(t)).sum();
+            if pieces <= 2 * triangles.len() + Self::SPARE {
+                return thin;
+            }
+            thin.rate *= 0.25;
+        }
+        thin.rate = 0.0;
+        thin
+    }
+
+    fn pieces(&self, t: &[DVec3; 3]) -> usize {
+        let bounds = t.iter().fold(Bounds::EMPTY, |b, &p| b.with(p));
+        let extent = (bounds.high - bounds.low).max_element();
+        let area = (t[1] - t[0]).cross(t[2] - t[0]).length();
+        let pieces = self.rate * bounds.half_area() / area;
+        match pieces.is_finite() && extent > Self::SHORT {
+            true => (pieces as usize).clamp(1, Self::MOST),
+            false => 1,
+        }
+    }
+
+    /// Gives the boxes of the pieces of a triangle, cut across its longest side.
+    fn for_each_piece(&self, t: &[DVec3; 3], mut visit: impl FnMut(Bounds)) {
+        let count = self.pieces(t);
+        if count == 1 {
+            return visit(t.iter().fold(Bounds::EMPTY, |b, &p| b.with(p)));
+        }
+        let longest = (0..3).max_by(|&i, &j| {
+            let square = |i: usize| (t[(i + 1) % 3] - t[i]).length_squared();
+            square(i).total_cmp(&square(j))
+        });
+        let i = longest.unwrap_or(0);
+        let (a, b, c) = (t[i], t[(i + 1) % 3], t[(i + 2) % 3]);
+        let along = b - a;
+        // Where the apex is, as a part of the longest side; between 0 and 1 but for rounding.
+        let apex = ((c - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+        let on_base = |x: f64| a + along * x;
+        let on_sides = |x: f64| match x < apex {
+            true => a + (c - a) * (x / apex),
+            false => b + (c - b) * ((1.0 - x) / (1.0 - apex)),
+        };
+        for k in 0..count {
+            let [low, high] = [k, k + 1].map(|k| k as f64 / count as f64);
+            let mut bounds = Bounds::EMPTY;
+            for x in [low, high] {
+                bounds = bounds.with(on_base(x));
+                let q = on_sides(x);
+                bounds = bounds.with(if q.is_finite() { q } else { c });
+            }
+            if (low..=high).contains(&apex) {
+                bounds = bounds.with(c);
+            }
+            visit(bounds);
+        }
     }
 }
 
@@ -528,24 +577,34 @@ mod tests {
     }
 
     #[test]
-    fn boxes_find_exactly_the_triangles_that_meet_them() {
-        let triangles = soup(400, 0.1, DVec3::ZERO, 3);
+    fn pieces_of_thin_triangles_hide_nothing() {
+        // A fan of oblique needles, and needles anywhere.
+        let mut r = Lcg(3);
+        let turn = glam::DQuat::from_rotation_x(0.7) * glam::DQuat::from_rotation_y(0.5);
+        let rim = |i: usize| {
+            let a = std::f64::consts::TAU * i as f64 / 300.0;
+            turn * DVec3::new(a.cos(), a.sin(), 0.3)
+        };
+        let mut triangles: Vec<[DVec3; 3]> = (0..300)
+            .map(|i| [DVec3::ZERO, rim(i), rim(i + 1)])
+            .collect();
+        triangles.extend((0..100).map(|_| {
+            let (p, q) = (r.point(), r.point());
+            [q, p, p + (q - p) * r.next() + 0.01 * r.point()]
+        }));
         let bvh = Bvh::new(triangles.iter().copied());
-        let mut r = Lcg(4);
-        for _ in 0..50 {
-            let low = r.point();
-            let high = low + 0.2 * r.point();
-            let mut found = Vec::new();
-            bvh.for_each_in_box(low, high, |t| found.push(t));
-            found.sort_unstable();
-            let expected: Vec<u32> = (0..400)
-                .filter(|&i| {
-                    let t = &triangles[i as usize];
-                    let (l, h) = (t[0].min(t[1]).min(t[2]), t[0].max(t[1]).max(t[2]));
-                    l.cmple(high).all() && h.cmpge(low).all()
-                })
-                .collect();
-            assert_eq!(found, expected);
+        assert!(bvh.len() > 2 * triangles.len());
+        for _ in 0..2000 {
+            let p = 2.0 * r.point() - DVec3::splat(0.5);
+            let found = bvh.nearest(p, f64::INFINITY).unwrap();
+            let least = triangles
+                .iter()
+                .map(|t| (p - closest_point(p, t)).length())
+                .fold(f64::INFINITY, f64::min);
+            assert!(
+                (found.distance - least).abs() <= 1e-14,
+                "{p} {found:?} {least}"
+            );
         }
     }
 

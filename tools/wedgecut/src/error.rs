@@ -59,16 +59,17 @@ pub enum CutError {
     },
     /// The sections at the two sides of a rotation wedge are not images of each other.
     #[error(
-        "the sections at the two sides of the wedge do not match: {low} points against {high}, the \
-         farthest {distance:.3e} from a partner (tolerance {tolerance:.3e}) near ({:.6}, {:.6}, {:.6})",
-        .near.x, .near.y, .near.z
+        "the sections at the two sides of the wedge do not match: {low} points against {high}, {} \
+         (tolerance {tolerance:.3e}) near ({:.6}, {:.6}, {:.6})",
+        partner(*.distance), .near.x, .near.y, .near.z
     )]
     SectionsDiffer {
         /// Points on the low side.
         low: usize,
         /// Points on the high side.
         high: usize,
-        /// Largest distance of a point to its nearest partner, model units.
+        /// Largest distance of a point to its nearest partner, model units; infinite where the other side has
+        /// nothing to compare it with.
         distance: f64,
         /// What is allowed, model units.
         tolerance: f64,
@@ -162,5 +163,14 @@ impl From<CutError> for Failure {
             }
             _ => Self::Impossible(error.to_string()),
         }
+    }
+}
+
+/// How far a point is from a partner, in words.
+fn partner(distance: f64) -> String {
+    if distance.is_finite() {
+        format!("the farthest {distance:.3e} from a partner")
+    } else {
+        "and there is nothing on the other side where curves end".to_owned()
     }
 }
