@@ -175,7 +175,8 @@ def measure_stages(options, pipe, folder):
                 mesher.append(contestants.mesher_seconds(result))
             return result
 
-        series = measure.interleaved({name: one}, options.repeats)[name]
+        # The whole pipe has been measured; here it is the shares that matter.
+        series = measure.interleaved({name: one}, dataclasses.replace(options.repeats, seconds=0))[name]
         stages[name] = series.summary()
         if not series.ok:
             break
@@ -272,6 +273,7 @@ def parse():
     parser.add_argument("--binaries", default=os.path.join(ROOT, "target", "release"), help="folder of the programs")
     parser.add_argument("--limit", type=float, help="seconds that a run may take [default: 900; quick 60]")
     parser.add_argument("--least", type=int, help="runs of each, unless one takes 30 s [default: 3; quick 1]")
+    parser.add_argument("--seconds", type=float, help="least time that runs of each take together, seconds [default: 2; quick 0.5]")
     parser.add_argument("--cells", action="append", help="only cells whose key starts with this, as B-16; repeatable")
     parser.add_argument("--stop-after", type=float, metavar="MINUTES", help="start no cell after that time [quick: 7.5]")
     parser.add_argument("--hxt", action="store_true", help="also measure Gmsh's HXT, where gmsh can be imported")
@@ -287,10 +289,11 @@ def parse():
         options.stop_after = QUICK_MINUTES
     least = options.least or (1 if options.quick else 3)
     seconds, once = (0.5, 1.0) if options.quick else (2.0, 30.0)
+    seconds = options.seconds or seconds
     options.repeats = measure.Repeats(least=least, seconds=seconds, once=once)
     options.wants = lambda c: not options.cells or any((c.key + "-").startswith(p + "-") for p in options.cells)
-    few = options.quick
-    options.variants = lambda c: list(contestants.VARIANTS) if not few or c.order == 16 else ["default"]
+    few = lambda c: c.elements not in cells.OFF_SETS or options.quick and c.order != 16
+    options.variants = lambda c: ["default"] if few(c) else list(contestants.VARIANTS)
     return options
 
 

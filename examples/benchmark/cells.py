@@ -57,6 +57,8 @@ class Cell:
 
 SETS = [Elements(*s) for s in itertools.product(RADIUS_EDGE, MIN_DIHEDRAL, MAX_VOLUME)]
 MIDDLE = Elements(1.7, 10, 1e-3)
+# Sets in which the pipe is measured without optimization too.
+OFF_SETS = [s for s in SETS if (s.radius_edge, s.min_dihedral) == (1.4, 10)] + [MIDDLE]
 # Sets in which the direct mesh is made with -o/130 too, and HXT's if it is asked for.
 OPTIMIZED_SETS = [MIDDLE]
 QUICK_SETS = [Elements(2.0, 5, 1e-2), MIDDLE]

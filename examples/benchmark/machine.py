@@ -31,7 +31,7 @@ def describe():
     tetgen = re.search(r"tetgen\s+(\S+)", output("dpkg-query", "-W", "tetgen"))
     return {
         "processor": model.group(1).strip() if model else platform.machine(),
-        "cores": len(os.sched_getaffinity(0)),
+        "cores": os.cpu_count(),
         "memory_gib": round(int(memory.group(1)) / 2**20, 1) if memory else None,
         "system": system.group(1) if system else platform.system(),
         "kernel": platform.release().split("-")[0],

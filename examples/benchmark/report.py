@@ -171,7 +171,6 @@ def mean_histograms(cells):
     wanted = {
         "direct": lambda c: c["direct"].get("default", {}),
         "pipe": lambda c: c["pipe"].get("default", {}),
-        "pipe, --optimize off": lambda c: c["pipe"].get("off", {}),
     }
     have = lambda summary: (summary.get("quality") or {}).get("histograms")
     usable = [c for c in cells if c["category"] in "ABC" and all(have(get(c)) for get in wanted.values())]

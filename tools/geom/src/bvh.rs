@@ -315,9 +315,9 @@ impl Thin {
     /// Pieces of a triangle, at most.
     const MOST: usize = 16;
     /// Half a box's surface over twice the area of a triangle that is not thin, at most.
-    const COMPACT: f64 = 8.0;
+    const COMPACT: f64 = 3.0;
     /// Shorter triangles, in units of half the set's size, are left whole.
-    const SHORT: f64 = 1.0 / 16.0;
+    const SHORT: f64 = 1.0 / 32.0;
     /// Pieces there may be beyond two for each triangle.
     const SPARE: usize = 1 << 16;
 

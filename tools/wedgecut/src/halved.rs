@@ -53,6 +53,18 @@ pub fn harm(vertices: &[DVec3], triangles: &[Triangle], angle: f64, tolerance: f
     sum
 }
 
+/// How many triangles the plane through the axis at `angle` (radians) cuts in two; the other arguments as
+/// for [`harm`].
+pub fn crossed(vertices: &[DVec3], triangles: &[Triangle], angle: f64, tolerance: f64) -> usize {
+    let normal = DVec3::new(-libm::sin(angle), libm::cos(angle), 0.0);
+    let heights: Vec<f64> = vertices.iter().map(|p| p.dot(normal)).collect();
+    let is_cut = |t: &&Triangle| {
+        let height = t.vertices.map(|v| heights[v as usize]);
+        height.iter().any(|h| *h < -tolerance) && height.iter().any(|h| *h > tolerance)
+    };
+    triangles.iter().filter(is_cut).count()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,6 +95,9 @@ mod tests {
         assert!((through - 2.0 * 2.0 * 15.0).abs() < 1e-9, "{through}");
         let between = std::f64::consts::FRAC_PI_4;
         assert_eq!(harm(&vertices, &triangles, between, 1e-9), 0.0);
+        // All four triangles of two opposite sides.
+        assert_eq!(crossed(&vertices, &triangles, between, 1e-9), 4);
+        assert_eq!(crossed(&vertices, &triangles, 0.0, 1e-9), 0);
         // The same from inside: a square hole has 270 degrees of material at its corners.
         let swapped: Vec<Triangle> = triangles
             .iter()

@@ -491,14 +491,15 @@ fn frames(
                 return 0.0;
             }
             let vertices = canonical();
+            let both = [0.0, step];
             let [given, other] =
-                [0.0, step].map(|a| halved::harm(&vertices, &body.triangles, a, tolerances.plane));
+                both.map(|a| halved::harm(&vertices, &body.triangles, a, tolerances.plane));
+            let [cut, less] =
+                both.map(|a| halved::crossed(&vertices, &body.triangles, a, tolerances.plane));
             // Rounding does not choose.
-            if other < given * (1.0 - 1e-6) {
-                step
-            } else {
-                0.0
-            }
+            let alike = (given - other).abs() <= 1e-6 * given.max(other);
+            let is_better = if alike { less < cut } else { other < given };
+            if is_better { step } else { 0.0 }
         });
         let planes = (angle / step).round();
         if (angle - planes * step).abs() > 1e-9 {
