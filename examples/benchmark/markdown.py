@@ -1,5 +1,6 @@
 """The report as a Markdown page."""
 
+import cells
 from cells import TITLES
 from contestants import STAGES
 
@@ -27,6 +28,12 @@ def table(head, rows):
     return lines + ["| " + " | ".join(map(cell, row)) + " |" for row in rows] + [""]
 
 
+def unfinished(header, rows):
+    """What is missing, in words."""
+    whole = len(cells.quick() if header["sets"] == "quick" else cells.full())
+    return "" if len(rows) >= whole else f", of {whole} cells"
+
+
 def introduction(header, rows):
     machine = header["machine"]
     busy = [r for r in rows if (r["cpu_seconds_direct"] or 0) < 0.9 * (r["seconds_direct"] or 0) and r["seconds_direct"] > 0.2]
@@ -35,7 +42,7 @@ def introduction(header, rows):
         "",
         f"{machine['processor']}, {machine['cores']} cores, {machine['memory_gib']} GiB, {machine['system']}, "
         f"kernel {machine['kernel']}; TetGen {machine['tetgen']}; binaries {header['binaries']}. "
-        f"{len(rows)} cells ({header['sets']} table).",
+        f"{len(rows)} cells ({header['sets']} table{unfinished(header, rows)}).",
         "",
         "Pipe: `symdetect body.stl | wedgecut --max-volume V | tetwedge --radius-edge R --min-dihedral D --max-volume V "
         "| rotassemble > body.vtk`, whole processes, from an STL file of the body turned and shifted at random to a VTK "
