@@ -32,8 +32,8 @@ const SKIN: f64 = 0.25;
 /// The same for the wall between wedge and hub, which gets the triangles of two meshes.
 const HUB_SKIN: f64 = 0.6;
 /// Elements, up to the same factor as everything here, that a seam costs per copy of the wedge for each
-/// unit of the harm it does to faces it slices: some thirty tetrahedra, of which about 17 make one here.
-const SLICED: f64 = 2.0;
+/// unit of the harm it does to faces it slices: a hundred tetrahedra, of which about 17 make one here.
+const SLICED: f64 = 6.0;
 /// Time for an element of the hub, which is meshed twice, over that for one of the wedge.
 const HUB_COST: f64 = 2.0;
 /// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
@@ -109,7 +109,7 @@ pub struct Options<'a> {
     pub no_hub: bool,
     /// Whether there is a mirror plane across the axis to halve wedges at.
     pub level: bool,
-    /// How much a seam harms the faces it slices, see [`crate::sliced::harm`].
+    /// How much a seam harms the faces it slices, see [`crate::sliced::Harm`].
     pub harm: f64,
 }
 

@@ -56,7 +56,7 @@ const LARGEST_SNAP: f64 = 1e-4;
 pub struct Report {
     /// Sentences for the history and `-v`.
     pub notes: Vec<String>,
-    /// How much the seam harms the faces it slices, see [`sliced::harm`]; zero for mirror planes, whose
+    /// How much the seam harms the faces it slices, see [`sliced::Harm`]; zero for mirror planes, whose
     /// section the body has anyway.
     pub harm: f64,
 }
@@ -519,10 +519,10 @@ fn frames(
         let harm = |angle: f64| sliced::harm(&vertices, &body.triangles, angle, &size);
         let mut list: Vec<_> = angles.into_iter().map(|a| (a, harm(a))).collect();
         // Stable, and rounding does not choose: the clearest place stays first among equals.
-        let class = |harm: f64| (harm * 1e3).round();
+        let class = |harm: sliced::Harm| (harm.total() * 1e3).round();
         list.sort_by(|a, b| class(a.1).total_cmp(&class(b.1)));
         list.truncate(TRIALS);
-        list
+        list.into_iter().map(|(a, harm)| (a, harm.sliced)).collect()
     };
     let at = |(angle, harm): (f64, f64)| {
         if angle == 0.0 {

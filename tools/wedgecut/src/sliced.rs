@@ -15,23 +15,39 @@ const NEEDLE: f64 = 0.17;
 /// Smallest sine that counts: faces in the plane make no angle with it.
 const FLATTEST: f64 = 1e-3;
 
-/// Sum, over the segments in which the half plane at `angle` (radians) meets the triangles, of how far
-/// the inverse sine of the angle between them is above one, times the segment's length in elements,
-/// and of the logarithm of how much shorter than element and triangle the segment is; and the same for
-/// corners and sides of triangles near the plane. The half plane begins at the axis, which is z; `size` is
-/// that of elements beside a triangle, model units. A unit costs some thirty elements of the mesh, measured
-/// on wheels of twisted blades (orders 5 to 12, start angles all around).
+/// How much a cut harms.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Harm {
+    /// By what it slices: a unit costs about a hundred elements, measured on wheels of twisted blades (orders 5
+    /// to 12, start angles all around).
+    pub sliced: f64,
+    /// By what it passes closely, in the same unit, less certain; good enough to choose among places.
+    pub near: f64,
+}
+
+impl Harm {
+    /// Both together.
+    pub fn total(self) -> f64 {
+        self.sliced + self.near
+    }
+}
+
+/// The harm of the half plane at `angle` (radians) that begins at the axis, which is z. Sliced: the sum, over
+/// the segments in which it meets the triangles, of how far the inverse sine of the angle between them is
+/// above one, times the segment's length in elements, and of the logarithm of how much shorter than
+/// element and triangle the segment is. Near: the same for corners and sides of triangles beside the plane.
+/// `size` is that of elements beside a triangle, model units.
 pub fn harm(
     vertices: &[DVec3],
     triangles: &[Triangle],
     angle: f64,
     size: impl Fn(&Triangle) -> f64,
-) -> f64 {
+) -> Harm {
     let (sin, cos) = (libm::sin(angle), libm::cos(angle));
     let normal = DVec3::new(-sin, cos, 0.0);
     let outward = DVec3::new(cos, sin, 0.0);
     let heights: Vec<f64> = vertices.iter().map(|p| p.dot(normal)).collect();
-    let mut sum = 0.0;
+    let mut harm = Harm::default();
     for triangle in triangles {
         let height = triangle.vertices.map(|v| heights[v as usize]);
         let corners = triangle.vertices.map(|v| vertices[v as usize]);
@@ -59,9 +75,8 @@ pub fn harm(
         let side = (0..3)
             .map(|i| corners[i].distance(corners[(i + 1) % 3]))
             .fold(size, f64::min);
-        sum += (length / size).max(1.0) * (1.0 / sine - 1.0);
         let shorter = |than: f64| libm::log((side / than).max(1.0));
-        sum += shorter(length);
+        harm.sliced += (length / size).max(1.0) * (1.0 / sine - 1.0) + shorter(length);
         // One corner is alone on its side of the plane.
         let alone = (0..3).find(|&i| {
             let is_below = |k: usize| height[k] < 0.0;
@@ -70,13 +85,13 @@ pub fn harm(
         let Some(i) = alone else { continue };
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         let least = SHORTEST * size;
-        sum += shorter(height[i].abs().max(least));
+        harm.near += shorter(height[i].abs().max(least));
         let strip = height[j].abs().max(height[k].abs()).max(least);
         if strip < size {
-            sum += NEEDLE * (corners[j].distance(corners[k]) / strip - 1.0).max(0.0);
+            harm.near += NEEDLE * (corners[j].distance(corners[k]) / strip - 1.0).max(0.0);
         }
     }
-    sum
+    harm
 }
 
 #[cfg(test)]
@@ -99,7 +114,7 @@ mod tests {
             front: tmesh::OUTSIDE,
             back: 1,
         };
-        move |angle| harm(&vertices, &[triangle], angle, |_| 0.4)
+        move |angle| harm(&vertices, &[triangle], angle, |_| 0.4).total()
     }
 
     #[test]
