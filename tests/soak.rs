@@ -25,7 +25,8 @@ fn random_bodies_are_meshed_and_checked() {
         twice: 8,
     };
     let mut failed = Vec::new();
-    for seed in 1..=24 {
+    // Of the last one, noise leaves a face in a wall beside the axis.
+    for seed in (1..=24).chain([3250]) {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let trial = laboratory.trial(seed, folder.path()).expect("it runs");
         match trial.verdict {

@@ -329,17 +329,21 @@ fn template(
         radius_edge: EASED * params.radius_edge,
         ..params.clone()
     };
+    let begun = Instant::now();
     let (done, past) = attempt(document, index, params, &eased, sizes, log)?;
     let left = done.filled.improved.map_or(0, |i| i.left);
     let count = done.filled.template.tets.len().max(1);
     if done.advice.is_some() || left as f64 / count as f64 <= TOO_MANY + SPOILED * past {
         return Ok(done);
     }
+    let Some(params) = params.once_more(begun) else {
+        return Ok(done);
+    };
     log(&format!(
         "template {index}: {left} of {count} tetrahedra remain to be improved; once more without the \
          radius-edge bound eased"
     ));
-    Ok(attempt(document, index, params, params, sizes, log).map_or(done, |(tight, _)| tight))
+    Ok(attempt(document, index, &params, &params, sizes, log).map_or(done, |(tight, _)| tight))
 }
 
 /// Meshes a template as `mesher` says and improves it as `params` does; also gives the part of the

@@ -1,7 +1,7 @@
 //! What the user asks of the elements, and how TetGen is told.
 
 use crate::Error;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tmesh::{Document, Region};
 
 /// Size limit for one region.
@@ -127,6 +127,22 @@ impl Sizes {
     }
 }
 
+impl Params {
+    /// The same for another attempt at a template whose first began at `begun`: with what is left of the time
+    /// limit, or nothing if none is.
+    pub fn once_more(&self, begun: Instant) -> Option<Self> {
+        let left = |limit: Duration| limit.checked_sub(begun.elapsed()).filter(|d| !d.is_zero());
+        let timeout = match self.timeout {
+            Some(limit) => Some(left(limit)?),
+            None => None,
+        };
+        Some(Self {
+            timeout,
+            ..self.clone()
+        })
+    }
+}
+
 /// TetGen's switches.
 ///
 /// `max_volume` is in TetGen's own length unit; `per_region`: seeds carry limits of their own;
@@ -174,6 +190,22 @@ const FACET_ANGLE: f64 = 170.0;
 mod tests {
     use super::*;
     use tmesh::Template;
+
+    #[test]
+    fn attempts_share_the_time_limit() {
+        let limited = |timeout| Params {
+            timeout,
+            ..Params::default()
+        };
+        let begun = Instant::now();
+        std::thread::sleep(Duration::from_millis(2));
+        assert_eq!(limited(None).once_more(begun), Some(limited(None)));
+        let hour = Duration::from_secs(3600);
+        let left = limited(Some(hour)).once_more(begun);
+        assert!(left.and_then(|p| p.timeout).is_some_and(|t| t < hour));
+        let over = limited(Some(Duration::from_millis(1)));
+        assert_eq!(over.once_more(begun), None);
+    }
 
     fn document() -> Document {
         let mut document = Document::single(Template::default());

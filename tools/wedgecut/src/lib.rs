@@ -248,7 +248,11 @@ fn choose(
         no_hub: params.hub == Hub::None,
         level: params.level
             && symmetry.horizontal_mirror
-            && keeps_names(&document.templates[0], symmetry),
+            && keeps_names(
+                &document.templates[0],
+                DVec3::from(symmetry.axis.point),
+                DVec3::from(symmetry.axis.direction),
+            ),
         harm: report.harm,
     };
     let (body, copies) = (&document.templates[0], wedge.instances.len());
@@ -465,10 +469,8 @@ fn element_size(regions: &[Region], body: &Template, params: &Params) -> impl Fn
 const CENTRED: f64 = 5e-3;
 
 /// Whether the mirror plane across the axis maps every boundary piece onto itself, as far as their centres
-/// tell: half a body has only the names of its half.
-fn keeps_names(body: &Template, symmetry: &Symmetry) -> bool {
-    let origin = DVec3::from(symmetry.axis.point);
-    let axis = DVec3::from(symmetry.axis.direction);
+/// tell: half a body has only the names of its half. The plane is through `origin` across `axis`.
+fn keeps_names(body: &Template, origin: DVec3, axis: DVec3) -> bool {
     // Area of each piece, and its moment about the plane.
     let mut pieces: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
     let mut extent = 0.0_f64;

@@ -468,3 +468,30 @@ fn edges_too_short_to_mesh_are_collapsed() {
         report.notes
     );
 }
+
+#[test]
+fn halves_must_have_the_names_of_both() {
+    // Two triangles face to face, one above the plane and one below.
+    let (origin, axis) = (DVec3::new(1.0, 2.0, 3.0), DVec3::Z);
+    let level = |z: f64| [DVec3::X, DVec3::Y, DVec3::ZERO].map(|p| p + origin + axis * z);
+    let body = |markers: [u32; 2], heights: [f64; 2]| Template {
+        vertices: heights.into_iter().flat_map(level).collect(),
+        triangles: [([0, 1, 2], markers[0]), ([3, 5, 4], markers[1])]
+            .map(|(vertices, marker)| Triangle {
+                vertices,
+                marker,
+                front: OUTSIDE,
+                back: 1,
+            })
+            .to_vec(),
+        ..Template::default()
+    };
+    assert!(crate::keeps_names(&body([1, 1], [0.5, -0.5]), origin, axis));
+    assert!(!crate::keeps_names(
+        &body([1, 2], [0.5, -0.5]),
+        origin,
+        axis
+    ));
+    // Of their own, each across the plane.
+    assert!(crate::keeps_names(&body([1, 2], [0.0, 0.0]), origin, axis));
+}

@@ -7,6 +7,7 @@ use crate::fill::ROUNDS;
 use crate::mesher::{Answer, past_bound, persist, run};
 use crate::{Error, Params, Sizes};
 use glam::DVec3;
+use std::time::Instant;
 use tmesh::Document;
 
 /// A refined surface.
@@ -54,16 +55,20 @@ pub fn refine(
         radius_edge: EASED * params.radius_edge,
         ..params.clone()
     };
+    let begun = Instant::now();
     let (refined, past) = attempt(document, index, &eased, log)?;
     if !(SHARP..HARD).contains(&past) {
         return Ok(refined);
     }
+    let Some(params) = params.once_more(begun) else {
+        return Ok(refined);
+    };
     log(&format!(
         "template {index}: {:.1} % of the guide's elements are past the radius-edge bound eased by {EASED}; \
          once more without easing it",
         100.0 * past
     ));
-    Ok(attempt(document, index, params, log).map_or(refined, |(tight, _)| tight))
+    Ok(attempt(document, index, &params, log).map_or(refined, |(tight, _)| tight))
 }
 
 /// A guide, and the part of its tetrahedra that are past the radius-edge bound.
