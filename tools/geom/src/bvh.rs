@@ -7,7 +7,9 @@
 //! and in units of its size; distances to them are taken a margin too small, so that no rounding can
 //! hide a triangle. Distances to triangles are in double precision.
 
-use glam::DVec3;
+use crate::alignment::alignment;
+use arrayvec::ArrayVec;
+use glam::{DMat3, DVec3};
 
 /// Children of a node.
 const WIDTH: usize = 4;
@@ -33,6 +35,8 @@ pub struct Bvh {
     centre: DVec3,
     /// A power of two.
     unit: f64,
+    /// What `corners` are turned by, if anything.
+    turn: Option<DMat3>,
 }
 
 /// Boxes of the children, coordinate by coordinate; an empty slot has an inverted box.
@@ -77,8 +81,14 @@ impl Bvh {
         } else {
             1.0
         };
+        let turn = alignment(triangles.len(), |i| {
+            triangles[i].map(|p| (p - centre) / unit)
+        });
         for p in triangles.iter_mut().flatten() {
             *p = (*p - centre) / unit;
+            if let Some(turn) = turn {
+                *p = turn * *p;
+            }
         }
         let mut items: Vec<Item> = Vec::with_capacity(triangles.len());
         let thin = Thin::new(&triangles);
@@ -98,6 +108,7 @@ impl Bvh {
             index: items.iter().map(|i| i.index).collect(),
             centre,
             unit,
+            turn,
         }
     }
 
@@ -113,18 +124,27 @@ impl Bvh {
 
     /// The triangle nearest to `point`, if one is nearer than `within` (which may be infinite).
     pub fn nearest(&self, point: DVec3, within: f64) -> Option<Nearest> {
+        self.near_enough(point, within, 0.0)
+    }
+
+    /// Any triangle no farther than `enough` from `point`, else the nearest one, if that is nearer than
+    /// `within`.
+    pub fn near_enough(&self, point: DVec3, within: f64, enough: f64) -> Option<Nearest> {
         let p = (point - self.centre) / self.unit;
+        let p = self.turn.map_or(p, |turn| turn * p);
         let single = p.as_vec3();
         let margin = ROUNDING * single.abs().max_element().max(1.0);
         let within = within / self.unit;
         let mut best = within * within;
         let mut bound = rounded_up(best);
         let mut found: Option<(u32, DVec3)> = None;
-        let mut stack = [(0_u32, 0.0_f32); STACK];
-        let mut depth = usize::from(!self.nodes.is_empty());
-        while depth > 0 {
-            depth -= 1;
-            let (at, d) = stack[depth];
+        let enough = enough / self.unit;
+        let enough = enough * enough;
+        let mut stack: ArrayVec<(u32, f32), STACK> = ArrayVec::new();
+        if !self.nodes.is_empty() {
+            stack.push((0, 0.0));
+        }
+        while let Some((at, d)) = stack.pop() {
             if d >= bound {
                 continue;
             }
@@ -136,28 +156,30 @@ impl Bvh {
                     best = d;
                     bound = rounded_up(best);
                     found = Some((i as u32, q));
+                    if best <= enough {
+                        break;
+                    }
                 }
                 continue;
             }
             let node = &self.nodes[at as usize];
             let distances = node.distances_squared(single.to_array(), margin);
             // The nearest child ends on top.
-            let first = depth;
+            let first = stack.len();
             for (d, child) in distances.into_iter().zip(node.child) {
                 if d < bound {
-                    let mut slot = depth;
+                    let mut slot = stack.len();
+                    stack.push((child, d));
                     while slot > first && stack[slot - 1].1 < d {
-                        stack[slot] = stack[slot - 1];
+                        stack.swap(slot - 1, slot);
                         slot -= 1;
                     }
-                    stack[slot] = (child, d);
-                    depth += 1;
                 }
             }
         }
         found.map(|(i, q)| Nearest {
             triangle: self.index[i as usize],
-            point: q * self.unit + self.centre,
+            point: self.turn.map_or(q, |turn| turn.transpose() * q) * self.unit + self.centre,
             distance: best.sqrt() * self.unit,
         })
     }

@@ -1,5 +1,6 @@
 //! Where triangles meet in any other way than in common vertices and edges.
 
+use crate::alignment::alignment;
 use crate::edges::orientation;
 use crate::tree::Tree;
 use glam::DVec3;
@@ -24,6 +25,9 @@ pub enum Search {
     GaveUp,
 }
 
+/// Bound on the error of a coordinate that was turned, relative to the largest one.
+const ROUNDING: f64 = 1e-14;
+
 /// Finds contacts between triangles of different groups, and hands them to `found` until it returns
 /// false. Two triangles with the same three vertices are no contact; neither is one without area.
 ///
@@ -35,7 +39,18 @@ pub fn contacts(
     group: impl Fn(u32) -> u32,
     mut found: impl FnMut(Contact) -> bool,
 ) -> Search {
-    let tree = Tree::new(vertices, triangles, &group);
+    // Boxes only sort out pairs: they may be those of another frame, if a little larger.
+    let corners = |t: usize| triangles[t].map(|v| vertices[v as usize]);
+    let turned: Vec<DVec3>;
+    let tree = match alignment(triangles.len(), corners) {
+        Some(frame) => {
+            turned = vertices.iter().map(|p| frame * *p).collect();
+            let used = triangles.iter().flatten().map(|&v| vertices[v as usize]);
+            let extent = used.fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
+            Tree::new(&turned, triangles, &group).with_margin(ROUNDING * extent)
+        }
+        None => Tree::new(vertices, triangles, &group),
+    };
     let mut left = 1000 * triangles.len() as u64 + 10_000_000;
     let mut end = Search::Done;
     tree.pairs(&group, |s, t| {
@@ -75,6 +90,10 @@ pub fn contact(vertices: &[DVec3], s: &[u32; 3], t: &[u32; 3]) -> Option<DVec3> 
         first != 0.0 && signs.all(|x| x * first.signum() > 0.0)
     };
     let others = |v: [DVec3; 3], i: usize| [v[(i + 1) % 3], v[(i + 2) % 3]];
+    // Of two nearly in one plane, as in a fan, that is hard to tell, but seen from above they are apart.
+    if apart_in_projection(p, q, &shared[..count]) {
+        return None;
+    }
     match shared[..count] {
         [] => {
             if one_side(q, &p) || one_side(p, &q) || is_flat(p) || is_flat(q) {
@@ -103,6 +122,46 @@ pub fn contact(vertices: &[DVec3], s: &[u32; 3], t: &[u32; 3]) -> Option<DVec3> 
         }
         _ => None,
     }
+}
+
+/// Height of one triangle above the plane of another, relative to its distance, up to which they are looked
+/// at in projection first.
+const LEVEL: f64 = 1e-9;
+
+/// Whether two triangles are nearly in one plane, and an edge line of one of them separates them in a
+/// coordinate plane but for their common vertices: then they have nothing else in common in space either.
+/// What separates is decided exactly; that it is false says nothing.
+fn apart_in_projection(p: [DVec3; 3], q: [DVec3; 3], shared: &[(usize, usize)]) -> bool {
+    let normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    let level = |x: &DVec3| {
+        let off = *x - p[0];
+        normal.dot(off).powi(2) <= LEVEL * LEVEL * normal.length_squared() * off.length_squared()
+    };
+    if shared.len() > 2 || !q.iter().all(level) {
+        return false;
+    }
+    let most = normal.abs().max_element();
+    let plane = Plane2((0..3).find(|&k| normal[k].abs() == most).unwrap_or(2));
+    let one_common = |a: [DVec3; 3], b: [DVec3; 3], pairs: &[(usize, usize)]| {
+        (0..3).any(|i| {
+            let (u, v) = (a[i], a[(i + 1) % 3]);
+            // A line that leaves out a common vertex cannot have it on both sides.
+            let off = (i + 2) % 3;
+            if pairs.iter().any(|&(k, _)| k == off) {
+                return false;
+            }
+            let inside = plane.turn(u, v, a[off]);
+            let beyond = |j: usize| {
+                pairs.iter().any(|&(_, l)| l == j) || plane.turn(u, v, b[j]) * inside < 0.0
+            };
+            inside != 0.0 && (0..3).all(beyond)
+        })
+    };
+    let mut swapped = [(0, 0); 3];
+    for (s, &(i, j)) in swapped.iter_mut().zip(shared) {
+        *s = (j, i);
+    }
+    one_common(p, q, shared) || one_common(q, p, &swapped[..shared.len()])
 }
 
 /// A coordinate plane onto which a triangle projects without losing its area.

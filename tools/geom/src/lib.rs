@@ -2,10 +2,12 @@
 //! triangles around an edge, the cells a triangle complex divides space into, and where triangles
 //! meet that should not.
 
+pub mod alignment;
 pub mod bvh;
 pub mod cells;
 pub mod contacts;
 pub mod edges;
+pub mod eigen;
 pub mod fan;
 pub mod measure;
 pub mod sides;

@@ -17,6 +17,8 @@ pub struct Tree<'a> {
     triangles: &'a [[u32; 3]],
     items: Vec<u32>,
     nodes: Vec<Node>,
+    /// Boxes this near to each other count as meeting.
+    margin: DVec3,
 }
 
 #[derive(Clone, Copy)]
@@ -102,6 +104,7 @@ impl<'a> Tree<'a> {
             triangles,
             items: (0..triangles.len() as u32).collect(),
             nodes: Vec::with_capacity(triangles.len() / LEAF * 4 + 1),
+            margin: DVec3::ZERO,
         };
         let centres: Vec<DVec3> = (0..triangles.len())
             .map(|t| {
@@ -156,6 +159,12 @@ impl<'a> Tree<'a> {
             };
         }
         tree
+    }
+
+    /// The same tree where boxes count as meeting that are up to `margin` apart.
+    pub fn with_margin(mut self, margin: f64) -> Self {
+        self.margin = DVec3::splat(margin);
+        self
     }
 
     fn node(&self, begin: usize, end: usize) -> Node {
@@ -313,7 +322,8 @@ impl<'a> Tree<'a> {
         let mut stack = vec![(0_u32, 0_u32)];
         while let Some((i, j)) = stack.pop() {
             let (m, n) = (&self.nodes[i as usize], &self.nodes[j as usize]);
-            let apart = m.low.cmpgt(n.high).any() || n.low.cmpgt(m.high).any();
+            let apart =
+                m.low.cmpgt(n.high + self.margin).any() || n.low.cmpgt(m.high + self.margin).any();
             if apart || (m.group == n.group && m.group != MIXED) {
                 continue;
             }
@@ -346,7 +356,7 @@ impl<'a> Tree<'a> {
     fn boxes_meet(&self, s: u32, t: u32) -> bool {
         let bounds = |[a, b, c]: [DVec3; 3]| (a.min(b).min(c), a.max(b).max(c));
         let ((a, b), (c, d)) = (bounds(self.corners(s)), bounds(self.corners(t)));
-        !(a.cmpgt(d).any() || c.cmpgt(b).any())
+        !(a.cmpgt(d + self.margin).any() || c.cmpgt(b + self.margin).any())
     }
 }
 

@@ -1,8 +1,8 @@
 //! Directions in which symmetry axes and normals of mirror planes can lie.
 
-use crate::eigen;
 use crate::moments::DirectionalMoment;
 use crate::shape::Shape;
+use geom::eigen;
 use glam::{DMat3, DVec3};
 
 /// Principal moments closer than this share of their sum may belong to one eigenspace.

@@ -3,7 +3,7 @@
 use crate::detect::Job;
 use crate::group::{Flip, Group, Verified};
 use crate::mirror::{
-    Found as MirrorFound, HALF_TURN, VERTICAL, find_flip, find_mirror_plane, find_turned,
+    EXACT, Found as MirrorFound, HALF_TURN, VERTICAL, find_flip, find_mirror_plane, find_turned,
 };
 use crate::order::{COARSE, Limits, Rotation, is_of_facets, powers};
 use crate::permutation::Permutation;
@@ -194,6 +194,9 @@ impl Job<'_> {
     /// Adjusts the frame to all operations at once.
     fn polish(&self, found: &mut Found) {
         let shape = self.shape;
+        if found.verified.deviation.value <= EXACT {
+            return;
+        }
         let n = found.group.order;
         let in_place = |p: &Permutation| {
             if p.is_identity() {

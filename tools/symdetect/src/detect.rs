@@ -4,7 +4,7 @@ use crate::Params;
 use crate::candidates::{self, distinct};
 use crate::complete::Found;
 use crate::error::{At, Error};
-use crate::order::{COARSE, FACETS, Limits, Rotation, find_rotation};
+use crate::order::{COARSE, FACETS, Limits, Rotation, find_rotation, may_hold};
 use crate::shape::Shape;
 use crate::summary::OrderResidual;
 use crate::verify::Depth;
@@ -173,11 +173,20 @@ impl Job<'_> {
         // Besides an axis of order above two there is no other one, unless the body is isotropic.
         let main = best.filter(|b| b.distinct && b.order > 2);
         let main = main.filter(|_| !candidates::principal(self.shape).isotropic);
+        // Where it is exact, there is nothing to adjust, and what holds beside it holds together with it.
+        let exact = main.filter(|b| b.deviation.value <= self.shape.rounding());
+        if let Some(b) = exact {
+            let multiples = orders.clone().filter(|n| n.is_multiple_of(b.order));
+            if !may_hold(self.shape, &b.frame, multiples, limits) {
+                return false;
+            }
+        }
+        let centre = exact.map_or(self.centre, |b| b.frame.origin);
         let main = main.map(|b| [b.frame.rotation.z_axis]);
         let directions = main.as_ref().map_or(directions, |m| m.as_slice());
         directions.iter().take(12).any(|&d| {
-            let (shape, orders) = (self.shape, orders.clone());
-            find_rotation(shape, self.centre, d, false, orders, limits, Depth::Quick)
+            let (shape, orders, fixed) = (self.shape, orders.clone(), exact.is_some());
+            find_rotation(shape, centre, d, fixed, orders, limits, Depth::Quick)
                 .is_some_and(|r| best.is_none_or(|b| r.rank() > b.rank()))
         })
     }

@@ -19,6 +19,9 @@ const MOST_REJECTED: usize = 16;
 /// Orders in a profile at least and at most.
 const FEWEST_PLOTTED: u32 = 24;
 const MOST_PLOTTED: u32 = 300;
+/// Tests of an order that is not among the nearest to holding, and of one that is.
+const ROUGH: usize = 32;
+const CLOSE: usize = 200;
 /// Deviation, relative to the radius, beyond which a rejected order is not measured exactly.
 const FAR_OFF: f64 = 0.05;
 
@@ -211,23 +214,42 @@ impl Job<'_> {
         let most = self.params.max_order.max(n).min((4 * n).max(48)).min(768);
         let most_off = FAR_OFF * found.radius;
         let multiple = |m: u32| m == 2 * n || m == 3 * n;
-        let measured: Vec<RejectedOrder> = (2..=most)
+        let measure = |order: u32, count: usize| RejectedOrder {
+            order,
+            residual: deviation_measured(self.shape, &found.frame, order, count, most_off).value
+                / found.radius,
+        };
+        let nearest_first = |list: &mut Vec<RejectedOrder>| {
+            list.retain(|r| r.residual > self.params.tolerance);
+            list.sort_by(|a, b| {
+                let by_residual = a.residual.total_cmp(&b.residual);
+                by_residual.then(a.order.cmp(&b.order))
+            });
+        };
+        // A few tests tell which ones are worth more.
+        let mut measured: Vec<RejectedOrder> = (2..=most)
             .filter(|m| !n.is_multiple_of(*m))
             // Of a body of revolution all others are alike.
             .filter(|m| !found.axisymmetric || multiple(*m))
-            .map(|m| RejectedOrder {
-                order: m,
-                residual: deviation_measured(self.shape, &found.frame, m, 200, most_off).value
-                    / found.radius,
+            .map(|m| {
+                let rough = measure(m, ROUGH);
+                match rough.residual > self.params.tolerance {
+                    true => rough,
+                    false => measure(m, CLOSE),
+                }
             })
-            .filter(|r| r.residual > self.params.tolerance)
             .collect();
-        let mut nearest = measured.clone();
-        nearest.sort_by(|a, b| {
-            a.residual
-                .total_cmp(&b.residual)
-                .then(a.order.cmp(&b.order))
+        nearest_first(&mut measured);
+        let mut place = 0;
+        measured.retain(|r| {
+            place += 1;
+            multiple(r.order) || place <= 2 * MOST_REJECTED
         });
+        for r in &mut measured {
+            *r = measure(r.order, CLOSE);
+        }
+        nearest_first(&mut measured);
+        let nearest = measured.clone();
         let mut kept: Vec<RejectedOrder> = (measured.iter())
             .filter(|r| multiple(r.order))
             .cloned()
@@ -239,7 +261,7 @@ impl Job<'_> {
         }
         // So far only those near to holding are exact.
         for r in kept.iter_mut().filter(|r| r.residual > FAR_OFF) {
-            let exact = deviation_measured(self.shape, &found.frame, r.order, 200, 1.0);
+            let exact = deviation_measured(self.shape, &found.frame, r.order, CLOSE, 1.0);
             r.residual = exact.value / found.radius;
         }
         kept.sort_by_key(|r| r.order);

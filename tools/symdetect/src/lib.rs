@@ -12,7 +12,6 @@ mod complete;
 mod defects;
 mod detect;
 mod drawing;
-mod eigen;
 mod error;
 mod facets;
 mod findings;
@@ -29,6 +28,7 @@ mod samples;
 mod shape;
 mod summary;
 mod svg;
+mod swing;
 mod verify;
 
 #[cfg(test)]

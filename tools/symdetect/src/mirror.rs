@@ -21,6 +21,8 @@ pub const HALF_TURN: DMat3 = DMat3::from_cols(DVec3::X, DVec3::NEG_Y, DVec3::NEG
 const SCORED: usize = 64;
 /// Share of them that may be off.
 const OUTLIERS: f64 = 0.15;
+/// Deviation up to which coordinates in double precision are exactly symmetric, in the units of the shape.
+pub const EXACT: f64 = 1e-11;
 /// Candidate angles looked at closely.
 const CLOSE: usize = 6;
 
@@ -100,7 +102,15 @@ pub fn find_turned(
             if rotation.distinct {
                 operations.extend(powers(*order, &Target::Any));
             }
-            refine(shape, turned, &operations, 2_000, loose)
+            // Where the rotations are exact, few samples tell the angle.
+            let exact = rotation.deviation.value <= EXACT;
+            refine(
+                shape,
+                turned,
+                &operations,
+                if exact { 600 } else { 2_000 },
+                loose,
+            )
         };
         let motion = Motion::new(&adjusted, kind);
         if let Ok((deviation, permutation)) = shape.verify_one(motion, bound, Depth::Quick) {

@@ -186,7 +186,7 @@ impl DirectionalMoment {
             let b = u.dot(h * v);
             let d = v.dot(h * v) - radial;
             // Pseudo-inverse: along a curve of critical points there is nothing to correct.
-            let e = crate::eigen::symmetric([[a, b], [b, d]]);
+            let e = geom::eigen::symmetric([[a, b], [b, d]]);
             let largest = e.values[0].abs().max(e.values[1].abs());
             if largest == 0.0 {
                 return None;

@@ -183,6 +183,26 @@ pub fn find_rotation(
     best
 }
 
+/// Whether a few samples leave it open that one of the orders holds in the frame as it is. Regions do not
+/// count here.
+pub fn may_hold(
+    shape: &Shape,
+    frame: &Frame,
+    orders: impl IntoIterator<Item = u32>,
+    limits: Limits,
+) -> bool {
+    let search = Search {
+        shape,
+        orders: 2..=2,
+        limits,
+        depth: Depth::Quick,
+    };
+    let bound = limits.bound(shape.radius(frame)).most();
+    orders
+        .into_iter()
+        .any(|n| search.passes(frame, n, bound, 0.0))
+}
+
 /// A handful of powers of the rotation by a turn over `n`, for an adjustment.
 pub fn powers(n: u32, target: &Target) -> Vec<Canonical> {
     let mut ks = vec![1, n / 2, n / 3, 2 * n / 5, n / 5, 3 * n / 7];
@@ -395,7 +415,7 @@ fn is_widespread(shape: &Shape, frame: &Frame, n: u32, value: f64) -> bool {
         let normal = shape.normals[sample.triangle as usize];
         let place = Place::new(frame, sample.point, normal, radius);
         let sector = ((place.turn * f64::from(sectors)) as u32).min(sectors - 1);
-        let key = [sector % folds, place.shell.into()];
+        let key = [sector % folds, place.shell(4.0).into()];
         let [coarse, off] = seen
             .entry(key)
             .or_insert_with(|| [(); 2].map(|()| vec![false; (sectors / folds) as usize]));

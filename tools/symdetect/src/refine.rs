@@ -1,7 +1,7 @@
 //! Adjusting axis, centre and mirror plane to the shape.
 
-use crate::eigen;
 use crate::shape::{Motion, Shape, Target};
+use geom::eigen;
 use glam::{DMat3, DVec3};
 use tmesh::Frame;
 

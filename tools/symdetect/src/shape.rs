@@ -226,15 +226,28 @@ impl Shape {
         target: &Target,
         within: f64,
     ) -> Option<Nearest> {
+        self.near_enough(image, triangle, target, within, 0.0)
+    }
+
+    /// The same, content with any point no farther than `enough`.
+    #[inline]
+    pub fn near_enough(
+        &self,
+        image: DVec3,
+        triangle: u32,
+        target: &Target,
+        within: f64,
+        enough: f64,
+    ) -> Option<Nearest> {
         match target {
             Target::Classes(map) if !self.by_class.is_empty() => {
                 let class = map[self.class[triangle as usize] as usize];
                 let surface = self.by_class.get(class as usize)?;
-                let mut hit = surface.bvh.nearest(image, within)?;
+                let mut hit = surface.bvh.near_enough(image, within, enough)?;
                 hit.triangle = surface.triangles[hit.triangle as usize];
                 Some(hit)
             }
-            _ => self.all.nearest(image, within),
+            _ => self.all.near_enough(image, within, enough),
         }
     }
 

@@ -247,6 +247,19 @@ fn facets_explain_a_bore_but_not_a_groove() {
 }
 
 #[test]
+fn an_oval_of_a_small_bore_is_not_taken_for_facets() {
+    // Drawn with sixteen facets whose sagitta is beyond the tolerance; oval by no more than that.
+    for (n, radius) in [(3, 0.07), (5, 0.09)] {
+        let flaw = |by: f64| wheel(n, 12, radius, 16, 0.3, Flaw::Oval(by));
+        assert_eq!(find(&flaw(0.0)).order, n as u32);
+        for size in [0.75e-3, 1e-3] {
+            let found = find_with(&flaw(size), &Params::default());
+            assert!(found.is_err() || found.is_ok_and(|s| s.order < n as u32));
+        }
+    }
+}
+
+#[test]
 #[ignore = "a table over many bodies; run it with --release"]
 fn facets_and_flaws() {
     let mut random = Random(11);

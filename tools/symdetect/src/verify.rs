@@ -3,6 +3,7 @@
 use crate::permutation::Permutation;
 use crate::samples::{Random, Sample};
 use crate::shape::{Motion, NO_CLASS, Shape, Target};
+use crate::swing::Swing;
 use glam::{DMat3, DVec3};
 use rustc_hash::FxHashMap;
 use std::thread;
@@ -81,8 +82,8 @@ pub struct Operation {
 pub struct Place {
     /// Angle about the axis, as a share of a full turn from 0 to 1.
     pub turn: f64,
-    /// Shell around the axis, out of four.
-    pub shell: u8,
+    /// Distance from the axis, relative to the largest.
+    pub radius: f64,
     /// Which way the surface faces: outwards, along the turn, along the axis, and their opposites.
     pub side: u8,
 }
@@ -90,7 +91,6 @@ pub struct Place {
 impl Place {
     /// Of a point of the surface with the given normal.
     pub fn new(frame: &Frame, point: DVec3, normal: DVec3, radius: f64) -> Self {
-        const SHELLS: f64 = 4.0;
         let p = frame.to_canonical(point);
         let outward = DVec3::new(p.x, p.y, 0.0).normalize_or_zero();
         let n = frame.rotation.transpose() * normal;
@@ -102,12 +102,26 @@ impl Place {
         let turn = libm::atan2(p.y, p.x) / std::f64::consts::TAU;
         Self {
             turn: turn - libm::floor(turn),
-            shell: (libm::hypot(p.x, p.y) / radius * SHELLS) as u8,
+            radius: libm::hypot(p.x, p.y) / radius,
             side: 2 * most as u8 + u8::from(faces[most] > 0.0),
         }
     }
 }
 
+impl Place {
+    /// Shell around the axis, out of so many.
+    pub fn shell(&self, shells: f64) -> u8 {
+        (self.radius * shells) as u8
+    }
+
+    /// Whether the surface faces the axis or away from it.
+    pub fn faces_radially(&self) -> bool {
+        self.side < 2
+    }
+}
+
+/// Less than that is no deviation, in the units of the shape.
+const NOTHING: f64 = 1e-12;
 /// Tests run between two looks at whether one failed.
 const BLOCK: usize = 1 << 15;
 /// Tests below which threads do not pay.
@@ -117,13 +131,18 @@ const QUICK: usize = 1_500;
 /// The same in a full one: some for each triangle, between bounds.
 const SHARED_PER_TRIANGLE: usize = 8;
 const SHARED: [usize; 2] = [8_000, 60_000];
+/// Share of the limit up to which what a full test of the first operation implies for its powers leaves
+/// those to a quick one.
+const IMPLIED: f64 = 0.25;
 
 impl Shape {
     /// Deviation of one test, and whether it passes. Beyond the bound, the distance to any triangle
     /// that would do, or 1 when there is none.
     fn test(&self, sample: &Sample, operation: &Operation, bound: Bound) -> (f64, bool) {
         let image = operation.motion.apply(sample.point);
-        let find = |within| self.nearest(image, sample.triangle, &operation.target, within);
+        let enough = NOTHING.min(0.1 * bound.limit);
+        let find =
+            |within| self.near_enough(image, sample.triangle, &operation.target, within, enough);
         // A little beyond the bound, so that what is found within it is found exactly.
         if let Some(n) = find(1.01 * bound.most()) {
             let passes = n.distance <= bound.limit
@@ -151,30 +170,67 @@ impl Shape {
     /// Whether an operation displaces the surface of some neighbourhood by more than `limit` on
     /// average. Differences between facets mostly cancel over a neighbourhood of several; what an
     /// oval bore or an eccentric hub deviates by does not. A neighbourhood is what faces alike in one
-    /// sector and shell around the axis.
+    /// sector and shell around the axis; of a whole shell, the part of the displacement that swings slowly
+    /// around the axis is looked at.
     pub fn displaces(&self, frame: &Frame, operation: &Operation, limit: f64) -> bool {
         const SECTORS: f64 = 6.0;
+        const SHELLS: f64 = 4.0;
         const FEWEST: f64 = 12.0;
+        const TESTS: usize = 12_000;
+        const PER_TRIANGLE: usize = 8;
         let reach = 16.0 * limit;
-        let mut cells: FxHashMap<[u8; 3], (f64, f64)> = FxHashMap::default();
         let radius = self.radius(frame);
-        for sample in self.samples.faces.iter().take(12_000) {
-            let image = operation.motion.apply(sample.point);
-            let Some(hit) = self.nearest(image, sample.triangle, &operation.target, reach) else {
-                continue;
-            };
+        let displacement = |point: DVec3, triangle: u32| {
+            let image = operation.motion.apply(point);
+            let hit = self.nearest(image, triangle, &operation.target, reach)?;
             let normal = self.normals[hit.triangle as usize];
             let place = Place::new(frame, hit.point, normal, radius);
+            Some((place, (image - hit.point).dot(normal)))
+        };
+        let mut cells: FxHashMap<[u8; 3], (f64, f64)> = FxHashMap::default();
+        for sample in self.samples.faces.iter().take(TESTS) {
+            let Some((place, off)) = displacement(sample.point, sample.triangle) else {
+                continue;
+            };
             let sector = libm::floor(place.turn * SECTORS) as u8;
-            let cell = cells
-                .entry([sector, place.shell / 2, place.side])
-                .or_default();
-            cell.0 += (image - hit.point).dot(normal);
+            let cell = cells.entry([sector, place.shell(2.0), place.side]);
+            let cell = cell.or_default();
+            cell.0 += off;
             cell.1 += 1.0;
         }
-        cells
+        if cells
             .values()
             .any(|&(sum, count)| count >= FEWEST && sum.abs() > limit * count)
+        {
+            return true;
+        }
+        // The same number from every triangle, so that small bores have enough of them. Shells are taken
+        // twice, one set halfway between the other: one that ends within a bore would have the outermost
+        // points of its facets only.
+        let each = (TESTS / self.triangles.len()).min(PER_TRIANGLE);
+        let mut shells: FxHashMap<[u8; 3], (Swing, bool)> = FxHashMap::default();
+        for (t, corners) in self.triangles.iter().enumerate() {
+            let [a, b, c] = corners.map(|v| self.vertices[v as usize]);
+            let area = (b - a).cross(c - a).length();
+            for i in 0..each {
+                let [u, v] = spread_over_triangle(i);
+                let point = a + (b - a) * u + (c - a) * v;
+                let Some((place, off)) = displacement(point, t as u32) else {
+                    continue;
+                };
+                for (set, start) in [(0, 0.0), (1, 0.5)] {
+                    let shell = place.radius * SHELLS + start;
+                    let from_end = (shell - libm::round(shell)).abs() * radius / SHELLS;
+                    let key = [set, libm::floor(shell) as u8, place.side];
+                    let (swing, whole) = shells.entry(key).or_insert((Swing::default(), true));
+                    swing.add(place.turn, off, area);
+                    *whole &= !place.faces_radially() || from_end > reach;
+                }
+            }
+        }
+        shells
+            .values()
+            .any(|(swing, whole)| *whole && swing.largest() > limit)
     }
 
     /// Runs tests 0 to `count - 1`; `job` names sample and operation of each. Returns the largest
@@ -331,7 +387,7 @@ impl Shape {
     }
 
     /// Verifies many operations: a share of the samples for each, and with [`Depth::Full`] all of
-    /// them for the first.
+    /// them for the first, of which the others then are powers.
     pub fn verify_family(
         &self,
         operations: &[Operation],
@@ -348,12 +404,18 @@ impl Shape {
         let mut worst = self.worst(draws.len(), bound, |i| {
             (&samples[i], &operations[draws[i] as usize])
         })?;
+        let mut implied = false;
         if depth == Depth::Full {
-            worst = worst.max(self.worst(sorted.len(), bound, |i| (&sorted[i], &operations[0]))?);
+            let first = self.worst(sorted.len(), bound, |i| (&sorted[i], &operations[0]))?;
+            // Powers deviate by at most so many times what the first does.
+            implied = first.value * others as f64 <= IMPLIED * bound.limit;
+            worst = worst.max(first);
         }
         let shared = match depth {
-            Depth::Quick => QUICK,
-            Depth::Full => (SHARED_PER_TRIANGLE * self.triangles.len()).clamp(SHARED[0], SHARED[1]),
+            Depth::Full if !implied => {
+                (SHARED_PER_TRIANGLE * self.triangles.len()).clamp(SHARED[0], SHARED[1])
+            }
+            _ => QUICK,
         };
         let each = (shared / others).clamp(16, sorted.len().max(16));
         let stride = (sorted.len() / each).max(1);
@@ -406,6 +468,18 @@ impl Shape {
     /// Every region stays where it is.
     pub fn target_in_place(&self) -> Target {
         self.target(&Permutation::identity(self.regions.len()))
+    }
+}
+
+/// The `i`-th of points spread evenly over a triangle, as multiples of two of its sides: the R2 sequence
+/// (Roberts 2018), folded over.
+fn spread_over_triangle(i: usize) -> [f64; 2] {
+    const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
+    let [u, v] = STEP.map(|s| (0.5 + s * (i + 1) as f64).fract());
+    if u + v > 1.0 {
+        [1.0 - u, 1.0 - v]
+    } else {
+        [u, v]
     }
 }
 

@@ -169,6 +169,7 @@ fn refine(
     let wish = Wish {
         angle: 0.5 * (180.0 - largest),
         radius_edge: params.radius_edge,
+        min_dihedral: params.min_dihedral,
         max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),
         scale: plc.scale,
         share: SHARE,

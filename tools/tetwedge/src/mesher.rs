@@ -308,11 +308,18 @@ pub fn run(
 /// elements.
 const EASED: f64 = 1.05;
 
-/// With more than this part of the elements left to be better, the bound was eased for too many ...
+/// With more than this part of the elements left past the bound, it was eased for too many ...
 const TOO_MANY: f64 = 0.01;
 
 /// ... unless it is the shape: elements past the eased bound, of which each spoils about so many.
 const SPOILED: f64 = 2.0;
+
+/// Elements below the smallest dihedral angle asked for, as a part of all, up to which they are chance and not
+/// the shape: another mesh may be without them.
+const FEW: f64 = 1e-3;
+
+/// Larger meshes are not made again for single elements.
+const SMALL: usize = 50_000;
 
 /// Meshes a template, with the radius-edge bound eased if that can be mended.
 fn template(
@@ -331,19 +338,38 @@ fn template(
     };
     let begun = Instant::now();
     let (done, past) = attempt(document, index, params, &eased, sizes, log)?;
-    let left = done.filled.improved.map_or(0, |i| i.left);
-    let count = done.filled.template.tets.len().max(1);
-    if done.advice.is_some() || left as f64 / count as f64 <= TOO_MANY + SPOILED * past {
+    let count = done.filled.template.tets.len();
+    let improved = done.filled.improved.unwrap_or_default();
+    let many = improved.past as f64 > (TOO_MANY + SPOILED * past) * count as f64;
+    let few = 1..=1.max((FEW * count as f64) as usize);
+    let unlucky = count <= SMALL && few.contains(&improved.low);
+    if done.advice.is_some() || !(many || unlucky) {
         return Ok(done);
     }
     let Some(params) = params.once_more(begun) else {
         return Ok(done);
     };
+    let why = match many {
+        true => format!("{} are past the radius-edge bound", improved.past),
+        false => format!(
+            "{} have an angle below {}, the smallest {:.1} degrees",
+            improved.low, params.min_dihedral, improved.least
+        ),
+    };
     log(&format!(
-        "template {index}: {left} of {count} tetrahedra remain to be improved; once more without the \
-         radius-edge bound eased"
+        "template {index}: of {count} tetrahedra {why}; once more without the radius-edge bound eased"
     ));
-    Ok(attempt(document, index, &params, &params, sizes, log).map_or(done, |(tight, _)| tight))
+    let Ok((tight, _)) = attempt(document, index, &params, &params, sizes, log) else {
+        return Ok(done);
+    };
+    let again = tight.filled.improved.unwrap_or_default();
+    let share = |past: usize, count: usize| past as f64 / count.max(1) as f64;
+    // A mesh that is no better only has more elements.
+    let better = match many {
+        true => share(again.past, tight.filled.template.tets.len()) < share(improved.past, count),
+        false => again.least > improved.least,
+    };
+    Ok(if better { tight } else { done })
 }
 
 /// Meshes a template as `mesher` says and improves it as `params` does; also gives the part of the

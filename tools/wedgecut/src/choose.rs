@@ -164,12 +164,19 @@ impl Estimate {
 
     fn integrate(&mut self, triangle: [DVec2; 3], samples: &[Sample], cap: f64, weight: f64) {
         let finest = self.extent * FINEST;
-        let mut stack = vec![(triangle, samples.to_vec())];
-        while let Some((t, near)) = stack.pop() {
+        // The samples that matter in a triangle on the stack are a run of `near`; runs of those above it on
+        // the stack lie behind it.
+        let mut near = samples.to_vec();
+        let mut stack = vec![(triangle, 0..near.len())];
+        let mut asked: Vec<f64> = Vec::new();
+        while let Some((t, run)) = stack.pop() {
+            near.truncate(run.end);
             let middle = (t[0] + t[1] + t[2]) / 3.0;
             let reach = t.iter().fold(0.0_f64, |m, p| m.max(p.distance(middle)));
-            let asked = |s: &Sample| s.size + GROWTH * s.at.distance(middle);
-            let size = near.iter().map(asked).fold(cap, f64::min);
+            asked.clear();
+            let sizes = near[run.clone()].iter();
+            asked.extend(sizes.map(|s| s.size + GROWTH * s.at.distance(middle)));
+            let size = asked.iter().copied().fold(cap, f64::min);
             let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| t[i].distance(t[j]));
             let longest = (0..3)
                 .max_by(|&i, &j| sides[i].total_cmp(&sides[j]))
@@ -189,11 +196,14 @@ impl Estimate {
                 continue;
             }
             // Samples that can matter somewhere in the triangle.
-            let kept: Vec<Sample> = near
-                .iter()
-                .copied()
-                .filter(|s| asked(s) <= size + 2.0 * GROWTH * reach)
-                .collect();
+            let most = size + 2.0 * GROWTH * reach;
+            let first = near.len();
+            for (i, asked) in run.zip(&asked) {
+                if *asked <= most {
+                    near.push(near[i]);
+                }
+            }
+            let kept = first..near.len();
             let (a, b, c) = (t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]);
             let half = 0.5 * (a + b);
             stack.push(([a, half, c], kept.clone()));

@@ -1,6 +1,6 @@
 //! The command line of `wedgecut`.
 
-use crate::{Domain, Hub, Params, cut};
+use crate::{Domain, Hub, Params, cut, names};
 use kit::{Command, CommonArgs, Failure, Session};
 
 const EXAMPLES: &str = "Examples:
@@ -159,6 +159,9 @@ impl Command for Cli {
         let document = session.read()?;
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));
+        if let Some(lost) = names::lost(&document) {
+            session.note(&lost);
+        }
         document.history.push(session.history_entry(report.notes));
         session.write(&document)
     }

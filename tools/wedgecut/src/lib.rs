@@ -17,6 +17,7 @@ mod error;
 mod finish;
 mod halved;
 mod hub;
+mod names;
 mod needles;
 mod opening;
 mod plan;
@@ -39,7 +40,6 @@ use glam::DVec3;
 use opening::{HubPlane, Opening, Side};
 use plan::{HubPlan, Plan};
 use section::{Borders, Extent, Section};
-use std::collections::BTreeMap;
 use surface::Surface;
 use tmesh::{Document, Frame, Region, Source, Symmetry, Template, Triangle, Wall};
 
@@ -248,7 +248,7 @@ fn choose(
         no_hub: params.hub == Hub::None,
         level: params.level
             && symmetry.horizontal_mirror
-            && keeps_names(
+            && names::keeps_names(
                 &document.templates[0],
                 DVec3::from(symmetry.axis.point),
                 DVec3::from(symmetry.axis.direction),
@@ -462,30 +462,6 @@ fn element_size(regions: &[Region], body: &Template, params: &Params) -> impl Fn
         let caps = [t.front, t.back].into_iter().filter_map(cap);
         caps.fold(extent, f64::min)
     }
-}
-
-/// Distance of the centre of a boundary piece from the mirror plane across the axis up to which the piece counts
-/// as its own image, relative to the body's size.
-const CENTRED: f64 = 5e-3;
-
-/// Whether the mirror plane across the axis maps every boundary piece onto itself, as far as their centres
-/// tell: half a body has only the names of its half. The plane is through `origin` across `axis`.
-fn keeps_names(body: &Template, origin: DVec3, axis: DVec3) -> bool {
-    // Area of each piece, and its moment about the plane.
-    let mut pieces: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
-    let mut extent = 0.0_f64;
-    for triangle in &body.triangles {
-        let corners = geom::measure::corners(&body.vertices, triangle);
-        let [a, b, c] = corners;
-        let area = geom::measure::triangle_area(a, b, c);
-        let heights = corners.map(|p| (p - origin).dot(axis));
-        extent = heights.iter().fold(extent, |m, h| m.max(h.abs()));
-        let piece = pieces.entry(triangle.marker).or_default();
-        piece.0 += area;
-        piece.1 += area * heights.iter().sum::<f64>() / 3.0;
-    }
-    let is_centred = |p: &(f64, f64)| p.1.abs() <= CENTRED * extent * p.0;
-    pieces.len() < 2 || pieces.values().all(is_centred)
 }
 
 /// How many places of the seam are tried, at most.

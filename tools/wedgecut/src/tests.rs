@@ -486,12 +486,57 @@ fn halves_must_have_the_names_of_both() {
             .to_vec(),
         ..Template::default()
     };
-    assert!(crate::keeps_names(&body([1, 1], [0.5, -0.5]), origin, axis));
-    assert!(!crate::keeps_names(
+    assert!(crate::names::keeps_names(
+        &body([1, 1], [0.5, -0.5]),
+        origin,
+        axis
+    ));
+    assert!(!crate::names::keeps_names(
         &body([1, 2], [0.5, -0.5]),
         origin,
         axis
     ));
     // Of their own, each across the plane.
-    assert!(crate::keeps_names(&body([1, 2], [0.0, 0.0]), origin, axis));
+    assert!(crate::names::keeps_names(
+        &body([1, 2], [0.0, 0.0]),
+        origin,
+        axis
+    ));
+}
+
+#[test]
+fn boundary_pieces_that_differ_between_sectors_are_told() {
+    let mut body = Body::regular(8, &[1.0, 0.5]).document((8, true), Some(6), 1.0);
+    body.markers = vec![Marker {
+        id: 1,
+        name: "tooth".into(),
+        area: None,
+    }];
+    let area = |document: &Document| -> f64 {
+        let body = &document.templates[0];
+        let named = body.triangles.iter().filter(|t| t.marker == 1);
+        named
+            .map(|t| {
+                let [a, b, c] = geom::measure::corners(&body.vertices, t);
+                geom::measure::triangle_area(a, b, c)
+            })
+            .sum()
+    };
+    let told = |body: Document| crate::names::lost(&cut(body, &DEFAULT).unwrap().0);
+    let mut alike = body.clone();
+    alike.templates[0]
+        .triangles
+        .iter_mut()
+        .for_each(|t| t.marker = 1);
+    alike.markers[0].area = Some(area(&alike));
+    assert_eq!(told(alike), None);
+    // The third part of the triangles, wherever they are.
+    let triangles = body.templates[0].triangles.iter_mut().enumerate();
+    triangles.for_each(|(i, t)| t.marker = u32::from(i % 3 == 0));
+    body.markers[0].area = Some(area(&body));
+    let told = told(body).expect("a sentence");
+    assert!(
+        told.contains("\"tooth\" has ") && told.contains("--order"),
+        "{told}"
+    );
 }

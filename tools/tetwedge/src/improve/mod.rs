@@ -17,6 +17,7 @@ mod tests;
 
 pub use freedom::{Flats, Freedoms};
 
+use geom::tet::TetMeasures;
 use mesh::Mesh;
 use quality::Goal;
 use rustc_hash::FxHashMap;
@@ -39,6 +40,8 @@ pub struct Wish<'a> {
     pub angle: f64,
     /// Largest radius-edge ratio.
     pub radius_edge: f64,
+    /// Smallest dihedral angle that the mesher was asked for, degrees; only counted.
+    pub min_dihedral: f64,
     /// Largest volume by region, model units cubed.
     pub max_volume: &'a FxHashMap<u32, f64>,
     /// A power of two that brings coordinates near one.
@@ -48,12 +51,18 @@ pub struct Wish<'a> {
 }
 
 /// What was done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Improved {
     /// Tetrahedra that were not good enough before.
     pub bad: usize,
     /// And afterwards.
     pub left: usize,
+    /// Those of them past the radius-edge bound.
+    pub past: usize,
+    /// Those of them with an angle that is smaller than the mesher was asked for.
+    pub low: usize,
+    /// The smallest angle of those that are left, degrees; 180 when there are none.
+    pub least: f64,
     /// Vertices moved; pairs on seams count once.
     pub moved: usize,
     /// Edges and faces replaced.
@@ -108,9 +117,15 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
             break;
         }
     }
-    done.left = (0..mesh.len() as u32)
-        .filter(|&t| mesh.grade(t).quality < 1.0)
-        .count();
+    done.least = 180.0;
+    for t in (0..mesh.len() as u32).filter(|&t| mesh.grade(t).quality < 1.0) {
+        let measures = TetMeasures::of(mesh.corners(t).map(|v| mesh.positions[v as usize]));
+        let angle = measures.min_dihedral.to_degrees();
+        done.left += 1;
+        done.past += usize::from(measures.radius_edge_ratio > wish.radius_edge);
+        done.low += usize::from(angle < wish.min_dihedral);
+        done.least = done.least.min(angle);
+    }
     for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
         // Exact: the scale is a power of two.
         if *p * wish.scale != moved {

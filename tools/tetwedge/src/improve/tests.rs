@@ -303,6 +303,7 @@ fn partners_on_a_seam_move_as_one() {
         &Wish {
             angle: 40.0,
             radius_edge: 1.4,
+            min_dihedral: 10.0,
             max_volume: &FxHashMap::default(),
             scale: 1.0,
             share: 1.0,
