@@ -355,10 +355,19 @@ impl Search<'_> {
         let most = *self.orders.end();
         // Rounding of coordinates is no distinction.
         let floor = 2.0 * self.shape.precision.max(1e-13);
-        let measure =
-            |n: u32, count| deviation_of_order(self.shape, frame, n, count, 3.0 * limit).max(floor);
-        // A few vertices tell; only when they do not, more of them.
-        [12, 48].into_iter().find_map(|count| {
+        let measure = |n: u32, count, limit| {
+            deviation_of_order(self.shape, frame, n, count, limit).max(floor)
+        };
+        // A few vertices tell; only when they do not, more of them. Exact symmetry is told from all else
+        // close by.
+        [
+            (12, SEPARATION * floor),
+            (12, 3.0 * limit),
+            (48, 3.0 * limit),
+        ]
+        .into_iter()
+        .find_map(|(count, reach)| {
+            let measure = |n: u32, count| measure(n, count, reach);
             let worst: Vec<f64> = (0..=most)
                 .map(|n| if n < 2 { 0.0 } else { measure(n, count) })
                 .collect();
@@ -368,7 +377,7 @@ impl Search<'_> {
                     divisors.map(of).fold(0.0, f64::max)
                 };
                 let apart = |inside: f64| {
-                    inside <= limit
+                    inside <= limit.min(reach / SEPARATION)
                         && (2..=most)
                             .filter(|m| n % m != 0)
                             .all(|m| worst[m as usize] >= SEPARATION * inside)
