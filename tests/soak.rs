@@ -16,6 +16,19 @@ use std::path::Path;
 use std::time::Duration;
 use trial::{Laboratory, Verdict};
 
+/// Bodies for which something was mended.
+const MENDED: [u64; 8] = [
+    // Noise leaves a face in a wall beside the axis.
+    3250, // Points of the two sections are nearly the same.
+    200_223, // The column of a hub touches the axis in single points.
+    201_047, // Three points on a straight edge make a triangle of the new surface.
+    200_788,
+    // TetGen gives up on the points in the order in which it takes them, whatever the order they are given in.
+    201_460, // ... or on faces whose points are not quite in one plane.
+    203_023, // Noise takes the middle of a face off the axis.
+    200_999, 201_353,
+];
+
 #[test]
 fn random_bodies_are_meshed_and_checked() {
     let tools = Path::new(env!("CARGO_BIN_EXE_symdetect")).parent();
@@ -25,8 +38,7 @@ fn random_bodies_are_meshed_and_checked() {
         twice: 8,
     };
     let mut failed = Vec::new();
-    // Of the last one, noise leaves a face in a wall beside the axis.
-    for seed in (1..=24).chain([3250]) {
+    for seed in (1..=24).chain(MENDED) {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let trial = laboratory.trial(seed, folder.path()).expect("it runs");
         match trial.verdict {

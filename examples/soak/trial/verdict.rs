@@ -60,7 +60,10 @@ fn order(solid: &Solid, symmetry: &Value) -> Option<String> {
     let Some(found) = symmetry["order"].as_u64() else {
         return Some("symdetect: the report has no order".to_owned());
     };
-    if !found.is_multiple_of(known) {
+    // About another axis than the one known, flat faces may have more; of a body of revolution, as far as the
+    // tolerance goes, all orders hold.
+    let more = found > known && (known <= 2 || symmetry["axisymmetric"] == Value::Bool(true));
+    if !more && !found.is_multiple_of(known) {
         return Some(format!("order: {found} found, {known} known"));
     }
     // Groups of lower order may be seen from another axis.

@@ -3,6 +3,7 @@
 //! Each facet gets a marker of its own. So TetGen merges what is flat and nothing else, and every
 //! triangle of the refined surface comes back with its marker, regions and wall.
 
+use crate::walls::NO_FACE;
 use geom::edges::Edges;
 use geom::measure::double_area_vector;
 use glam::DVec3;
@@ -49,8 +50,8 @@ const NONE: u32 = u32::MAX;
 
 impl Facets {
     /// Groups the triangles of a template. `face` gives each triangle's wall face; vertices may be
-    /// `tolerance` (model units) off a facet's plane.
-    pub fn new(template: &Template, edges: &Edges, face: &[u32], tolerance: f64) -> Self {
+    /// `tolerance` (model units) off a facet's plane: the first on walls, the second elsewhere.
+    pub fn new(template: &Template, edges: &Edges, face: &[u32], tolerance: [f64; 2]) -> Self {
         let n = template.triangles.len();
         let attributes = |t: usize| {
             let triangle = &template.triangles[t];
@@ -82,6 +83,7 @@ impl Facets {
             if of_triangle[seed] != NONE {
                 continue;
             }
+            let tolerance = tolerance[usize::from(face[seed] == NO_FACE)];
             let id = facets.len() as u32;
             let triangle = &template.triangles[seed];
             let [a, b, c] = triangle.vertices.map(|v| template.vertices[v as usize]);
@@ -185,7 +187,7 @@ mod tests {
         };
         let corners: Vec<_> = template.triangles.iter().map(|t| t.vertices).collect();
         let edges = Edges::new(&corners);
-        let facets = Facets::new(&template, &edges, &[0; 4], 1e-9);
+        let facets = Facets::new(&template, &edges, &[0; 4], [0.0, 1e-9]);
         let of = &facets.of_triangle;
         assert_eq!(facets.facets.len(), 2);
         assert_eq!((of[0], of[2]), (of[1], of[3]));
@@ -194,7 +196,7 @@ mod tests {
         assert!((flat.area - 1.0).abs() < 1e-12 && flat.deviation > 0.0);
         assert!(flat.normal.z > 0.99);
         // A wall face or a marker of its own keeps a triangle apart.
-        let facets = Facets::new(&template, &edges, &[0, 1, 0, 0], 1e-9);
+        let facets = Facets::new(&template, &edges, &[0, 1, 0, 0], [1e-9; 2]);
         assert_eq!(facets.facets.len(), 3);
     }
 }

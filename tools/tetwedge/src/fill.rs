@@ -134,7 +134,8 @@ pub fn fill(
     restore_walls(input, plc, &faces, first_new, shifted, &mut filled).map_err(&unusable)?;
     let improved = refine(document, plc, &facets, params, sizes, &mut filled);
     filled.improved = improved;
-    orientations(&filled.template, first_new).map_err(&unusable)?;
+    let reach = document.frame.origin.length() + plc.extent;
+    orientations(&filled.template, first_new, reach).map_err(&unusable)?;
     check::measures(document, index, plc, &faces, &filled.template).map_err(&unusable)?;
     Ok(filled)
 }
@@ -451,13 +452,23 @@ fn within(intervals: &[[f64; 2]], z: f64) -> bool {
     after > 0 && z <= intervals[after - 1][1]
 }
 
-/// All tetrahedra positive, exactly.
-fn orientations(template: &Template, first_new: usize) -> Result<(), String> {
+/// Change of a volume by the rounding of placed coordinates, in roundings of the largest coordinate times the
+/// largest face.
+const TURNED: f64 = 16.0;
+
+/// All tetrahedra positive, exactly, and still so where their copies are placed: coordinates there are up to
+/// `reach` (model units), and rounded.
+fn orientations(template: &Template, first_new: usize, reach: f64) -> Result<(), String> {
     let mut bad = 0_usize;
     let mut first = None;
     for t in &template.tets {
         let [a, b, c, d] = t.vertices.map(|v| template.vertices[v as usize]);
-        if orientation(a, b, c, d) <= 0.0 {
+        let (u, v, w) = (b - a, c - a, d - a);
+        let (uv, vw, wu) = (u.cross(v), v.cross(w), w.cross(u));
+        let faces = [uv, vw, wu, uv + vw + wu].map(DVec3::length_squared);
+        let largest = faces.into_iter().fold(0.0, f64::max).sqrt();
+        let safe = uv.dot(w) > TURNED * f64::EPSILON * reach * largest;
+        if !safe || orientation(a, b, c, d) <= 0.0 {
             bad += 1;
             first.get_or_insert((a + b + c + d) * 0.25);
         }

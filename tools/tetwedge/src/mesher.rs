@@ -262,6 +262,9 @@ pub fn run(
         let preserve = preserve(&plc);
         let mut switches = switches(&bound.params, plc.max_volume, plc.per_region, preserve);
         switches.push_str(&bound.switches());
+        if let Some(points) = DESCRIPTIONS[number].rounds_from {
+            switches.push_str(&format!("b{points}"));
+        }
         log(&format!(
             "template {index}: {} points, {} triangles in {} facets, {} void(s); switches {switches}",
             plc.points.len(),

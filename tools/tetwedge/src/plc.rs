@@ -63,6 +63,12 @@ pub struct Description {
     /// diagonal is from 1 to 2). Many cospherical points, as symmetric ones are, make TetGen lose its
     /// way.
     pub stir: Option<f64>,
+    /// Points from which on TetGen inserts them in random rounds, instead of the 64 it takes; below that the
+    /// order depends on where the points are alone, and is the same for all descriptions.
+    pub rounds_from: Option<u32>,
+    /// Whether triangles off the walls are facets of their own unless they are exactly coplanar: nothing is
+    /// uneven then, but their edges all stay.
+    pub apart: bool,
 }
 
 /// Descriptions in the order in which they are tried.
@@ -72,36 +78,62 @@ pub struct Description {
 /// in some of their orders. Another description of the same surface is another draw: of
 /// 32 open vias with films of 1e-4 to 7e-4 at orders 7 to 64, turned at random, the first failed for
 /// 2, the second for none, the third for 5, and with walls as they are 4 to 9 failed.
-pub const DESCRIPTIONS: [Description; 6] = [
+pub const DESCRIPTIONS: [Description; 8] = [
     Description {
         order: Order::AsGiven,
         flat: true,
         stir: None,
+        rounds_from: None,
+        apart: false,
     },
     Description {
         order: Order::Reversed,
         flat: true,
         stir: Some(1e-11),
+        rounds_from: None,
+        apart: false,
     },
     Description {
         order: Order::FromTheMiddle,
         flat: true,
         stir: Some(1e-9),
+        rounds_from: Some(4),
+        apart: false,
     },
     Description {
         order: Order::AsGiven,
         flat: false,
         stir: None,
+        rounds_from: None,
+        apart: false,
     },
     Description {
         order: Order::Shuffled(1),
         flat: true,
         stir: Some(1e-12),
+        rounds_from: Some(1),
+        apart: false,
     },
     Description {
         order: Order::Shuffled(2),
         flat: false,
         stir: Some(1e-10),
+        rounds_from: Some(8),
+        apart: false,
+    },
+    Description {
+        order: Order::AsGiven,
+        flat: true,
+        stir: None,
+        rounds_from: None,
+        apart: true,
+    },
+    Description {
+        order: Order::Shuffled(3),
+        flat: true,
+        stir: Some(1e-11),
+        rounds_from: Some(4),
+        apart: true,
     },
 ];
 
@@ -168,7 +200,8 @@ impl Plc {
         let faces = Faces::new(document, index);
         let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
         let tolerance = (FLATNESS * diagonal).max(PRECISIONS * precision);
-        let facets = Facets::new(template, &edges, &faces.of_triangle, tolerance);
+        let elsewhere = if description.apart { 0.0 } else { tolerance };
+        let facets = Facets::new(template, &edges, &faces.of_triangle, [tolerance, elsewhere]);
 
         let mut points: Vec<[f64; 3]> = vertex_of_point
             .iter()

@@ -16,7 +16,7 @@ pub enum CutError {
     NotASurface(&'static str),
     /// The order asked for does not divide the order found.
     #[error(
-        "--order {asked} does not divide the order found, {found}; its divisors are {divisors}"
+        "--order {asked} does not divide the order found, {found}; its divisors are {divisors}{hint}"
     )]
     NotADivisor {
         /// Order asked for.
@@ -25,6 +25,8 @@ pub enum CutError {
         found: u32,
         /// Divisors of the order found, as text.
         divisors: String,
+        /// What else can be done.
+        hint: String,
     },
     /// Mirror walls asked for, but there are no mirror planes.
     #[error(

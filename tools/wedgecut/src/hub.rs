@@ -208,6 +208,8 @@ impl Maker<'_> {
                     [self.vertex(v, 0), self.vertex(other, last)]
                 })
                 .collect();
+            // A surface may touch the axis without reaching the sides there.
+            vertex_pairs.extend(self.template.axis.iter().map(|&v| [v, v]));
             vertex_pairs.sort_unstable();
             vertex_pairs.dedup();
             self.template.walls.push(Wall::Seam(Seam {

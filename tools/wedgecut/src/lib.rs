@@ -51,6 +51,8 @@ const ROUNDING_REACH: f64 = 1e-10;
 /// Largest distance, relative to the radius about the axis, that a point is moved onto a cut plane
 /// because the body is only nearly symmetric.
 const LARGEST_SNAP: f64 = 1e-4;
+/// The same of the axis; a point in the middle of a flat face is off it by more than the surface shows.
+const LARGEST_AXIS_SNAP: f64 = 5e-4;
 
 /// What the cut did, besides its result.
 #[derive(Clone, Debug, PartialEq)]
@@ -393,6 +395,9 @@ struct Tolerances {
     equal: f64,
     /// Points that count as on a plane.
     plane: f64,
+    /// Points that count as on the axis: of a body that is only nearly symmetric, the middle of a face may be off
+    /// it by more than what is moved onto a plane.
+    axis: f64,
     /// Faces that count as in one plane.
     flat: f64,
     /// Edges that are collapsed; 0 for none.
@@ -432,14 +437,20 @@ impl Tolerances {
             Some(relative) => (relative * radius).max(ROUNDING_REACH * size),
             None => equal.max((2.0 * drift).min(LARGEST_SNAP * radius)),
         };
-        let partner = (4.0 * drift).max(4.0 * equal).max(2.0 * plane);
+        let detail = params.clean * radius;
+        // Partners up to half of that apart are one point: two would leave detail that is collapsed elsewhere.
+        let partner = (4.0 * drift)
+            .max(4.0 * equal)
+            .max(2.0 * plane)
+            .max(2.0 * detail);
         Self {
             radius,
             equal,
             plane,
+            axis: plane.max((4.0 * drift).min(LARGEST_AXIS_SNAP * radius)),
             flat: equal,
-            detail: params.clean * radius,
-            near: match params.clean > 0.0 && drift > params.clean * radius {
+            detail,
+            near: match params.clean > 0.0 && drift > detail {
                 true => drift,
                 false => 0.0,
             },
@@ -562,6 +573,7 @@ impl Cutter<'_> {
             .hub
             .map(|hub| HubPlane::new(hub.radius, plan.opening, plan.mirror));
         let opening = Opening::new(plan.opening, tolerances.plane)
+            .with_axis(tolerances.axis)
             .with_hub(plane)
             .with_level(plan.level);
         let context = finish::Context {

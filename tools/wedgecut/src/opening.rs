@@ -105,8 +105,10 @@ pub struct Opening {
     turn: Isometry,
     cos: f64,
     sin: f64,
-    /// Distance up to which a point counts as on a plane or the axis, model units.
+    /// Distance up to which a point counts as on a plane, model units.
     tolerance: f64,
+    /// The same of the axis.
+    axis: f64,
     hub: Option<HubPlane>,
     level: bool,
 }
@@ -120,8 +122,17 @@ impl Opening {
             cos,
             sin,
             tolerance,
+            axis: tolerance,
             hub: None,
             level: false,
+        }
+    }
+
+    /// The same, where points up to a larger distance count as on the axis.
+    pub fn with_axis(self, axis: f64) -> Self {
+        Self {
+            axis: axis.max(self.tolerance),
+            ..self
         }
     }
 
@@ -255,7 +266,7 @@ impl Opening {
     }
 
     fn classify_sides(&self, p: DVec3) -> (DVec3, Class) {
-        if p.x.hypot(p.y) <= self.tolerance {
+        if p.x.hypot(p.y) <= self.axis {
             return (DVec3::new(0.0, 0.0, p.z), Class::AXIS);
         }
         let (a, b) = (p.y, p.x * self.sin - p.y * self.cos);

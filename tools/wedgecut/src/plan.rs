@@ -124,6 +124,12 @@ impl Plan {
                 asked: order,
                 found,
                 divisors: divisors.join(", "),
+                hint: match symmetry.axisymmetric {
+                    true => format!(
+                        "; of a body of revolution, symdetect --order {order} verifies another one"
+                    ),
+                    false => String::new(),
+                },
             });
         }
         let mirror = match params.domain {

@@ -11,6 +11,9 @@ use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use tmesh::{Document, Seam, Template, Triangle, Wall};
 
+/// Twice the area of a triangle up to which its corners count as on one line, over the square of its longer sides.
+const FLAT: f64 = 1e-10;
+
 /// A new surface.
 pub struct Made {
     /// The template; second members of its hub walls' pairs are as they were.
@@ -440,6 +443,15 @@ impl Maker<'_> {
             let p = level.map_or(p, |z| DVec3::new(p.x, p.y, z));
             projection.map_or(p, |plane| plane.apply(p))
         };
+        // The guide's points on straight edges are on one line up to rounding only, and so may be all three corners
+        // of a triangle.
+        let is_flat = |&t: &u32| {
+            let [a, b, c] = guide.triangles[t as usize].map(|v| guide.vertices[v as usize]);
+            let (u, v) = (b - a, c - a);
+            let longest = u.length_squared().max(v.length_squared());
+            u.cross(v).length() <= FLAT * longest
+        };
+        changed |= fine.iter().any(is_flat);
         if !changed {
             for &v in &inner {
                 let new = self.add(settle(guide.vertices[v as usize]));

@@ -10,6 +10,11 @@ use spade::{
 /// circumcentres ends for any bound below 30.
 const MIN_ANGLE: f64 = 27.0;
 
+/// Sine of the turn up to which an outline counts as straight, and by how much it is bowed there, relative
+/// to its length.
+const STRAIGHT: f64 = 1e-10;
+const BOW: f64 = 1e-8;
+
 /// Rounds of removing and inserting points at most.
 const ROUNDS: usize = 40;
 
@@ -58,6 +63,7 @@ impl Patch {
     pub fn triangulate(&mut self) -> Result<Vec<[u32; 3]>, Broken> {
         let scale = self.scale();
         let edges: FxHashSet<[u32; 2]> = self.outline.iter().copied().collect();
+        self.bow(&edges);
         let mut used = vec![true; self.points.len()];
         // Triangles whose circumcentres were inserted in vain.
         let mut hopeless: FxHashSet<[u32; 3]> = FxHashSet::default();
@@ -87,6 +93,51 @@ impl Patch {
             }
         }
         Ok(Vec::new())
+    }
+
+    /// Bows straight runs of the outline inwards, by far less than any detail. Points on a straight edge are on
+    /// one line up to rounding only, and a triangle of three of them would be the facet on the other
+    /// side of the edge as well.
+    fn bow(&mut self, edges: &FxHashSet<[u32; 2]>) {
+        const NONE: u32 = u32::MAX;
+        const MANY: u32 = u32::MAX - 1;
+        let mut next = vec![NONE; self.fixed];
+        let mut last = vec![NONE; self.fixed];
+        for &[a, b] in &self.outline {
+            for (slot, v) in [(&mut next[a as usize], b), (&mut last[b as usize], a)] {
+                *slot = if *slot == NONE { v } else { MANY };
+            }
+        }
+        let points = &self.points;
+        let is_straight = |v: u32| {
+            let (a, b) = (last[v as usize], next[v as usize]);
+            if a >= MANY || b >= MANY || edges.contains(&[b, v]) || edges.contains(&[v, a]) {
+                return false;
+            }
+            let [a, v, b] = [a, v, b].map(|v| points[v as usize]);
+            let (p, q) = (v - a, b - v);
+            p.perp_dot(q).abs() <= STRAIGHT * p.length() * q.length() && p.dot(q) > 0.0
+        };
+        let mut bowed: Vec<(u32, DVec2)> = Vec::new();
+        for &[start, first] in &self.outline {
+            if is_straight(start) || !is_straight(first) {
+                continue;
+            }
+            let mut run = vec![start, first];
+            while is_straight(run[run.len() - 1]) && run.len() <= self.fixed {
+                run.push(next[run[run.len() - 1] as usize]);
+            }
+            let at = |v: u32| points[v as usize];
+            let (from, to) = (at(start), at(run[run.len() - 1]));
+            let along = to - from;
+            for &v in &run[1..run.len() - 1] {
+                let s = (at(v) - from).dot(along) / along.length_squared();
+                bowed.push((v, along.perp() * (4.0 * BOW * s * (1.0 - s))));
+            }
+        }
+        for (v, by) in bowed {
+            self.points[v as usize] += by;
+        }
     }
 
     /// A power of two that brings the coordinates near one, whatever the model's unit.
@@ -322,6 +373,7 @@ mod tests {
         let fixed = points.len();
         // In the diametral circle of an outline edge.
         points.push(DVec2::new(0.0, -0.99));
+        let given = points.clone();
         let mut patch = Patch {
             points,
             fixed,
@@ -329,6 +381,8 @@ mod tests {
         };
         let triangles = patch.triangulate().unwrap();
         assert!(patch.points.len() > fixed + 1);
+        // What is bowed inwards for the triangulation is as given again.
+        patch.points[..fixed].copy_from_slice(&given[..fixed]);
         let mut area = 0.0;
         for t in &triangles {
             assert!(!t.contains(&(fixed as u32)));
@@ -342,6 +396,34 @@ mod tests {
             assert!(product / (2.0 * twice) / least < 1.3);
         }
         assert!((area - 3.96).abs() < 1e-12);
+    }
+
+    #[test]
+    fn points_on_a_straight_edge_make_no_triangle() {
+        // A square whose sides are divided, in a frame where nothing is exactly straight.
+        let turn = DVec2::from_angle(0.3);
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let corners = corners.map(|(x, y)| turn.rotate(DVec2::new(7.0 + x, y)));
+        let (mut points, mut outline) = (Vec::new(), Vec::new());
+        ring(&mut points, &mut outline, &corners, 23);
+        let fixed = points.len();
+        let mut patch = Patch {
+            points,
+            fixed,
+            outline,
+        };
+        let triangles = patch.triangulate().unwrap();
+        // Points come side by side, each with its first corner.
+        let on = |i: u32, k: u32| {
+            let ends_there = i.is_multiple_of(23) && (i / 23 + 3) % 4 == k;
+            (i as usize) < fixed && (i / 23 == k || ends_there)
+        };
+        for t in &triangles {
+            for k in 0..4 {
+                assert!(!t.iter().all(|&i| on(i, k)), "{t:?}");
+            }
+        }
+        assert!(triangles.len() > 90);
     }
 
     #[test]
