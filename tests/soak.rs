@@ -19,7 +19,7 @@ use trial::{Laboratory, Verdict};
 /// Bodies for which something was mended.
 const MENDED: [u64; 8] = [
     // Noise leaves a face in a wall beside the axis.
-    3250, // Points of the two sections are nearly the same.
+    3250,    // Points of the two sections are nearly the same.
     200_223, // The column of a hub touches the axis in single points.
     201_047, // Three points on a straight edge make a triangle of the new surface.
     200_788,

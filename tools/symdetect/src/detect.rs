@@ -85,7 +85,10 @@ impl Job<'_> {
         if self.params.order != Some(1) && self.facets_may_hide(&directions, &rotations) {
             self.limits.facets = true;
             let best = |all: &[Rotation]| all.iter().map(Rotation::rank).max();
-            let (_, wider) = self.rotations(log);
+            let wider = match self.main(&rotations) {
+                Some(main) => self.beside(main, self.limits).into_iter().collect(),
+                None => self.rotations(log).1,
+            };
             if best(&wider) > best(&rotations) {
                 log("facets of smooth surfaces allowed for");
                 if let Some(found) = self.certified(wider.clone(), log) {
@@ -170,25 +173,49 @@ impl Job<'_> {
             Some(b) if self.params.order.is_none() => b.order + 1..=self.params.max_order,
             _ => self.orders(),
         };
-        // Besides an axis of order above two there is no other one, unless the body is isotropic.
-        let main = best.filter(|b| b.distinct && b.order > 2);
-        let main = main.filter(|_| !candidates::principal(self.shape).isotropic);
-        // Where it is exact, there is nothing to adjust, and what holds beside it holds together with it.
-        let exact = main.filter(|b| b.deviation.value <= self.shape.rounding());
-        if let Some(b) = exact {
-            let multiples = orders.clone().filter(|n| n.is_multiple_of(b.order));
-            if !may_hold(self.shape, &b.frame, multiples, limits) {
-                return false;
-            }
+        if let Some(main) = self.main(rotations) {
+            return self
+                .beside(main, limits)
+                .is_some_and(|r| r.rank() > main.rank());
         }
-        let centre = exact.map_or(self.centre, |b| b.frame.origin);
-        let main = main.map(|b| [b.frame.rotation.z_axis]);
-        let directions = main.as_ref().map_or(directions, |m| m.as_slice());
         directions.iter().take(12).any(|&d| {
-            let (shape, orders, fixed) = (self.shape, orders.clone(), exact.is_some());
-            find_rotation(shape, centre, d, fixed, orders, limits, Depth::Quick)
+            let (shape, orders) = (self.shape, orders.clone());
+            find_rotation(shape, self.centre, d, false, orders, limits, Depth::Quick)
                 .is_some_and(|r| best.is_none_or(|b| r.rank() > b.rank()))
         })
+    }
+
+    /// The rotation about the one axis of order above two: there is one unless the body is isotropic.
+    fn main<'r>(&self, rotations: &'r [Rotation]) -> Option<&'r Rotation> {
+        let best = rotations.iter().max_by_key(|r| r.rank());
+        let main = best.filter(|b| b.distinct && b.order > 2);
+        main.filter(|_| !candidates::principal(self.shape).isotropic)
+    }
+
+    /// The highest order within other limits about the axis of a rotation. What holds by the rotation itself holds
+    /// together with it, so that only multiples of its order are possible.
+    fn beside(&self, main: &Rotation, limits: Limits) -> Option<Rotation> {
+        let shape = self.shape;
+        let limits = Limits {
+            multiples_of: main.order,
+            ..limits
+        };
+        // Where all orders hold within these limits, the facets have told theirs.
+        let most = limits.bound(main.radius).most();
+        if shape.deviation_from_revolution(&main.frame, most).is_some() {
+            return None;
+        }
+        // Where it is exact, there is nothing to adjust.
+        let exact = main.deviation.value <= shape.rounding();
+        let more = self
+            .orders()
+            .filter(|&n| n > main.order && n.is_multiple_of(main.order));
+        if exact && !may_hold(shape, &main.frame, more, limits) {
+            return None;
+        }
+        let (frame, orders) = (&main.frame, self.orders());
+        let z = frame.rotation.z_axis;
+        find_rotation(shape, frame.origin, z, exact, orders, limits, Depth::Quick)
     }
 
     fn directions(&self, log: &mut dyn FnMut(&str)) -> Vec<DVec3> {

@@ -20,6 +20,8 @@ pub struct Limits {
     /// Whether up to [`FACETS`] is allowed on top where facets that stand for a smooth surface
     /// explain it.
     pub facets: bool,
+    /// Only multiples of this order are looked for.
+    pub multiples_of: u32,
 }
 
 impl Limits {
@@ -29,7 +31,13 @@ impl Limits {
             tolerance,
             loose: (8.0 * tolerance).clamp(8e-3, 0.2),
             facets: false,
+            multiples_of: 1,
         }
+    }
+
+    /// Whether an order is looked for.
+    fn admit(&self, order: u32) -> bool {
+        order.is_multiple_of(self.multiples_of)
     }
 
     /// The bound on deviations of verified operations for a radius.
@@ -142,7 +150,7 @@ pub fn find_rotation(
     let loose = limits.loose * radius;
     let revolution = shape.deviation_from_revolution(&start, loose);
     let candidates = if revolution.is_some() && search.orders.end() > search.orders.start() {
-        search.orders.clone().collect()
+        search.orders.clone().filter(|&n| limits.admit(n)).collect()
     } else {
         search.scan(&start, loose, OUTLIERS)
     };
@@ -240,7 +248,7 @@ impl Search<'_> {
     fn scan(&self, frame: &Frame, limit: f64, outliers: f64) -> Vec<u32> {
         self.orders
             .clone()
-            .filter(|&n| self.passes(frame, n, limit, outliers))
+            .filter(|&n| self.limits.admit(n) && self.passes(frame, n, limit, outliers))
             .collect()
     }
 
@@ -302,9 +310,9 @@ impl Search<'_> {
             }
             if let (true, Some(deviation)) = (axisymmetric, revolution) {
                 let n = (COMPOSITE.iter().rev())
-                    .find(|n| self.orders.contains(n))
+                    .find(|&n| self.orders.contains(n) && self.limits.admit(*n))
                     .copied()
-                    .unwrap_or(*self.orders.start());
+                    .unwrap_or(self.limits.multiples_of.max(*self.orders.start()));
                 let p = Permutation::identity(self.shape.regions.len());
                 return found(n, p, deviation, true, false);
             }
@@ -371,7 +379,8 @@ impl Search<'_> {
             let worst: Vec<f64> = (0..=most)
                 .map(|n| if n < 2 { 0.0 } else { measure(n, count) })
                 .collect();
-            (3..=most).rev().find(|&n| {
+            let wanted = (3..=most).rev().filter(|&n| self.limits.admit(n));
+            wanted.into_iter().find(|&n| {
                 let largest = |of: &dyn Fn(u32) -> f64| {
                     let divisors = (2..=n).filter(|d| n % d == 0);
                     divisors.map(of).fold(0.0, f64::max)
