@@ -311,6 +311,9 @@ pub fn run(
 /// elements.
 const EASED: f64 = 1.05;
 
+/// Fewer elements left past the bound are not worth another mesh.
+const SOME: usize = 4;
+
 /// With more than this part of the elements left past the bound, it was eased for too many ...
 const TOO_MANY: f64 = 0.01;
 
@@ -343,7 +346,8 @@ fn template(
     let (done, past) = attempt(document, index, params, &eased, sizes, log)?;
     let count = done.filled.template.tets.len();
     let improved = done.filled.improved.unwrap_or_default();
-    let many = improved.past as f64 > (TOO_MANY + SPOILED * past) * count as f64;
+    let many =
+        improved.past >= SOME && improved.past as f64 > (TOO_MANY + SPOILED * past) * count as f64;
     let few = 1..=1.max((FEW * count as f64) as usize);
     let unlucky = count <= SMALL && few.contains(&improved.low);
     if done.advice.is_some() || !(many || unlucky) {

@@ -39,6 +39,9 @@ const SHARP: f64 = 0.005;
 /// bound too, and insisting only multiplies points.
 const HARD: f64 = 0.05;
 
+/// Fewer tetrahedra past the bound are not worth another guide.
+const FEW: f64 = 8.0;
+
 /// Meshes template `index` as asked by `params`, but free to put points on every facet, and gives
 /// the surface of that mesh. No facet joins wall faces with anything else, nor the two faces of a
 /// seam.
@@ -56,8 +59,8 @@ pub fn refine(
         ..params.clone()
     };
     let begun = Instant::now();
-    let (refined, past) = attempt(document, index, &eased, log)?;
-    if !(SHARP..HARD).contains(&past) {
+    let (refined, past, count) = attempt(document, index, &eased, log)?;
+    if !(SHARP..HARD).contains(&past) || past * (count as f64) < FEW {
         return Ok(refined);
     }
     let Some(params) = params.once_more(begun) else {
@@ -68,16 +71,16 @@ pub fn refine(
          once more without easing it",
         100.0 * past
     ));
-    Ok(attempt(document, index, &params, log).map_or(refined, |(tight, _)| tight))
+    Ok(attempt(document, index, &params, log).map_or(refined, |(tight, ..)| tight))
 }
 
-/// A guide, and the part of its tetrahedra that are past the radius-edge bound.
+/// A guide, the part of its tetrahedra that are past the radius-edge bound, and how many it has.
 fn attempt(
     document: &Document,
     index: usize,
     params: &Params,
     log: &(dyn Fn(&str) + Sync),
-) -> Result<(Refined, f64), Error> {
+) -> Result<(Refined, f64, usize), Error> {
     let sizes = Sizes::new(document, params)?;
     let unusable = |what: String| Error::Unusable {
         template: index,
@@ -121,7 +124,7 @@ fn attempt(
             facets: plc.facets,
         };
         put_back(&mut refined, plc.shift);
-        Ok((refined, past))
+        Ok((refined, past, mesh.tetrahedra().len()))
     })?;
     Ok(made)
 }
