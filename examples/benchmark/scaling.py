@@ -25,7 +25,7 @@ QUICK_LEVELS = (1, 3, 5)
 # Order of the body whose elements are made smaller and smaller, and their largest volumes; the last
 # gives 200 million elements.
 OUTPUT_ORDER = 128
-VOLUMES = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 2.8e-8)
+VOLUMES = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 2.6e-8)
 QUICK_VOLUMES = (1e-5, 1e-6, 3e-7)
 # Elements over 1 / volume, roughly.
 ELEMENTS_PER_VOLUME = 5.6

@@ -15,6 +15,7 @@ mod support;
 mod bench;
 mod disks;
 mod inputs;
+mod makefiles;
 mod mesher;
 mod pipes;
 mod signals;

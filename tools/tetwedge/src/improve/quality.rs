@@ -2,6 +2,11 @@
 
 use glam::DVec3;
 
+/// Quality of an element just past the radius-edge bound, and the power by which it falls from there on. With none
+/// of a step, elements would be traded for some past the bound too readily.
+const PAST: f64 = 0.65;
+const FALL: i32 = 6;
+
 /// What every tetrahedron should reach.
 #[derive(Clone, Copy, Debug)]
 pub struct Goal {
@@ -14,9 +19,8 @@ pub struct Goal {
 /// Quality and size of a tetrahedron.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grade {
-    /// 1 and more: good enough. Below, the worse one of the tangent of the smallest dihedral angle and the
-    /// square of the inverse radius-edge ratio, as parts of what is asked for: squared, or elements
-    /// would be traded for some past the bound too readily. Not above 0 for flat and inverted ones.
+    /// 1 and more: good enough. Below, the worse one of what the smallest dihedral angle, by its tangent, and the
+    /// radius-edge ratio are worth as parts of what is asked for. Not above 0 for flat and inverted ones.
     pub quality: f64,
     /// Six times the signed volume.
     pub six_volume: f64,
@@ -63,9 +67,17 @@ impl Goal {
         let ratio =
             self.radius_edge * 2.0 * six_volume * (shortest / centre.length_squared()).sqrt();
         Grade {
-            quality: angle.min(ratio.powi(2)),
+            quality: angle.min(ratio_quality(ratio)),
             six_volume,
         }
+    }
+}
+
+/// The quality that the inverse of a radius-edge ratio allows, as a part of what is asked for.
+fn ratio_quality(part: f64) -> f64 {
+    match part >= 1.0 {
+        true => part,
+        false => PAST * part.powi(FALL),
     }
 }
 
@@ -93,7 +105,7 @@ mod tests {
             signs[usize::from(m.volume > 0.0)] += 1;
             if m.volume > 0.0 {
                 let angle = m.min_dihedral.tan() / 20_f64.to_radians().tan();
-                let ratio = (1.4 / m.radius_edge_ratio).powi(2);
+                let ratio = ratio_quality(1.4 / m.radius_edge_ratio);
                 let expected = angle.min(ratio);
                 assert!(
                     (grade.quality / expected - 1.0).abs() < 1e-9,

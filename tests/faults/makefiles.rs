@@ -1,0 +1,127 @@
+//! A flow that is interrupted: what stands there is whole, and make goes on where it was.
+
+use crate::bench::{Tally, shares, times};
+use crate::support::binary;
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::process::CommandExt;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::thread;
+use std::time::{Instant, SystemTime};
+
+/// Starts make on two gears, side by side, in a process group of its own as a shell does.
+fn start(folder: &Path) -> Child {
+    let flow = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/flows/gear.mk");
+    let tools = binary("symdetect").parent().expect("a folder");
+    let test = std::env::current_exe().expect("a test knows where it is");
+    let profile = test.parent().and_then(Path::parent);
+    let body = profile.expect("target/profile/deps").join("examples/body");
+    Command::new("make")
+        .current_dir(folder)
+        .arg("-f")
+        .arg(flow)
+        .arg(format!("BIN={}/", tools.display()))
+        .arg(format!("BODY={}", body.display()))
+        .args(["-j2", "TEETH=8 10"])
+        .env_remove("MAKEFLAGS")
+        .env_remove("MAKELEVEL")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .process_group(0)
+        .spawn()
+        .expect("make is installed")
+}
+
+/// All files of a folder: content and time.
+fn files(folder: &Path) -> BTreeMap<String, (Vec<u8>, SystemTime)> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    entries
+        .map(|entry| {
+            let entry = entry.expect("an entry");
+            let time = entry.metadata().and_then(|m| m.modified());
+            let content = fs::read(entry.path()).expect("a file");
+            let name = entry.file_name().to_string_lossy().into_owned();
+            (name, (content, time.expect("a time")))
+        })
+        .collect()
+}
+
+/// Interrupts make, looks at what is there, and lets it go on.
+fn interrupt(
+    signal: &str,
+    whole_group: bool,
+    after: std::time::Duration,
+    wanted: &BTreeMap<String, (Vec<u8>, SystemTime)>,
+) -> Result<(), String> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut make = start(folder.path());
+    thread::sleep(after);
+    let target = match whole_group {
+        true => format!("-{}", make.id()),
+        false => make.id().to_string(),
+    };
+    let sent = Command::new("kill")
+        .args([&format!("-{signal}"), "--", &target])
+        .stderr(Stdio::null())
+        .status();
+    let _ = sent.expect("kill is installed");
+    make.wait().expect("a child can be waited for");
+    let stands = files(folder.path());
+    for (name, (content, _)) in &stands {
+        match wanted.get(name) {
+            None => return Err(format!("left behind: {name}")),
+            Some((whole, _)) if whole != content => {
+                return Err(format!(
+                    "{name} has {} bytes of {}",
+                    content.len(),
+                    whole.len()
+                ));
+            }
+            Some(_) => {}
+        }
+    }
+    let again = start(folder.path())
+        .wait()
+        .expect("a child can be waited for");
+    if !again.success() {
+        return Err(format!("make does not go on: {again}"));
+    }
+    let after = files(folder.path());
+    let same = |(name, (content, _)): (&String, &(Vec<u8>, SystemTime))| {
+        after.get(name).is_some_and(|a| &a.0 == content)
+    };
+    if after.len() != wanted.len() || !wanted.iter().all(same) {
+        return Err("what make goes on with is not what it makes undisturbed".to_owned());
+    }
+    match stands
+        .iter()
+        .find(|(name, (_, time))| after[*name].1 != *time)
+    {
+        Some((name, _)) => Err(format!("{name} was made once more")),
+        None => Ok(()),
+    }
+}
+
+#[test]
+fn make_is_interrupted() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let begun = Instant::now();
+    assert!(start(folder.path()).wait().is_ok_and(|s| s.success()));
+    let time = begun.elapsed();
+    let wanted = files(folder.path());
+    assert!(wanted.len() >= 14, "{:?}", wanted.keys());
+    let mut share = shares(5);
+    for (kind, signal, whole_group) in [
+        ("make and its stages get SIGINT", "INT", true),
+        ("make gets SIGTERM", "TERM", false),
+        ("make and its stages get SIGHUP", "HUP", true),
+    ] {
+        let mut tally = Tally::new(kind, "make");
+        for _ in 0..times(4) {
+            let after = time.mul_f64(1.1 * share());
+            tally.add(interrupt(signal, whole_group, after, &wanted));
+        }
+        tally.close();
+    }
+}
