@@ -34,6 +34,9 @@ const MORE_ROUNDS: usize = 14;
 /// Part of the tetrahedra that is many to be bad.
 const MANY: f64 = 0.01;
 
+/// Part of the bad tetrahedra of the last round that are left where further rounds are no use.
+const STUCK: f64 = 0.98;
+
 /// What is asked of the elements.
 pub struct Wish<'a> {
     /// Smallest dihedral angle, degrees.
@@ -81,6 +84,7 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
     let mut mesh = Mesh::new(template, wish.scale, goal, &limits);
     let mut done = Improved::default();
     let most = (mesh.len() as f64 * wish.share) as usize;
+    let mut last = f64::INFINITY;
     for round in 0..ROUNDS + MORE_ROUNDS {
         let mut bad: Vec<(f64, u32)> = (0..mesh.len() as u32)
             .map(|t| (mesh.grade(t).quality, t))
@@ -89,9 +93,11 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         if round == 0 {
             done.bad = bad.len();
         }
-        if round >= ROUNDS && (bad.len() as f64) < MANY * mesh.len() as f64 {
+        let (now, few) = (bad.len() as f64, MANY * mesh.len() as f64);
+        if round >= ROUNDS && (now < few || now > STUCK * last) {
             break;
         }
+        last = now;
         bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         bad.truncate(most);
         let before = done;

@@ -4,8 +4,8 @@ use glam::DVec3;
 
 /// Quality of an element just past the radius-edge bound, and the power by which it falls from there on. With none
 /// of a step, elements would be traded for some past the bound too readily.
-const PAST: f64 = 0.65;
-const FALL: i32 = 6;
+const PAST: f64 = 0.62;
+const FALL: i32 = 3;
 
 /// What every tetrahedron should reach.
 #[derive(Clone, Copy, Debug)]
