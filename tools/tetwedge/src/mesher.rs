@@ -312,7 +312,7 @@ pub fn run(
 const EASED: f64 = 1.05;
 
 /// Fewer elements left past the bound are not worth another mesh.
-const SOME: usize = 4;
+const SOME: usize = 3;
 
 /// With more than this part of the elements left past the bound, it was eased for too many ...
 const TOO_MANY: f64 = 0.01;

@@ -40,7 +40,7 @@ const SHARP: f64 = 0.005;
 const HARD: f64 = 0.05;
 
 /// Fewer tetrahedra past the bound are not worth another guide.
-const FEW: f64 = 8.0;
+const FEW: f64 = 4.0;
 
 /// Meshes template `index` as asked by `params`, but free to put points on every facet, and gives
 /// the surface of that mesh. No facet joins wall faces with anything else, nor the two faces of a
