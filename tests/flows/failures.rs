@@ -346,6 +346,33 @@ fn an_order_that_does_not_hold() {
     run("wedgecut", &["--order", "0"], &found).fails(2, &[]);
 }
 
+/// A body of revolution drawn with facets is known by the order of its facets; an order that does not
+/// divide it has to be verified first.
+#[test]
+fn an_order_of_a_body_of_revolution() {
+    let drum = Prism {
+        order: 80,
+        radius: 1.0,
+        height: 0.5,
+        bore: 0.2,
+        tessellation: Tessellation::Symmetric,
+    };
+    let found = detect(&drum.build(), &[]).success();
+    let told = ["80", "symdetect --order 7 verifies"];
+    run("wedgecut", &["--order", "7"], &found).fails(1, &told);
+}
+
+/// A wall named on one side only: sectors are alike in shape, not in names.
+#[test]
+fn names_that_differ_between_sectors_are_told() {
+    let box_of_two_names = "v 1 1 0\nv -1 1 0\nv -1 -1 0\nv 1 -1 0\nv 1 1 3\nv -1 1 3\nv -1 -1 3\nv 1 -1 3\n\
+        g inlet\nf 3 4 8 7\ng skin\nf 1 2 6 5\nf 2 3 7 6\nf 4 1 5 8\nf 4 3 2 1\nf 5 6 7 8\n";
+    let found = run("symdetect", &[], box_of_two_names.as_bytes()).success();
+    let told = run("wedgecut", &[], &found);
+    assert_eq!(told.code, 0, "{told:?}");
+    assert!(told.stderr.contains("\"inlet\" has 0 %"), "{told:?}");
+}
+
 #[test]
 fn stages_in_the_wrong_order() {
     let stl = encode(&gear(), EXACT_STL);

@@ -87,23 +87,19 @@ fn frame(z: DVec3, x: DVec3) -> DMat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cells::tests::add_box;
 
     /// The faces of a box, in two triangles each.
     fn cuboid(turn: DMat3) -> Vec<[DVec3; 3]> {
-        let corner = |i: usize| {
-            let bit = |k: usize| f64::from(u8::from(i >> k & 1 == 1));
-            turn * DVec3::new(bit(0), 2.0 * bit(1), 3.0 * bit(2))
-        };
-        let quads = [
-            [0, 1, 3, 2],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 3, 7, 6],
-            [0, 2, 6, 4],
-            [1, 3, 7, 5],
-        ];
-        let halves = |[a, b, c, d]: [usize; 4]| [[a, b, c].map(corner), [a, c, d].map(corner)];
-        quads.into_iter().flat_map(halves).collect()
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        add_box(
+            &mut vertices,
+            &mut triangles,
+            DVec3::ZERO,
+            DVec3::new(1.0, 2.0, 3.0),
+        );
+        let corners = |t: &[u32; 3]| t.map(|v| turn * vertices[v as usize]);
+        triangles.iter().map(corners).collect()
     }
 
     #[test]

@@ -3,8 +3,8 @@
 //! A bounding-volume hierarchy with four children per node and single triangles, or pieces of long and thin
 //! ones, as leaves, split by
 //! the surface-area heuristic over bins of centroids (Wald, "On fast construction of SAH-based
-//! bounding volume hierarchies", 2007). Boxes are in single precision, about the centre of the set
-//! and in units of its size; distances to them are taken a margin too small, so that no rounding can
+//! bounding volume hierarchies", 2007). Boxes are in single precision, about the centre of the set,
+//! in units of its size and along its faces ([`crate::alignment`]); distances to them are taken a margin too small, so that no rounding can
 //! hide a triangle. Distances to triangles are in double precision.
 
 use crate::alignment::alignment;
@@ -81,12 +81,12 @@ impl Bvh {
         } else {
             1.0
         };
-        let turn = alignment(triangles.len(), |i| {
-            triangles[i].map(|p| (p - centre) / unit)
-        });
         for p in triangles.iter_mut().flatten() {
             *p = (*p - centre) / unit;
-            if let Some(turn) = turn {
+        }
+        let turn = alignment(triangles.len(), |i| triangles[i]);
+        if let Some(turn) = turn {
+            for p in triangles.iter_mut().flatten() {
                 *p = turn * *p;
             }
         }

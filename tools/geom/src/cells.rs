@@ -253,11 +253,11 @@ fn outer_components(
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// Adds a box with outward triangles; returns the index of its first triangle.
-    fn add_box(
+    pub(crate) fn add_box(
         vertices: &mut Vec<DVec3>,
         triangles: &mut Vec<[u32; 3]>,
         low: DVec3,

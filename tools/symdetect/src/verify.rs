@@ -106,9 +106,7 @@ impl Place {
             side: 2 * most as u8 + u8::from(faces[most] > 0.0),
         }
     }
-}
 
-impl Place {
     /// Shell around the axis, out of so many.
     pub fn shell(&self, shells: f64) -> u8 {
         (self.radius * shells) as u8
@@ -206,12 +204,13 @@ impl Shape {
         {
             return true;
         }
-        // The same number from every triangle, so that small bores have enough of them. Shells are taken
+        // The same number from every triangle (of very many, from some), so that small bores have enough of them. Shells are taken
         // twice, one set halfway between the other: one that ends within a bore would have the outermost
         // points of its facets only.
-        let each = (TESTS / self.triangles.len()).min(PER_TRIANGLE);
+        let each = (TESTS / self.triangles.len()).clamp(1, PER_TRIANGLE);
+        let step = self.triangles.len().div_ceil(TESTS);
         let mut shells: FxHashMap<[u8; 3], (Swing, bool)> = FxHashMap::default();
-        for (t, corners) in self.triangles.iter().enumerate() {
+        for (t, corners) in self.triangles.iter().enumerate().step_by(step) {
             let [a, b, c] = corners.map(|v| self.vertices[v as usize]);
             let area = (b - a).cross(c - a).length();
             for i in 0..each {

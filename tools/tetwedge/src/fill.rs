@@ -489,6 +489,27 @@ mod tests {
     use super::*;
 
     #[test]
+    fn elements_that_placing_could_turn_over_are_refused() {
+        let flat = |height: f64| Template {
+            vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z * height],
+            tets: vec![Tet {
+                vertices: [0, 1, 2, 3],
+                region: 1,
+            }],
+            ..Template::default()
+        };
+        assert_eq!(orientations(&flat(1e-9), 4, 1.0), Ok(()));
+        // Positive, but not for coordinates of a million.
+        let told = orientations(&flat(1e-9), 4, 1e6).unwrap_err();
+        assert!(
+            told.contains("1 of 1 tetrahedra are inverted or flat"),
+            "{told}"
+        );
+        assert!(orientations(&flat(0.0), 4, 1.0).is_err());
+        assert!(orientations(&flat(-1.0), 4, 1.0).is_err());
+    }
+
+    #[test]
     fn heights_are_found_in_intervals() {
         let intervals = [[0.0, 1.0], [2.0, 3.0]];
         for (z, inside) in [

@@ -330,12 +330,13 @@ fn cut_in_frame(
     let body_area = geom::measure::boundary_area(&template);
     let snapped = snap::snap_heights_and_columns(&mut template.vertices, tolerances.equal);
     let mut notes = vec![format!(
-        "{} wedge of order {} ({} copies), points within {:.1e} of a cut plane moved onto it, \
+        "{} wedge of order {} ({} copies), points within {:.1e} of a cut plane and {:.1e} of the axis moved onto it, \
          heights and columns within {:.1e} made equal (largest movement {snapped:.1e})",
         if plan.mirror { "mirror" } else { "rotation" },
         plan.order,
         plan.instances.len(),
         tolerances.plane,
+        tolerances.axis,
         tolerances.equal,
     )];
     let cutter = Cutter {
@@ -447,7 +448,10 @@ impl Tolerances {
             radius,
             equal,
             plane,
-            axis: plane.max((4.0 * drift).min(LARGEST_AXIS_SNAP * radius)),
+            axis: match params.snap {
+                Some(_) => plane,
+                None => plane.max((4.0 * drift).min(LARGEST_AXIS_SNAP * radius)),
+            },
             flat: equal,
             detail,
             near: match params.clean > 0.0 && drift > detail {

@@ -87,6 +87,15 @@ mod tests {
     use geom::tet::TetMeasures;
 
     #[test]
+    fn the_bound_is_a_step() {
+        assert_eq!(ratio_quality(1.0), 1.0);
+        assert_eq!(ratio_quality(1.3), 1.3);
+        // An element just past the bound is worth less than one with two thirds of the angle asked for.
+        assert!(ratio_quality(1.0 - 1e-9) < 0.66);
+        assert!(ratio_quality(0.8) < ratio_quality(0.9) && ratio_quality(0.8) > 0.0);
+    }
+
+    #[test]
     fn grades_agree_with_the_measures() {
         let goal = Goal::new(20.0, 1.4);
         let mut state = 1_u64;
