@@ -102,6 +102,11 @@ const OUTLIERS: f64 = 0.12;
 const SEPARATION: f64 = 3.0;
 /// Places remembered where orders failed.
 const OBSTACLES: usize = 32;
+/// Orders whose deviations may turn out not to be those of facets before no more high ones are allowed any:
+/// near a body of revolution, a flaw that facets could explain where it is spoils hundreds alike.
+const UNEXPLAINED: usize = 8;
+/// Orders up to this one are allowed them even so.
+const LOW: u32 = 12;
 /// Orders with many divisors, for bodies of revolution without a facet count.
 const COMPOSITE: [u32; 14] = [2, 4, 6, 12, 24, 36, 48, 60, 120, 180, 240, 360, 720, 840];
 
@@ -289,10 +294,12 @@ impl Search<'_> {
                 distinct,
             })
         };
-        let verify = |n| {
-            let found = self.shape.verify_rotation(frame, n, bound, self.depth)?;
+        // An order that does not hold: where, and whether it is facets that do not explain it.
+        let verify = |n, bound| {
+            let found = (self.shape.verify_rotation(frame, n, bound, self.depth))
+                .map_err(|deviation| (deviation, false))?;
             if found.0.value > limit && !is_of_facets(self.shape, frame, n, found.0.value, limit) {
-                return Err(found.0);
+                return Err((found.0, true));
             }
             Ok(found)
         };
@@ -301,7 +308,7 @@ impl Search<'_> {
         let axisymmetric = revolution.is_some_and(|d| d.value <= limit);
         if full_range && revolution.is_some() {
             if let Some(n) = self.facet_count(frame, limit)
-                && let Ok((deviation, permutation)) = verify(n)
+                && let Ok((deviation, permutation)) = verify(n, bound)
             {
                 // The sagitta of the facets: a polygon of that many sides deviates just so much.
                 let sagitta = radius * (1.0 - libm::cos(std::f64::consts::PI / f64::from(n)));
@@ -319,18 +326,24 @@ impl Search<'_> {
         }
         // Near a body of revolution many orders fail at the same few places.
         let mut obstacles: Vec<DVec3> = Vec::new();
+        let mut unexplained = 0;
         for n in self.scan(frame, bound.most(), 0.0).into_iter().rev() {
+            let bound = match unexplained >= UNEXPLAINED && n > LOW {
+                true => Bound::plain(limit),
+                false => bound,
+            };
             if obstacles
                 .iter()
                 .any(|p| self.stumbles(frame, n, *p, bound.most()))
             {
                 continue;
             }
-            match verify(n) {
+            match verify(n, bound) {
                 Ok((deviation, permutation)) => {
                     return found(n, permutation, deviation, axisymmetric, true);
                 }
-                Err(deviation) if obstacles.len() < OBSTACLES => {
+                Err((_, true)) => unexplained += 1,
+                Err((deviation, false)) if obstacles.len() < OBSTACLES => {
                     // Either end may be the place that has no counterpart.
                     let near = self
                         .shape

@@ -159,8 +159,8 @@ impl Command for Cli {
         let document = session.read()?;
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));
-        if let Some(lost) = names::lost(&document) {
-            session.note(&lost);
+        for remark in names::lost(&document).iter().chain(&report.warning) {
+            session.note(remark);
         }
         document.history.push(session.history_entry(report.notes));
         session.write(&document)

@@ -55,13 +55,15 @@ const LARGEST_SNAP: f64 = 1e-4;
 const LARGEST_AXIS_SNAP: f64 = 5e-4;
 
 /// What the cut did, besides its result.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Sentences for the history and `-v`.
     pub notes: Vec<String>,
     /// How much the seam harms the faces it slices, see [`sliced::Harm`]; zero for mirror planes, whose
     /// section the body has anyway.
     pub harm: f64,
+    /// What the user should know at once: that the cut is at a bad place, and where a better one is.
+    pub warning: Option<String>,
 }
 
 /// Cuts the wedge out of a body.
@@ -291,12 +293,13 @@ fn cut_as_planned(
     params: &Params,
     tolerances: &Tolerances,
 ) -> Result<(Document, Report), CutError> {
-    let frames = frames(document, symmetry, plan, params, tolerances)?;
+    let places = places(document, symmetry, plan, params, tolerances)?;
     let mut failed = None;
-    for (i, &(frame, harm)) in frames.iter().enumerate() {
+    for (i, &(frame, harm)) in places.frames.iter().enumerate() {
         match cut_in_frame(document, symmetry, plan.clone(), hub, frame, tolerances) {
             Ok((document, mut report)) => {
                 report.harm = harm;
+                report.warning = places.warning;
                 if let Some(error) = failed {
                     report.notes.push(format!(
                         "cut at the angle tried as number {} (--start-angle says which): {error}",
@@ -385,7 +388,11 @@ fn cut_in_frame(
     notes.push(format!(
         "{copies} copies of the wedge differ from the body's volume by {relative:.1e}"
     ));
-    Ok((document, Report { notes, harm: 0.0 }))
+    let report = Report {
+        notes,
+        ..Report::default()
+    };
+    Ok((document, report))
 }
 
 /// Distances, model units.
@@ -481,17 +488,30 @@ fn element_size(regions: &[Region], body: &Template, params: &Params) -> impl Fn
 
 /// How many places of the seam are tried, at most.
 const TRIALS: usize = 4;
+/// Harm from which a seam at an angle that was asked for is told, see [`sliced::Harm`], if another place does
+/// so many times less.
+const HARMFUL: f64 = 20.0;
+const LESS: f64 = 4.0;
+/// Elements that a unit of harm costs, see [`sliced::Harm::sliced`].
+const ELEMENTS: f64 = 100.0;
 
-/// The canonical frames to try, z along the axis, x in the first side of the wedge, with the harm that a
-/// seam there does: of rotation wedges some that start elsewhere, unless it was said where, the
-/// least harm first.
-fn frames(
+/// Where a seam may be.
+struct Places {
+    /// The canonical frames to try, z along the axis, x in the first side of the wedge, with the harm that a
+    /// seam there does: of rotation wedges some that start elsewhere, unless it was said where, the
+    /// least harm first.
+    frames: Vec<(Frame, f64)>,
+    /// That the place asked for is a bad one.
+    warning: Option<String>,
+}
+
+fn places(
     document: &Document,
     symmetry: &Symmetry,
     plan: &Plan,
     params: &Params,
     tolerances: &Tolerances,
-) -> Result<Vec<(Frame, f64)>, CutError> {
+) -> Result<Places, CutError> {
     let body = &document.templates[0];
     let axis = DVec3::from(symmetry.axis.direction);
     let origin = DVec3::from(symmetry.axis.point);
@@ -504,6 +524,7 @@ fn frames(
         let to_canonical = |&p| base.to_canonical(p);
         body.vertices.iter().map(to_canonical).collect()
     };
+    let mut warning = None;
     let angles = if plan.mirror {
         let step = std::f64::consts::PI / f64::from(symmetry.order);
         // Both walls are images of the same mirror plane, and there are others to choose.
@@ -534,15 +555,17 @@ fn frames(
     } else {
         let vertices = canonical();
         let size = element_size(&document.regions, body, params);
-        let angles = match params.start_angle {
-            Some(angle) => vec![angle],
-            None => plan::clear_angles(&vertices, plan.order, tolerances.plane),
-        };
         let harm = |angle: f64| sliced::harm(&vertices, &body.triangles, angle, &size);
-        let mut list: Vec<_> = angles.into_iter().map(|a| (a, harm(a))).collect();
+        let clear = plan::clear_angles(&vertices, plan.order, tolerances.plane);
+        let mut list: Vec<_> = clear.into_iter().map(|a| (a, harm(a))).collect();
         // Stable, and rounding does not choose: the clearest place stays first among equals.
         let class = |harm: sliced::Harm| (harm.total() * 1e3).round();
         list.sort_by(|a, b| class(a.1).total_cmp(&class(b.1)));
+        if let Some(angle) = params.start_angle {
+            let given = harm(angle);
+            warning = is_harmful(angle, given, list[0]);
+            list = vec![(angle, given)];
+        }
         list.truncate(TRIALS);
         list.into_iter().map(|(a, harm)| (a, harm.sliced)).collect()
     };
@@ -554,7 +577,25 @@ fn frames(
         let frame = Frame::from_axis(origin, axis, x).ok_or_else(bad)?;
         Ok((frame, harm))
     };
-    angles.into_iter().map(at).collect()
+    let frames = angles.into_iter().map(at).collect::<Result<_, _>>()?;
+    Ok(Places { frames, warning })
+}
+
+/// Says that the place of a seam, as an angle (radians) and the harm there, is a bad one, if there is a much
+/// better one.
+fn is_harmful(angle: f64, harm: sliced::Harm, best: (f64, sliced::Harm)) -> Option<String> {
+    let (given, least) = (harm.total(), best.1.total());
+    (given > HARMFUL.max(LESS * least)).then(|| {
+        let cost = |harm: f64| ELEMENTS * harm;
+        format!(
+            "the cut at --start-angle {} passes close by edges or meets faces at sharp angles: about {:.0} more \
+             elements in each copy; at --start-angle {:.4} about {:.0}",
+            (angle.to_degrees() * 1e9).round() / 1e9,
+            cost(given),
+            best.0.to_degrees(),
+            cost(least),
+        )
+    })
 }
 
 /// What is needed to cut the templates.

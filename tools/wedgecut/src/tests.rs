@@ -342,6 +342,27 @@ fn twisted_bodies_and_start_angles() {
 }
 
 #[test]
+fn a_start_angle_close_by_edges_is_told() {
+    let body = Body::regular(12, &[1.0]).document((12, false), None, 1.0);
+    let warning = |degrees: f64| {
+        let params = Params {
+            start_angle: Some(degrees.to_radians()),
+            order: Some(4),
+            ..DEFAULT
+        };
+        cut(body.clone(), &params).unwrap().1.warning
+    };
+    // Edges along the axis are at multiples of 30 degrees.
+    let told = warning(30.02).expect("a strip 3e-4 wide");
+    assert!(
+        told.contains("--start-angle 30.02 passes close by edges"),
+        "{told}"
+    );
+    assert_eq!((warning(15.0), warning(40.0)), (None, None));
+    assert_eq!(cut(body, &DEFAULT).unwrap().1.warning, None);
+}
+
+#[test]
 fn wrong_documents_are_refused() {
     let body = Body::regular(6, &[1.0]).document((6, true), None, 1.0);
     let (wedge, _) = cut(body.clone(), &DEFAULT).unwrap();
