@@ -24,11 +24,12 @@ class Pipe:
     def __init__(self, binaries, elements, optimize=None):
         tool = lambda name: os.path.join(binaries, name)
         volume = ["--max-volume", repr(elements.max_volume)]
-        quality = ["--radius-edge", repr(elements.radius_edge), "--min-dihedral", repr(elements.min_dihedral)]
+        ratio = ["--radius-edge", repr(elements.radius_edge)]
+        quality = [*ratio, "--min-dihedral", repr(elements.min_dihedral)]
         angle = ["--optimize", optimize] if optimize else []
         self.commands = [
             [tool("symdetect"), "body.stl"],
-            [tool("wedgecut"), *volume],
+            [tool("wedgecut"), *ratio, *volume],
             [tool("tetwedge"), *quality, *volume, *angle],
             [tool("rotassemble")],
         ]

@@ -44,8 +44,8 @@ def introduction(header, rows):
         f"kernel {machine['kernel']}; TetGen {machine['tetgen']}; binaries {header['binaries']}. "
         f"{len(rows)} cells ({header['sets']} table{unfinished(header, rows)}).",
         "",
-        "Pipe: `symdetect body.stl | wedgecut --max-volume V | tetwedge --radius-edge R --min-dihedral D --max-volume V "
-        "| rotassemble > body.vtk`, whole processes, from an STL file of the body turned and shifted at random to a VTK "
+        "Pipe: `symdetect body.stl | wedgecut --radius-edge R --max-volume V | tetwedge --radius-edge R --min-dihedral D "
+        "--max-volume V | rotassemble > body.vtk`, whole processes, from an STL file of the body turned and shifted at random to a VTK "
         "file of the whole mesh. Direct: `tetgen -pqR/DaVA body.poly`, the body with its axis on z, TetGen's usual output. "
         "Wall time, medians of alternating runs. Speed-up: direct over pipe, its mean over the sets geometric. "
         f"Direct runs of more than {header['limit']:g} s (practical via in the full table: 3600 s) count as failed.",

@@ -1,6 +1,6 @@
 //! The command line of `wedgecut`.
 
-use crate::{Domain, Hub, Params, cut, names};
+use crate::{Domain, Hub, Params, choose, cut, names};
 use kit::{Command, CommonArgs, Failure, Session};
 
 const EXAMPLES: &str = "Examples:
@@ -42,6 +42,11 @@ pub struct Cli {
     #[arg(long, value_name = "H", value_parser = positive, conflicts_with = "max_volume")]
     #[arg(allow_negative_numbers = true)]
     edge_length: Option<f64>,
+
+    /// Radius-edge bound that tetwedge will be given, for the same choice
+    #[arg(long, value_name = "R", default_value_t = choose::RADIUS_EDGE, value_parser = positive)]
+    #[arg(allow_negative_numbers = true)]
+    radius_edge: f64,
 
     /// Angle of the first cut face from the mirror direction (rotation wedges: any; mirror wedges:
     /// a multiple of 180/n)
@@ -154,6 +159,7 @@ impl Command for Cli {
             hub: self.hub,
             level: self.horizontal_mirror == Halving::Auto,
             max_volume: self.max_volume.or(self.edge_length.map(volume_of_edge)),
+            radius_edge: self.radius_edge,
             clean: self.clean.0,
         };
         let document = session.read()?;

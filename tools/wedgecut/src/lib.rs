@@ -258,13 +258,14 @@ fn choose(
                 DVec3::from(symmetry.axis.direction),
             ),
         harm: report.harm,
+        radius_edge: params.radius_edge,
     };
     let (body, copies) = (&document.templates[0], wedge.instances.len());
     let size = element_size(&document.regions, body, params);
     let needles = needles::needles(body, size);
     let estimate = choose::Estimate::new(&wedge.templates[0], copies, needles, max_volume);
     let ways = estimate.ways(&options);
-    let choice = choose::best(&ways, mirror, 1.0)?;
+    let choice = options.best(&ways, 1.0)?;
     let planes = |c: &choose::Choice| {
         let hub = c.hub.map(|r| format!(" with a hub of {r:.3}"));
         hub.unwrap_or_default() + if c.level { " halved" } else { "" }

@@ -67,6 +67,8 @@ pub struct Params {
     /// Largest volume of an element that will be asked of the mesher, model units cubed, where the
     /// document has none for the region.
     pub max_volume: Option<f64>,
+    /// Bound on the ratio of circumradius to shortest edge that will be asked of the mesher.
+    pub radius_edge: f64,
     /// Edges shorter than this, relative to the radius about the axis, are collapsed; 0 for none.
     pub clean: f64,
 }
