@@ -119,6 +119,22 @@ pub enum CutError {
         /// Largest relative difference accepted.
         allowed: f64,
     },
+    /// The wedge's copies do not add up to a region of the body.
+    #[error(
+        "{copies} copies of the wedge give region {region} the volume {wedge:.9e}, in the body it has {body:.9e},          more than the symmetry's residual allows ({allowed:.1e}); regions are less symmetric than stated"
+    )]
+    RegionVolumeDiffers {
+        /// Id of the region.
+        region: u32,
+        /// Number of instances.
+        copies: usize,
+        /// Volume in all copies, model units cubed.
+        wedge: f64,
+        /// Volume in the body, model units cubed.
+        body: f64,
+        /// Largest difference accepted, model units cubed.
+        allowed: f64,
+    },
     /// A hub that cannot be made.
     #[error("there can be no hub of radius {radius}: {reason}; use --hub none or another radius")]
     BadHub {
@@ -141,6 +157,7 @@ impl CutError {
             | Self::SectionsJoinedDifferently { .. }
             | Self::NotClosed { .. }
             | Self::VolumeDiffers { .. }
+            | Self::RegionVolumeDiffers { .. }
             | Self::BadHub { .. }
             | Self::Empty => true,
             Self::NoSymmetry

@@ -40,6 +40,7 @@ use glam::DVec3;
 use opening::{HubPlane, Opening, Side};
 use plan::{HubPlan, Plan};
 use section::{Borders, Extent, Section};
+use std::collections::BTreeMap;
 use surface::Surface;
 use tmesh::{Document, Frame, Region, Source, Symmetry, Template, Triangle, Wall};
 
@@ -330,7 +331,8 @@ fn cut_in_frame(
     for p in &mut template.vertices {
         *p = document.frame.to_canonical(*p);
     }
-    let body_volume = total_volume(&template);
+    let body_volumes = region_volumes(&template);
+    let body_volume: f64 = body_volumes.values().sum();
     let body_area = geom::measure::boundary_area(&template);
     let snapped = snap::snap_heights_and_columns(&mut template.vertices, tolerances.equal);
     let mut notes = vec![format!(
@@ -365,12 +367,16 @@ fn cut_in_frame(
     if document.templates[0].triangles.is_empty() {
         return Err(CutError::Empty);
     }
-    let volumes: Vec<f64> = document.templates.iter().map(total_volume).collect();
-    let wedge_volume: f64 = document
-        .instances
-        .iter()
-        .map(|i| volumes[i.template as usize])
-        .sum();
+    let volumes: Vec<BTreeMap<u32, f64>> = document.templates.iter().map(region_volumes).collect();
+    let mut of_copies: BTreeMap<u32, f64> = BTreeMap::new();
+    for instance in &document.instances {
+        for (&region, volume) in &volumes[instance.template as usize] {
+            *of_copies
+                .entry(document.placed_region(instance, region))
+                .or_default() += volume;
+        }
+    }
+    let wedge_volume: f64 = of_copies.values().sum();
     let relative = (wedge_volume - body_volume).abs() / body_volume.abs();
     let drift = symmetry.residual.max(0.0) * tolerances.radius
         + tolerances.plane
@@ -385,6 +391,19 @@ fn cut_in_frame(
             relative,
             allowed,
         });
+    }
+    for (&region, &body) in &body_volumes {
+        let wedge = of_copies.get(&region).copied().unwrap_or_default();
+        let allowed = allowed * body_volume.abs();
+        if (wedge - body).abs() > allowed {
+            return Err(CutError::RegionVolumeDiffers {
+                region,
+                copies,
+                wedge,
+                body,
+                allowed,
+            });
+        }
     }
     notes.push(format!(
         "{copies} copies of the wedge differ from the body's volume by {relative:.1e}"
@@ -528,8 +547,10 @@ fn places(
     let mut warning = None;
     let angles = if plan.mirror {
         let step = std::f64::consts::PI / f64::from(symmetry.order);
-        // Both walls are images of the same mirror plane, and there are others to choose.
-        let choice = (symmetry.order / plan.order).is_multiple_of(2) && plan.region_maps.is_empty();
+        // Both walls are images of the same mirror plane, and there are others to choose, unless they rename
+        // regions differently.
+        let choice =
+            (symmetry.order / plan.order).is_multiple_of(2) && symmetry.rotation_regions.is_empty();
         let angle = params.start_angle.unwrap_or_else(|| {
             if !choice {
                 return 0.0;
@@ -545,11 +566,6 @@ fn places(
             let is_better = if alike { less < cut } else { other < given };
             if is_better { step } else { 0.0 }
         });
-        let planes = (angle / step).round();
-        if (angle - planes * step).abs() > 1e-9 {
-            let (angle, step) = (angle.to_degrees(), step.to_degrees());
-            return Err(CutError::NotAMirrorPlane { angle, step });
-        }
         vec![(angle, 0.0)]
     } else if plan.is_whole() {
         vec![(0.0, 0.0)]
@@ -829,17 +845,18 @@ fn collapse(surface: &mut Surface, tolerances: &Tolerances, notes: &mut Vec<Stri
     }
 }
 
-fn total_volume(template: &Template) -> f64 {
-    // Interfaces have a region on both sides and cancel.
+/// Volume of each region of a template, model units cubed.
+fn region_volumes(template: &Template) -> BTreeMap<u32, f64> {
     let origin = template.vertices.first().copied().unwrap_or_default();
-    template
-        .triangles
-        .iter()
-        .map(|t| {
-            let [a, b, c] = geom::measure::corners(&template.vertices, t);
-            let volume = geom::measure::tet_volume(origin, a, b, c);
-            let inside = |region: u32| f64::from(u8::from(region != tmesh::OUTSIDE));
-            volume * (inside(t.back) - inside(t.front))
-        })
-        .sum()
+    let mut volumes = BTreeMap::new();
+    for t in &template.triangles {
+        let [a, b, c] = geom::measure::corners(&template.vertices, t);
+        let volume = geom::measure::tet_volume(origin, a, b, c);
+        for (region, sign) in [(t.back, 1.0), (t.front, -1.0)] {
+            if region != tmesh::OUTSIDE {
+                *volumes.entry(region).or_default() += sign * volume;
+            }
+        }
+    }
+    volumes
 }

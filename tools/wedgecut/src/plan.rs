@@ -110,6 +110,9 @@ pub struct Plan {
     pub instances: Vec<Instance>,
     /// Region renamings the copies use.
     pub region_maps: Vec<RegionMap>,
+    /// Which mirror plane the first side lies in, in steps of half the angle of the order found from the
+    /// mirror direction. Reflections in different ones may rename regions differently.
+    pub first_plane: i64,
 }
 
 impl Plan {
@@ -148,7 +151,17 @@ impl Plan {
             opening,
             instances: Vec::new(),
             region_maps: Vec::new(),
+            first_plane: 0,
         };
+        if let (true, Some(angle)) = (mirror, params.start_angle) {
+            let step = std::f64::consts::PI / f64::from(found);
+            let planes = (angle / step).round();
+            if (angle - planes * step).abs() > 1e-9 {
+                let (angle, step) = (angle.to_degrees(), step.to_degrees());
+                return Err(CutError::NotAMirrorPlane { angle, step });
+            }
+            plan.first_plane = planes as i64;
+        }
         plan.add_instances(symmetry);
         Ok(plan)
     }
@@ -211,7 +224,12 @@ impl Plan {
                 if (mirrored && !self.mirror) || (flipped && !self.level) {
                     continue;
                 }
-                let pairs = regions.of(k * step, mirrored, flipped);
+                // The reflection in the first side is that in the plane along x, then steps of the rotation.
+                let first = match mirrored {
+                    true => self.first_plane.rem_euclid(i64::from(symmetry.order)) as u32,
+                    false => 0,
+                };
+                let pairs = regions.of(k * step + first, mirrored, flipped);
                 let region_map = if pairs.is_empty() {
                     0
                 } else {
