@@ -43,6 +43,21 @@ pub enum CutError {
         /// Degrees.
         step: f64,
     },
+    /// A seam where it harms the mesh.
+    #[error(
+        "the cut at --start-angle {angle} passes close by edges or meets faces at sharp angles: about {elements:.0} \
+         more elements in each copy; at --start-angle {better} about {fewer:.0}"
+    )]
+    BadPlace {
+        /// Degrees.
+        angle: f64,
+        /// Elements that it costs, by estimate.
+        elements: f64,
+        /// Degrees; a better place.
+        better: f64,
+        /// Elements that it costs there.
+        fewer: f64,
+    },
     /// The axis or its reference direction is unusable.
     #[error("the symmetry's axis ({0}, {1}, {2}) or mirror direction is not a direction")]
     BadAxis(f64, f64, f64),
@@ -165,6 +180,7 @@ impl CutError {
             | Self::NotADivisor { .. }
             | Self::NoMirror(_)
             | Self::NotAMirrorPlane { .. }
+            | Self::BadPlace { .. }
             | Self::BadAxis(..) => false,
         }
     }

@@ -512,6 +512,8 @@ const TRIALS: usize = 4;
 /// so many times less.
 const HARMFUL: f64 = 20.0;
 const LESS: f64 = 4.0;
+/// Harm from which it is refused: each copy would get so many elements more, in units of [`ELEMENTS`].
+const USELESS: f64 = 2000.0;
 /// Elements that a unit of harm costs, see [`sliced::Harm::sliced`].
 const ELEMENTS: f64 = 100.0;
 
@@ -572,7 +574,8 @@ fn places(
     } else {
         let vertices = canonical();
         let size = element_size(&document.regions, body, params);
-        let harm = |angle: f64| sliced::harm(&vertices, &body.triangles, angle, &size);
+        let harm =
+            |angle: f64| sliced::harm(&vertices, &body.triangles, angle, tolerances.plane, &size);
         let clear = plan::clear_angles(&vertices, plan.order, tolerances.plane);
         let mut list: Vec<_> = clear.into_iter().map(|a| (a, harm(a))).collect();
         // Stable, and rounding does not choose: the clearest place stays first among equals.
@@ -580,7 +583,7 @@ fn places(
         list.sort_by(|a, b| class(a.1).total_cmp(&class(b.1)));
         if let Some(angle) = params.start_angle {
             let given = harm(angle);
-            warning = is_harmful(angle, given, list[0]);
+            warning = is_harmful(angle, given, list[0])?;
             list = vec![(angle, given)];
         }
         list.truncate(TRIALS);
@@ -600,19 +603,28 @@ fn places(
 
 /// Says that the place of a seam, as an angle (radians) and the harm there, is a bad one, if there is a much
 /// better one.
-fn is_harmful(angle: f64, harm: sliced::Harm, best: (f64, sliced::Harm)) -> Option<String> {
+///
+/// # Errors
+/// The same of a place that makes the mesh useless.
+fn is_harmful(
+    angle: f64,
+    harm: sliced::Harm,
+    best: (f64, sliced::Harm),
+) -> Result<Option<String>, CutError> {
     let (given, least) = (harm.total(), best.1.total());
-    (given > HARMFUL.max(LESS * least)).then(|| {
-        let cost = |harm: f64| ELEMENTS * harm;
-        format!(
-            "the cut at --start-angle {} passes close by edges or meets faces at sharp angles: about {:.0} more \
-             elements in each copy; at --start-angle {:.4} about {:.0}",
-            (angle.to_degrees() * 1e9).round() / 1e9,
-            cost(given),
-            best.0.to_degrees(),
-            cost(least),
-        )
-    })
+    if given <= HARMFUL.max(LESS * least) {
+        return Ok(None);
+    }
+    let error = CutError::BadPlace {
+        angle: (angle.to_degrees() * 1e9).round() / 1e9,
+        elements: ELEMENTS * given,
+        better: (best.0.to_degrees() * 1e4).round() / 1e4,
+        fewer: ELEMENTS * least,
+    };
+    if given > USELESS {
+        return Err(error);
+    }
+    Ok(Some(error.to_string()))
 }
 
 /// What is needed to cut the templates.

@@ -36,17 +36,25 @@ impl Harm {
 /// the segments in which it meets the triangles, of how far the inverse sine of the angle between them is
 /// above one, times the segment's length in elements, and of the logarithm of how much shorter than
 /// element and triangle the segment is. Near: the same for corners and sides of triangles beside the plane.
-/// `size` is that of elements beside a triangle, model units.
+/// `size` is that of elements beside a triangle, model units; points within `tolerance` of the plane are in it.
 pub fn harm(
     vertices: &[DVec3],
     triangles: &[Triangle],
     angle: f64,
+    tolerance: f64,
     size: impl Fn(&Triangle) -> f64,
 ) -> Harm {
     let (sin, cos) = (libm::sin(angle), libm::cos(angle));
     let normal = DVec3::new(-sin, cos, 0.0);
     let outward = DVec3::new(cos, sin, 0.0);
-    let heights: Vec<f64> = vertices.iter().map(|p| p.dot(normal)).collect();
+    let snapped = |height: f64| {
+        if height.abs() <= tolerance {
+            0.0
+        } else {
+            height
+        }
+    };
+    let heights: Vec<f64> = vertices.iter().map(|p| snapped(p.dot(normal))).collect();
     let mut harm = Harm::default();
     for triangle in triangles {
         let height = triangle.vertices.map(|v| heights[v as usize]);
@@ -86,8 +94,10 @@ pub fn harm(
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         let least = SHORTEST * size;
         harm.near += shorter(height[i].abs().max(least));
-        let strip = height[j].abs().max(height[k].abs()).max(least);
-        if strip < size {
+        // A side in the plane leaves no strip.
+        let strip = height[j].abs().max(height[k].abs());
+        if strip > 0.0 && strip < size {
+            let strip = strip.max(least);
             harm.near += NEEDLE * (corners[j].distance(corners[k]) / strip - 1.0).max(0.0);
         }
     }
@@ -114,7 +124,7 @@ mod tests {
             front: tmesh::OUTSIDE,
             back: 1,
         };
-        move |angle| harm(&vertices, &[triangle], angle, |_| 0.4).total()
+        move |angle| harm(&vertices, &[triangle], angle, 1e-9, |_| 0.4).total()
     }
 
     #[test]
@@ -127,6 +137,9 @@ mod tests {
         assert!((tip - 2.0 * 40_f64.ln()).abs() < 1e-9, "{tip}");
         let base = triangle(90.0, 0.99)(0.0);
         assert!((base - NEEDLE * 199.0).abs() < 1e-9, "{base}");
+        // In the plane, with all that rounding makes of it, it is no strip.
+        let side = triangle(90.0, 1.0 - 1e-12)(0.0);
+        assert!(side.abs() < 1e-9, "{side}");
         // The half plane ends at the axis, and elsewhere there is nothing.
         assert_eq!(triangle(30.0, 0.0)(std::f64::consts::PI), 0.0);
         assert_eq!(triangle(30.0, 0.0)(1.5), 0.0);

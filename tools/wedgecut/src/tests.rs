@@ -360,6 +360,17 @@ fn a_start_angle_close_by_edges_is_told() {
         "{told}"
     );
     assert_eq!((warning(15.0), warning(40.0)), (None, None));
+    // Through the edges is no worse a place than any.
+    assert_eq!((warning(30.0), warning(-60.0)), (None, None));
+    let useless = Params {
+        start_angle: Some(30.0_f64.to_radians() + 1e-5),
+        order: Some(4),
+        ..DEFAULT
+    };
+    assert!(matches!(
+        cut(body.clone(), &useless),
+        Err(CutError::BadPlace { .. })
+    ));
     assert_eq!(cut(body, &DEFAULT).unwrap().1.warning, None);
 }
 
