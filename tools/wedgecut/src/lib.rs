@@ -1,7 +1,8 @@
 //! Cuts one wedge out of a symmetric body: the mirror wedge of angle pi/n between two mirror planes,
 //! or the rotation wedge of angle 2 pi/n whose sides are images of each other.
 //!
-//! Stages: into the canonical axis frame, with heights and columns made exact ([`snap`]); points
+//! Stages: into the canonical axis frame, with heights and columns made exact ([`snap`]), and what is beside mirror
+//! planes moved onto them where that changes nothing ([`slide`]); points
 //! classified once against the two sides ([`opening`]); the surface clipped, flat patches as whole
 //! polygons ([`clip`]); the sections closed by caps that carry the region interfaces ([`section`]);
 //! for rotation wedges, the two sections paired and made exact images ([`seam`]); where there is a
@@ -26,6 +27,7 @@ mod reconcile;
 mod seam;
 mod section;
 mod sliced;
+mod slide;
 mod snap;
 mod surface;
 #[cfg(test)]
@@ -54,6 +56,11 @@ const ROUNDING_REACH: f64 = 1e-10;
 const LARGEST_SNAP: f64 = 1e-4;
 /// The same of the axis; a point in the middle of a flat face is off it by more than the surface shows.
 const LARGEST_AXIS_SNAP: f64 = 5e-4;
+
+/// How far a point is moved onto a mirror plane along the surface, in multiples of what the body is symmetric to
+/// and relative to the radius about the axis.
+const SLIDE: f64 = 16.0;
+const LARGEST_SLIDE: f64 = 5e-4;
 
 /// What the cut did, besides its result.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -345,6 +352,19 @@ fn cut_in_frame(
         tolerances.axis,
         tolerances.equal,
     )];
+    if plan.mirror && tolerances.slide > 0.0 {
+        let slid = slide::slide(
+            &mut template.vertices,
+            &template.triangles,
+            &walls(&plan),
+            tolerances.slide,
+            tolerances.drift,
+        );
+        notes.push(format!(
+            "{slid} points within {:.1e} of a cut plane moved onto it along the surface",
+            tolerances.slide
+        ));
+    }
     let cutter = Cutter {
         plan: &plan,
         hub,
@@ -415,6 +435,23 @@ fn cut_in_frame(
     Ok((document, report))
 }
 
+/// The mirror planes that bound a wedge.
+fn walls(plan: &Plan) -> Vec<slide::Plane> {
+    let (cos, sin) = plan.opening.cos_sin();
+    let wall = |outward: DVec3| slide::Plane {
+        normal: DVec3::Z.cross(outward),
+        outward,
+    };
+    let mut walls = vec![wall(DVec3::X), wall(DVec3::new(cos, sin, 0.0))];
+    if plan.level {
+        walls.push(slide::Plane {
+            normal: DVec3::Z,
+            outward: DVec3::ZERO,
+        });
+    }
+    walls
+}
+
 /// Distances, model units.
 struct Tolerances {
     /// Largest distance of a point from the axis.
@@ -434,6 +471,10 @@ struct Tolerances {
     near: f64,
     /// Points of the two sections that count as partners.
     partner: f64,
+    /// What the body is symmetric to.
+    drift: f64,
+    /// Points that are moved onto a mirror plane along the surface; 0 for none.
+    slide: f64,
 }
 
 impl Tolerances {
@@ -486,6 +527,11 @@ impl Tolerances {
                 false => 0.0,
             },
             partner,
+            drift,
+            slide: match params.snap {
+                None if drift > equal => (LARGEST_SLIDE * radius).min(SLIDE * drift),
+                _ => 0.0,
+            },
         }
     }
 }
