@@ -1,11 +1,11 @@
 //! Nearest triangle queries on a triangle set.
 //!
 //! A bounding-volume hierarchy with four children per node and single triangles, or pieces of long and thin
-//! ones, as leaves, split by
-//! the surface-area heuristic over bins of centroids (Wald, "On fast construction of SAH-based
-//! bounding volume hierarchies", 2007). Boxes are in single precision, about the centre of the set,
-//! in units of its size and along its faces ([`crate::alignment`]); distances to them are taken a margin too small, so that no rounding can
-//! hide a triangle. Distances to triangles are in double precision.
+//! ones, as leaves, split by the surface-area heuristic over bins of centroids (Wald, "On fast construction
+//! of SAH-based bounding volume hierarchies", 2007). Boxes are in single precision, about the centre of the
+//! set, in units of its size and along its faces ([`crate::alignment`]); distances to them are taken a
+//! margin too small, so that no rounding can hide a triangle. Distances to triangles are in double
+//! precision.
 
 use crate::alignment::alignment;
 use arrayvec::ArrayVec;

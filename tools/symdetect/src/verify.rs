@@ -204,9 +204,9 @@ impl Shape {
         {
             return true;
         }
-        // The same number from every triangle (of very many, from some), so that small bores have enough of them. Shells are taken
-        // twice, one set halfway between the other: one that ends within a bore would have the outermost
-        // points of its facets only.
+        // The same number from every triangle (of very many, from some), so that small bores have enough of
+        // them. Shells are taken twice, one set halfway between the other: one that ends within a bore
+        // would have the outermost points of its facets only.
         let each = (TESTS / self.triangles.len()).clamp(1, PER_TRIANGLE);
         let step = self.triangles.len().div_ceil(TESTS);
         let mut shells: FxHashMap<[u8; 3], (Swing, bool)> = FxHashMap::default();

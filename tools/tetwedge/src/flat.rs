@@ -1,10 +1,10 @@
 //! Makes the points of a wall exactly coplanar for the mesher.
 //!
-//! Points at the angle of a wall, `(r cos, r sin, z)`, are on its plane up to rounding only. TetGen
-//! decides with exact arithmetic whether points are coplanar, and on thin layers the answer "not
-//! quite" ends in failed assertions. So the mesher gets the wall at a slope that is a ratio of two
-//! small whole numbers, and on it multiples of that direction by numbers with few digits: then all
-//! products are exact. The shift is about 1e-10 of the radius (below 1e-9 for a few orders above 180), and is taken back afterwards.
+//! Points at the angle of a wall, `(r cos, r sin, z)`, are on its plane up to rounding only. TetGen decides
+//! with exact arithmetic whether points are coplanar, and on thin layers the answer "not quite" ends in
+//! failed assertions. So the mesher gets the wall at a slope that is a ratio of two small whole numbers,
+//! and on it multiples of that direction by numbers with few digits: then all products are exact. The shift
+//! is about 1e-10 of the radius (below 1e-9 for a few orders above 180), and is taken back afterwards.
 
 use geom::edges::orientation;
 use glam::DVec3;

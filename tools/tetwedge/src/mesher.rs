@@ -306,9 +306,9 @@ pub fn run(
     })
 }
 
-/// How much the radius-edge bound is eased for the mesher where elements are improved afterwards, which brings
-/// what it left past the bound back below it. On prisms and vias (orders 4 to 128, bound 1.4) it saves 2 to 15 % of the
-/// elements.
+/// How much the radius-edge bound is eased for the mesher where elements are improved afterwards, which
+/// brings what it left past the bound back below it. On prisms and vias (orders 4 to 128, bound 1.4) it
+/// saves 2 to 15 % of the elements.
 const EASED: f64 = 1.05;
 
 /// Fewer elements left past the bound are not worth another mesh.

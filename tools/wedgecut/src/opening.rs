@@ -1,8 +1,8 @@
 //! The planes that bound the wedge, and where points lie with respect to them.
 //!
-//! Side A is the half plane y = 0, x >= 0; side B is A turned by the wedge's angle. The hub's plane,
-//! where there is one, crosses the wedge in front of the axis. Each point is classified once, moved onto the planes it counts as lying on, and its class is kept; nothing
-//! asks again with another tolerance.
+//! Side A is the half plane y = 0, x >= 0; side B is A turned by the wedge's angle. The hub's plane, where
+//! there is one, crosses the wedge in front of the axis. Each point is classified once, moved onto the
+//! planes it counts as lying on, and its class is kept; nothing asks again with another tolerance.
 
 use glam::DVec3;
 use tmesh::Isometry;

@@ -256,9 +256,9 @@ impl Section {
 
     /// Closes the wedge on this wall: triangles that face out of it, each with the region behind.
     ///
-    /// Where the wall ends at the axis or at another wall, consecutive points there are joined, so
-    /// that the caps of both walls share those edges; `hub`: the section is the hub's; `known` says which region is at them, for
-    /// sections without any edge of the body's surface.
+    /// Where the wall ends at the axis or at another wall, consecutive points there are joined, so that the
+    /// caps of both walls share those edges; `hub`: the section is the hub's; `known` says which region is
+    /// at them, for sections without any edge of the body's surface.
     ///
     /// # Errors
     /// A section whose edges cross, or do not agree on what is inside.

@@ -182,8 +182,8 @@ fn climb(star: &Star<'_, '_>, directions: &[DVec3]) -> Option<DVec3> {
     (p != start).then_some(p)
 }
 
-/// The shortest vector in the convex hull of some, unless it is next to nothing, by Gilbert's algorithm (E. Gilbert, "An iterative
-/// procedure for computing the minimum of a quadratic form on a convex set", 1966).
+/// The shortest vector in the convex hull of some, unless it is next to nothing, by Gilbert's algorithm (E.
+/// Gilbert, "An iterative procedure for computing the minimum of a quadratic form on a convex set", 1966).
 fn shortest_in_hull(list: &[DVec3]) -> Option<DVec3> {
     /// Iterations; more precision than this is of no use.
     const ROUNDS: usize = 20;

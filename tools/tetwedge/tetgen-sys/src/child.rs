@@ -25,8 +25,8 @@ pub struct Child {
 }
 
 impl Child {
-    /// Starts TetGen on a complex, with a limit on the bytes it may take, if any. The thread that calls this must outlive the child: the kernel
-    /// ties the child to it.
+    /// Starts TetGen on a complex, with a limit on the bytes it may take, if any. The thread that calls
+    /// this must outlive the child: the kernel ties the child to it.
     ///
     /// # Errors
     /// [`Error::Unfit`], [`Error::BadSwitches`] (a NUL in the switches) and [`Error::System`].
