@@ -35,6 +35,9 @@ pub struct Trial {
     pub description: String,
 }
 
+/// Part of the time limit of a pipe that a tool which may take long is given.
+const PATIENCE: f64 = 0.45;
+
 impl Laboratory {
     /// Runs the trial of a seed in an empty folder, which afterwards has the body, the command lines as a
     /// script, all messages and reports.
@@ -45,6 +48,13 @@ impl Laboratory {
         let solid = solid(seed);
         let facts = &solid.facts;
         let mut stages = commands::stages(&solid, seed);
+        // TetGen comes to no end on some bodies, as on the whole body alone: tools are asked to say so.
+        let patience = format!("{:.0}", (PATIENCE * self.limit.as_secs_f64()).max(1.0));
+        for stage in &mut stages {
+            if matches!(stage[0].as_str(), "periodic-surf" | "tetwedge") {
+                stage.extend(["--timeout".to_owned(), patience.clone()]);
+            }
+        }
         let mut out = BufWriter::new(File::create(folder.join("body"))?);
         generator::write(&solid.body, solid.encoding, &mut out)?;
         out.flush()?;

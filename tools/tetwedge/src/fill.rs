@@ -153,6 +153,13 @@ fn refine(
     let largest = params.optimize.filter(|_| params.quality)?;
     let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
     let normals: Vec<DVec3> = plc.facets.facets.iter().map(|f| f.normal).collect();
+    // Templates that share a face take new vertices over, and have the old ones already.
+    let (shared, kept) = (filled.shared.iter(), filled.vertices.iter());
+    let first_new = kept.filter(|&&v| v != NONE).count();
+    let fixed: Vec<u32> = shared
+        .flat_map(|&t| filled.template.triangles[t as usize].vertices)
+        .filter(|&v| (v as usize) < first_new)
+        .collect();
     let freedoms = Freedoms::new(
         &filled.template,
         &Flats {
@@ -163,6 +170,7 @@ fn refine(
             } else {
                 &[]
             },
+            fixed: &fixed,
             straight: ROUNDING * plc.extent + 2.0 * plc.shift,
         },
     );

@@ -48,6 +48,8 @@ pub struct Flats<'a> {
     pub normals: &'a [DVec3],
     /// Triangles that must stay as they are.
     pub settled: &'a [u32],
+    /// Vertices that must stay where they are.
+    pub fixed: &'a [u32],
     /// A vertex this far from the line between its neighbours is on it, model units.
     pub straight: f64,
 }
@@ -78,6 +80,7 @@ impl Freedoms {
                 fix(&mut of_vertex, v);
             }
         }
+        flats.fixed.iter().for_each(|&v| fix(&mut of_vertex, v));
         for wall in &template.walls {
             match wall {
                 Wall::Mirror(mirror) => {

@@ -151,6 +151,7 @@ fn freedoms(template: &Template, of_triangle: &[u32], normals: &[DVec3]) -> Free
             of_triangle,
             normals,
             settled: &[],
+            fixed: &[],
             straight: 1e-12,
         },
     )
