@@ -68,18 +68,18 @@ fn interrupt(
     let _ = sent.expect("kill is installed");
     make.wait().expect("a child can be waited for");
     let stands = files(folder.path());
-    for (name, (content, _)) in &stands {
-        match wanted.get(name) {
-            None => return Err(format!("left behind: {name}")),
-            Some((whole, _)) if whole != content => {
-                return Err(format!(
-                    "{name} has {} bytes of {}",
-                    content.len(),
-                    whole.len()
-                ));
-            }
-            Some(_) => {}
-        }
+    let wrong = stands.iter().filter_map(|(name, (content, _))| {
+        let Some((whole, _)) = wanted.get(name) else {
+            return Some(format!("left behind: {name}"));
+        };
+        let (is, should) = (content.len(), whole.len());
+        (whole != content)
+            .then(|| format!("{name} has {is} bytes, others than the {should} wanted"))
+    });
+    let wrong: Vec<String> = wrong.collect();
+    if !wrong.is_empty() {
+        let after = after.as_secs_f64();
+        return Err(format!("{} after {after:.3} s", wrong.join(", ")));
     }
     let again = start(folder.path())
         .wait()

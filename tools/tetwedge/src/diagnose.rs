@@ -100,7 +100,9 @@ pub fn failure(
             "ask for larger elements (--max-volume, --edge-length)"
         }
         MesherError::BadSwitches(_) | MesherError::NotLinear(_) => "see --switches",
-        MesherError::System { .. } => "this is not a matter of the input",
+        MesherError::System { .. } | MesherError::Stopped { .. } => {
+            "this is not a matter of the input"
+        }
         _ => ADVICE,
     };
     Error::Mesher {

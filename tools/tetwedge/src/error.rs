@@ -133,6 +133,19 @@ impl Error {
 }
 
 impl Error {
+    /// Whether it is nothing about the surface or what is asked for: what was made before must not stand in for
+    /// what would have been made another time.
+    pub(crate) fn is_from_outside(&self) -> bool {
+        use tetgen_sys::Error as Source;
+        let Self::Mesher { source, .. } = self else {
+            return false;
+        };
+        matches!(
+            source,
+            Source::Stopped { .. } | Source::Killed | Source::System { .. }
+        )
+    }
+
     /// Whether another description of the same surface may go through.
     pub(crate) fn is_bad_luck(&self) -> bool {
         use tetgen_sys::Failure as Thrown;

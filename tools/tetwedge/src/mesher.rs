@@ -366,8 +366,10 @@ fn template(
     log(&format!(
         "template {index}: of {count} tetrahedra {why}; once more without the radius-edge bound eased"
     ));
-    let Ok((tight, _)) = attempt(document, index, &params, &params, sizes, log) else {
-        return Ok(done);
+    let tight = match attempt(document, index, &params, &params, sizes, log) {
+        Ok((tight, _)) => tight,
+        Err(error) if error.is_from_outside() => return Err(error),
+        Err(_) => return Ok(done),
     };
     let again = tight.filled.improved.unwrap_or_default();
     let share = |past: usize, count: usize| past as f64 / count.max(1) as f64;

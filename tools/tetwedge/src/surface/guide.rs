@@ -71,7 +71,11 @@ pub fn refine(
          once more without easing it",
         100.0 * past
     ));
-    Ok(attempt(document, index, &params, log).map_or(refined, |(tight, ..)| tight))
+    match attempt(document, index, &params, log) {
+        Ok((tight, ..)) => Ok(tight),
+        Err(error) if error.is_from_outside() => Err(error),
+        Err(_) => Ok(refined),
+    }
 }
 
 /// A guide, the part of its tetrahedra that are past the radius-edge bound, and how many it has.

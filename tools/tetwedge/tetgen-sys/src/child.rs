@@ -11,6 +11,17 @@ use std::time::{Duration, Instant};
 /// How long the end of a child that has closed its output is waited for between two looks.
 const REAP_PAUSE: Duration = Duration::from_micros(200);
 
+/// Signals that a process gets for what it does itself.
+const CRASHES: [i32; 7] = [
+    libc::SIGSEGV,
+    libc::SIGABRT,
+    libc::SIGBUS,
+    libc::SIGFPE,
+    libc::SIGILL,
+    libc::SIGTRAP,
+    libc::SIGSYS,
+];
+
 /// A running mesher process. It is stopped when this value is dropped, and by the kernel when our
 /// process ends.
 #[derive(Debug)]
@@ -127,7 +138,8 @@ impl Child {
         if libc::WIFSIGNALED(status) {
             return Err(match libc::WTERMSIG(status) {
                 libc::SIGKILL => Error::Killed,
-                signal => Error::Crashed { signal },
+                signal if CRASHES.contains(&signal) => Error::Crashed { signal },
+                signal => Error::Stopped { signal },
             });
         }
         let exit = libc::WEXITSTATUS(status);

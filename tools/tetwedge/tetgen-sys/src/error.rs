@@ -79,6 +79,12 @@ pub enum Error {
     /// TetGen's process was killed from outside; usually the system, for want of memory.
     #[error("TetGen was killed, most likely because memory ran out")]
     Killed,
+    /// TetGen's process was asked to end from outside, as by an interrupt from the terminal.
+    #[error("TetGen was stopped from outside ({})", signal_name(*.signal))]
+    Stopped {
+        /// Number of the signal.
+        signal: i32,
+    },
     /// The memory limit, in bytes, was not enough.
     #[error("TetGen needs more than {} MiB of memory, the limit", .0 >> 20)]
     MemoryLimit(u64),
@@ -117,6 +123,9 @@ fn signal_name(signal: i32) -> String {
         libc::SIGBUS => "bus error".to_owned(),
         libc::SIGFPE => "arithmetic exception".to_owned(),
         libc::SIGILL => "illegal instruction".to_owned(),
+        libc::SIGINT => "interrupt".to_owned(),
+        libc::SIGTERM => "termination".to_owned(),
+        libc::SIGHUP => "hangup".to_owned(),
         other => format!("signal {other}"),
     }
 }

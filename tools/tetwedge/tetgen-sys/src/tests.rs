@@ -194,7 +194,9 @@ fn a_time_limit_is_kept() {
 #[test]
 fn crashes_and_kills_are_told_apart() {
     let body = cube();
-    for signal in [libc::SIGSEGV, libc::SIGABRT, libc::SIGKILL] {
+    let crashes = [libc::SIGSEGV, libc::SIGABRT];
+    let from_outside = [libc::SIGKILL, libc::SIGINT, libc::SIGTERM, libc::SIGHUP];
+    for signal in crashes.into_iter().chain(from_outside) {
         let child = Child::start(&body.complex(), "pq1.1a1e-9", None).unwrap();
         let id = child.id() as libc::pid_t;
         let limits = Limits {
@@ -210,7 +212,14 @@ fn crashes_and_kills_are_told_apart() {
         });
         match result {
             Err(Error::Killed) => assert_eq!(signal, libc::SIGKILL),
-            Err(Error::Crashed { signal: found }) => assert_eq!(found, signal),
+            Err(Error::Crashed { signal: found }) => {
+                assert_eq!(found, signal);
+                assert!(crashes.contains(&signal));
+            }
+            Err(Error::Stopped { signal: found }) => {
+                assert_eq!(found, signal);
+                assert!(!crashes.contains(&signal));
+            }
             other => panic!("{other:?}"),
         }
     }
