@@ -50,14 +50,15 @@ fn kill() {
     ended_by("SIGKILL", 9);
 }
 
-/// What `nohup` starts, and a shell's background jobs, do not end by what they were told to ignore.
+/// What `nohup` starts, and a shell's background jobs, do not end by what they were told to ignore; nor does
+/// the mesher that they run, which gets what their process group gets.
 #[test]
 fn signals_that_are_ignored() {
     for stage in stages() {
         let mut tally = Tally::new("ignored SIGINT, SIGHUP", stage.tool);
         let place = Place::new(stage);
-        let script = "trap '' INT HUP; \"$0\" \"$@\" & child=$!; \
-                      for i in 1 2 3 4 5; do kill -INT $child; kill -HUP $child; sleep 0.005; done 2>/dev/null; \
+        let script = "trap '' INT HUP; set -m; \"$0\" \"$@\" & child=$!; \
+                      for i in {1..30}; do kill -INT -- -$child; kill -HUP -- -$child; sleep 0.002; done 2>/dev/null; \
                       wait $child";
         let status = Command::new("bash")
             .args(["-c", script])

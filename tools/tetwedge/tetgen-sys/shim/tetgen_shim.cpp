@@ -164,9 +164,17 @@ bool enter_child(pid_t parent, int result, int chatter) {
     return false;
   }
   // Crashes must look like crashes, not run handlers of the parent.
-  const int handled[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPIPE, SIGTERM, SIGINT, SIGHUP};
+  const int handled[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPIPE};
   for (const int signal_number : handled) {
     signal(signal_number, SIG_DFL);
+  }
+  // What the parent was started to ignore, as by nohup, is ignored here too.
+  const int requests[] = {SIGTERM, SIGINT, SIGHUP};
+  for (const int signal_number : requests) {
+    struct sigaction now;
+    if (sigaction(signal_number, nullptr, &now) != 0 || now.sa_handler != SIG_IGN) {
+      signal(signal_number, SIG_DFL);
+    }
   }
   // A result that is too large fails to be written, and that is said.
   signal(SIGXFSZ, SIG_IGN);
