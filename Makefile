@@ -28,8 +28,8 @@ setup: ## install what is missing: TetGen, a C++ compiler
 build: setup ## build the tools, release profile, into target/release
 	$(CARGO) build --release --bins
 
-demo: build ## mesh a through-silicon via of three materials, stage by stage, and report its quality
-	$(CARGO) build --release --example body
+demo: setup ## mesh a through-silicon via of three materials, stage by stage, and report its quality
+	$(CARGO) build --release --bins --example body
 	mkdir -p $(TARGET)/demo
 	$(MAKE) --no-print-directory -C $(TARGET)/demo -f $(CURDIR)/examples/flows/tsv.mk --always-make BIN=$(TARGET)/release/
 	@echo "The mesh is in $(TARGET)/demo/tsv.vtk, the stages beside it."
@@ -69,8 +69,8 @@ SEED ?= 1
 JOBS ?= 1
 SOAK_OPTIONS ?=
 
-soak: setup build ## send N=1000 random bodies through the whole pipe; goes on where it was interrupted
-	$(CARGO) build --release --example soak
+soak: setup ## send N=1000 random bodies through the whole pipe; goes on where it was interrupted
+	$(CARGO) build --release --bins --example soak
 	$(TARGET)/release/examples/soak run --count $(N) --seed $(SEED) --jobs $(JOBS) --binaries $(TARGET)/release --out $(TARGET)/soak $(SOAK_OPTIONS)
 
 # How often each fault is injected, in units of what `make test` does.
@@ -83,8 +83,8 @@ BENCH := python3 examples/benchmark/bench.py
 # More options of `bench.py run`, such as --hxt or --stop-after 60.
 BENCH_OPTIONS ?=
 
-bench-programs: setup build
-	$(CARGO) build --release --example body
+bench-programs: setup
+	$(CARGO) build --release --bins --example body
 
 bench: bench-programs ## measure pipe against direct mesh, every cell: hours; goes on where it was interrupted
 	$(BENCH) run --binaries $(TARGET)/release --out $(TARGET)/bench/full $(BENCH_OPTIONS)
