@@ -113,6 +113,16 @@ fn is_killed() {
 }
 
 #[test]
+fn is_stopped_from_outside() {
+    // An interrupt may be ignored.
+    hit(
+        "TetGen is stopped",
+        "-USR1",
+        "TetGen was stopped from outside (signal 10)",
+    );
+}
+
+#[test]
 fn hangs() {
     for stage in meshers() {
         let mut tally = Tally::new("TetGen hangs", stage.tool);

@@ -1,38 +1,36 @@
 //! Bodies whose rotation exchanges regions: two parts that follow each other around the axis.
 
-use crate::support::{pipe, run};
+use crate::generator::{Body, Face, Tessellation, cube};
+use crate::support::{EXACT_STL, encode, pipe, run};
+use glam::DVec3;
 use serde_json::Value;
-use std::fmt::Write;
 
-/// `2 n` blocks around the axis, of two parts by turns, as OBJ; `shift`, in steps between blocks, turns all.
-fn blocks(n: u32, shift: f64) -> String {
-    let mut text = String::new();
+/// `2 n` blocks around the axis, of two parts by turns; `shift`, in steps between blocks, turns all.
+fn blocks(n: u32, shift: f64) -> Body {
+    let block = cube(1.0, Tessellation::Symmetric);
+    let mut body = Body {
+        vertices: Vec::new(),
+        faces: Vec::new(),
+        ..block.clone()
+    };
     for i in 0..2 * n {
-        writeln!(text, "o {}", ["copper", "steel"][i as usize % 2]).expect("a string");
-        let middle = f64::from(i) + shift;
-        let corner = |part: f64, radius: f64, z: f64| {
-            let angle = std::f64::consts::PI * (middle + part) / f64::from(n);
-            [radius * angle.cos(), radius * angle.sin(), z]
-        };
-        for z in [0.0, 0.4] {
-            for [part, radius] in [[-0.3, 1.0], [-0.3, 1.5], [0.3, 1.5], [0.3, 1.0]] {
-                let [x, y, z] = corner(part, radius, z);
-                writeln!(text, "v {x} {y} {z}").expect("a string");
-            }
-        }
-        for face in [
-            [4, 3, 2, 1],
-            [5, 6, 7, 8],
-            [1, 2, 6, 5],
-            [2, 3, 7, 6],
-            [3, 4, 8, 7],
-            [4, 1, 5, 8],
-        ] {
-            let [a, b, c, d] = face.map(|v| 8 * i + v);
-            writeln!(text, "f {a} {b} {c} {d}").expect("a string");
-        }
+        let first = body.vertices.len() as u32;
+        body.vertices.extend(block.vertices.iter().map(|p| {
+            let (radius, middle) = (1.25 + 0.5 * p.x, f64::from(i) + shift);
+            let angle = std::f64::consts::PI * (middle + 0.6 * p.y) / f64::from(n);
+            DVec3::new(radius * angle.cos(), radius * angle.sin(), 0.4 * p.z)
+        }));
+        body.faces.extend(block.faces.iter().map(|f| Face {
+            vertices: f.vertices.map(|v| v + first),
+            front: None,
+            back: Some(i as usize % 2),
+        }));
     }
-    text
+    body.materials.push(body.materials[0].clone());
+    for (material, name) in body.materials.iter_mut().zip(["copper", "steel"]) {
+        material.name = name.to_owned();
+    }
+    body
 }
 
 /// Volume of each region of the mesh that the pipe makes.
@@ -56,7 +54,7 @@ fn volumes(body: &[u8], cut: &[&str]) -> Vec<f64> {
 fn parts_by_turns_keep_their_volumes_however_they_are_cut() {
     for n in [2, 3, 5] {
         for shift in [0.0, 0.5] {
-            let body = blocks(n, shift);
+            let body = encode(&blocks(n, shift), EXACT_STL);
             let step = 180.0 / f64::from(2 * n);
             let angles = [0, 1, 2, -1].map(|k| (f64::from(k) * step).to_string());
             let mut cuts: Vec<Vec<&str>> = vec![vec![]];
@@ -70,7 +68,7 @@ fn parts_by_turns_keep_their_volumes_however_they_are_cut() {
                 }
             }
             for cut in cuts {
-                let found = volumes(body.as_bytes(), &cut);
+                let found = volumes(&body, &cut);
                 let [copper, steel] = found[..] else {
                     panic!("{n} {shift} {cut:?}: {found:?}")
                 };
@@ -79,4 +77,21 @@ fn parts_by_turns_keep_their_volumes_however_they_are_cut() {
             }
         }
     }
+}
+
+#[test]
+fn regions_that_are_not_what_the_document_says_are_told() {
+    let found = run("symdetect", &[], &encode(&blocks(3, 0.0), EXACT_STL)).success();
+    let mut document = tmesh::read(found.as_slice()).expect("valid");
+    let symmetry = document.symmetry.as_mut().expect("stated");
+    assert_eq!(symmetry.rotation_regions, [[1, 2], [2, 1]]);
+    symmetry.rotation_regions.clear();
+    symmetry.mirror_regions.clear();
+    let mut wrong = Vec::new();
+    tmesh::write(&document, &mut wrong).expect("memory");
+    let told = [
+        "give region 1 the volume",
+        "regions are less symmetric than stated",
+    ];
+    run("wedgecut", &["--order", "6"], &wrong).fails(1, &told);
 }

@@ -109,6 +109,11 @@ fn wrong_usage() {
         run(tool, &["--quiet", "--verbose"], b"").fails(2, &["cannot be used with"]);
         run(tool, &["a", "b"], b"").fails(2, &["unexpected argument 'b'"]);
     }
+    for tool in ["wedgecut", "periodic-surf", "tetwedge"] {
+        for ratio in ["0.5", "-1", "nan", "wide"] {
+            run(tool, &["--radius-edge", ratio], b"").fails(2, &["--radius-edge", ratio]);
+        }
+    }
 }
 
 #[test]
@@ -360,6 +365,18 @@ fn an_order_of_a_body_of_revolution() {
     let found = detect(&drum.build(), &[]).success();
     let told = ["80", "symdetect --order 7 verifies"];
     run("wedgecut", &["--order", "7"], &found).fails(1, &told);
+}
+
+/// A cut that leaves strips a thousandth of an element wide beside the body's edges.
+#[test]
+fn a_start_angle_close_by_edges() {
+    let found = detect(&square_prism(), &["--order", "2"]).success();
+    let arguments = ["--domain", "rotation", "--start-angle", "0.0005"];
+    let told = [
+        "--start-angle 0.0005 passes close by edges",
+        "elements in each copy; at",
+    ];
+    run("wedgecut", &arguments, &found).fails(1, &told);
 }
 
 /// A wall named on one side only: sectors are alike in shape, not in names.

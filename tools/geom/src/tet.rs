@@ -3,6 +3,9 @@
 use crate::measure::tet_volume;
 use glam::DVec3;
 
+/// Radius-edge ratio of the regular tetrahedron, the smallest there is.
+pub const REGULAR_RADIUS_EDGE: f64 = 0.612_372_435_695_794_5;
+
 /// Corners of the edges, in the order of [`TetMeasures::edges`].
 pub const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 

@@ -1,6 +1,7 @@
 //! What is asked of the elements on the command line, of every tool that meshes.
 
 use crate::{DEFAULT_OPTIMIZE, Params, RegionSize, volume_of_edge};
+use geom::tet::REGULAR_RADIUS_EDGE;
 use std::time::Duration;
 
 /// Options for size, shape and time.
@@ -59,9 +60,6 @@ impl std::fmt::Display for Optimize {
 /// Dihedral angle of the regular tetrahedron, degrees: no tetrahedron's smallest one is larger, nor
 /// its largest one smaller.
 const REGULAR_DIHEDRAL: f64 = 70.528_779_365_509_31;
-
-/// Radius-edge ratio of the regular tetrahedron, the smallest there is.
-const REGULAR_RADIUS_EDGE: f64 = 0.612_372_435_695_794_5;
 
 fn number(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

@@ -132,7 +132,14 @@ pub fn fill(
     restore_preserved(input, plc, &faces, &mut filled).map_err(&unusable)?;
     let shifted = on_shifted_facets(plc, &facets, first_new, &filled.template);
     restore_walls(input, plc, &faces, first_new, shifted, &mut filled).map_err(&unusable)?;
-    let improved = refine(document, plc, &facets, params, sizes, &mut filled);
+    let improved = refine(
+        document,
+        plc,
+        &facets,
+        params,
+        sizes,
+        (&mut filled, first_new),
+    );
     filled.improved = improved;
     let reach = document.frame.origin.length() + plc.extent;
     orientations(&filled.template, first_new, reach).map_err(&unusable)?;
@@ -148,28 +155,22 @@ fn refine(
     facets: &[usize],
     params: &Params,
     sizes: &Sizes,
-    filled: &mut Filled,
+    (filled, first_new): (&mut Filled, usize),
 ) -> Option<Improved> {
     let largest = params.optimize.filter(|_| params.quality)?;
     let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
     let normals: Vec<DVec3> = plc.facets.facets.iter().map(|f| f.normal).collect();
-    // Templates that share a face take new vertices over, and have the old ones already.
-    let (shared, kept) = (filled.shared.iter(), filled.vertices.iter());
-    let first_new = kept.filter(|&&v| v != NONE).count();
+    // Templates that share a face take new vertices over, unless it is settled, and have the old ones already.
+    let shared = filled.shared.iter();
     let fixed: Vec<u32> = shared
         .flat_map(|&t| filled.template.triangles[t as usize].vertices)
-        .filter(|&v| (v as usize) < first_new)
+        .filter(|&v| plc.faces.preserve() || (v as usize) < first_new)
         .collect();
     let freedoms = Freedoms::new(
         &filled.template,
         &Flats {
             of_triangle: &of_triangle,
             normals: &normals,
-            settled: if plc.faces.preserve() {
-                &filled.shared
-            } else {
-                &[]
-            },
             fixed: &fixed,
             straight: ROUNDING * plc.extent + 2.0 * plc.shift,
         },

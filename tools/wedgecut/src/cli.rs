@@ -1,6 +1,7 @@
 //! The command line of `wedgecut`.
 
 use crate::{Domain, Hub, Params, choose, cut, names};
+use geom::tet::REGULAR_RADIUS_EDGE;
 use kit::{Command, CommonArgs, Failure, Session};
 
 const EXAMPLES: &str = "Examples:
@@ -44,7 +45,7 @@ pub struct Cli {
     edge_length: Option<f64>,
 
     /// Radius-edge bound that tetwedge will be given, for the same choice
-    #[arg(long, value_name = "R", default_value_t = choose::RADIUS_EDGE, value_parser = positive)]
+    #[arg(long, value_name = "R", default_value_t = choose::RADIUS_EDGE, value_parser = radius_edge)]
     #[arg(allow_negative_numbers = true)]
     radius_edge: f64,
 
@@ -130,6 +131,16 @@ fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
         _ => Err("expected a positive number".to_owned()),
+    }
+}
+
+fn radius_edge(text: &str) -> Result<f64, String> {
+    let least = REGULAR_RADIUS_EDGE;
+    match text.parse::<f64>() {
+        Ok(x) if x > least && x.is_finite() => Ok(x),
+        _ => Err(format!(
+            "must be above {least:.3}, the ratio of the regular tetrahedron"
+        )),
     }
 }
 

@@ -136,7 +136,8 @@ pub enum CutError {
     },
     /// The wedge's copies do not add up to a region of the body.
     #[error(
-        "{copies} copies of the wedge give region {region} the volume {wedge:.9e}, in the body it has {body:.9e},          more than the symmetry's residual allows ({allowed:.1e}); regions are less symmetric than stated"
+        "{copies} copies of the wedge give region {region} the volume {wedge:.9e}, in the body it has {body:.9e}, \
+         more than the symmetry's residual allows ({allowed:.1e}); regions are less symmetric than stated"
     )]
     RegionVolumeDiffers {
         /// Id of the region.

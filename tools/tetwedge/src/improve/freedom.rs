@@ -46,8 +46,6 @@ pub struct Flats<'a> {
     pub of_triangle: &'a [u32],
     /// Unit normal of each facet; zero where it has none.
     pub normals: &'a [DVec3],
-    /// Triangles that must stay as they are.
-    pub settled: &'a [u32],
     /// Vertices that must stay where they are.
     pub fixed: &'a [u32],
     /// A vertex this far from the line between its neighbours is on it, model units.
@@ -75,11 +73,6 @@ impl Freedoms {
         let mut low_of = FxHashMap::default();
         let mut high_of = FxHashMap::default();
         let fix = |list: &mut [Freedom], v: u32| list[v as usize] = Freedom::Fixed;
-        for &t in flats.settled {
-            for v in template.triangles[t as usize].vertices {
-                fix(&mut of_vertex, v);
-            }
-        }
         flats.fixed.iter().for_each(|&v| fix(&mut of_vertex, v));
         for wall in &template.walls {
             match wall {

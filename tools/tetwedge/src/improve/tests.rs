@@ -150,7 +150,6 @@ fn freedoms(template: &Template, of_triangle: &[u32], normals: &[DVec3]) -> Free
         &Flats {
             of_triangle,
             normals,
-            settled: &[],
             fixed: &[],
             straight: 1e-12,
         },
