@@ -9,6 +9,7 @@ mod messages;
 mod output;
 mod run;
 mod session;
+mod threads;
 mod unfinished;
 
 pub use args::CommonArgs;
@@ -17,3 +18,4 @@ pub use messages::MessageFormat;
 pub use output::{Closed, Output};
 pub use run::{Command, main};
 pub use session::{Progress, Session};
+pub use threads::available_threads;

@@ -1,11 +1,12 @@
 //! The command line of `symdetect`.
 
 use crate::report::FailureReport;
-use crate::{Defects, Error, Params, Report, available_threads, detect, svg};
+use crate::{Defects, Detection, Error, Params, Report, detect, svg};
 use glam::DVec3;
-use kit::{Command, CommonArgs, Failure, Output, Session};
+use kit::{Command, CommonArgs, Failure, Output, Session, available_threads};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::{panic, thread};
 use tmesh::{Document, MAX_TURN_DENOMINATOR};
 
 const EXAMPLES: &str = "\
@@ -121,20 +122,45 @@ impl From<Error> for Failure {
 }
 
 impl Cli {
-    /// Defects of the surface, told to the user.
-    fn defects(&self, document: &Document, session: &Session) -> Defects {
+    /// Defects of the surface, where they are looked for.
+    fn defects(&self, document: &Document) -> Option<Defects> {
         let [template] = document.templates.as_slice() else {
-            return Defects::default();
+            return None;
         };
-        if self.report.is_none() && template.triangles.len() > ALWAYS_CHECKED {
-            return Defects::default();
+        let looked_for = self.report.is_some() || template.triangles.len() <= ALWAYS_CHECKED;
+        looked_for.then(|| Defects::find(template))
+    }
+
+    /// Defects of the surface, told to the user, and its symmetry; both at the same time where threads allow.
+    fn examine(
+        &self,
+        document: &Document,
+        params: &Params,
+        session: &Session,
+    ) -> (Defects, Result<Detection, Error>) {
+        let search = || detect(document, params, &mut |text| session.info(text));
+        let tell = |defects: Option<Defects>| {
+            if let Some(defects) = &defects {
+                for note in defects.notes() {
+                    session.note(&note);
+                }
+                session.info("surface checked");
+            }
+            defects.unwrap_or_default()
+        };
+        if params.threads < 2 {
+            return (tell(self.defects(document)), search());
         }
-        let defects = Defects::find(template);
-        for note in defects.notes() {
-            session.note(&note);
-        }
-        session.info("surface checked");
-        defects
+        thread::scope(|scope| {
+            let other = thread::Builder::new().spawn_scoped(scope, || self.defects(document));
+            let found = search();
+            // Where no thread is to be had, it goes without.
+            let defects = match other {
+                Ok(other) => other.join().unwrap_or_else(|e| panic::resume_unwind(e)),
+                Err(_) => self.defects(document),
+            };
+            (tell(defects), found)
+        })
     }
 
     /// Writes the report of a failure; what goes wrong with that is only told.
@@ -162,8 +188,7 @@ impl Command for Cli {
             let defects = session.odd_edges().map(Defects::of_open);
             self.report_failure(failure, &defects.unwrap_or_default(), session);
         })?;
-        let defects = self.defects(&document, session);
-        let found = detect(&document, &params, &mut |text| session.info(text));
+        let (defects, found) = self.examine(&document, &params, session);
         let found = found.map_err(|error| {
             let failure = Failure::from(error);
             self.report_failure(&failure, &defects, session);

@@ -78,14 +78,9 @@ impl Default for Params {
             max_order: 1024,
             allow_asymmetric: false,
             profile: false,
-            threads: available_threads(),
+            threads: kit::available_threads(),
         }
     }
-}
-
-/// Threads the machine runs at once.
-pub(crate) fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, |n| n.get().min(16))
 }
 
 /// Adds its symmetry to a document.

@@ -6,6 +6,7 @@ use crate::shape::{Motion, NO_CLASS, Shape, Target};
 use crate::swing::Swing;
 use glam::{DMat3, DVec3};
 use rustc_hash::FxHashMap;
+use std::panic::resume_unwind;
 use std::thread;
 use tmesh::{Frame, Isometry};
 
@@ -123,7 +124,7 @@ const NOTHING: f64 = 1e-12;
 /// Tests run between two looks at whether one failed.
 const BLOCK: usize = 1 << 15;
 /// Tests below which threads do not pay.
-const PARALLEL: usize = 1 << 12;
+const PARALLEL: usize = 1 << 9;
 /// Tests of one operation, or spread over all of a family, in a quick verification.
 const QUICK: usize = 1_500;
 /// The same in a full one: some for each triangle, between bounds.
@@ -281,15 +282,16 @@ impl Shape {
                     let handles: Vec<_> = (1..parts)
                         .map(|p| {
                             let range = range(p);
-                            scope.spawn(move || run(range))
+                            thread::Builder::new().spawn_scoped(scope, move || run(range))
                         })
                         .collect();
                     let mut all = vec![run(range(0))];
-                    for handle in handles {
-                        match handle.join() {
-                            Ok(deviation) => all.push(deviation),
-                            Err(panic) => std::panic::resume_unwind(panic),
-                        }
+                    for (p, handle) in (1..parts).zip(handles) {
+                        all.push(match handle {
+                            Ok(handle) => handle.join().unwrap_or_else(|e| resume_unwind(e)),
+                            // Where no thread is to be had, it goes without.
+                            Err(_) => run(range(p)),
+                        });
                     }
                     all
                 })

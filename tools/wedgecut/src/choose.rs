@@ -7,14 +7,13 @@
 //! hubs of several radii; the fastest to mesh wins among those that cost few more elements than the
 //! whole body.
 
+use crate::integral::{Classes, GROWTH, Integral, Part, RADII, Sample};
 use crate::section::NO_MARKER;
 use geom::edges::Edges;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use tmesh::{OUTSIDE, Template, Wall};
 
-/// How fast element sizes grow with the distance from a feature.
-const GROWTH: f64 = 0.35;
 /// Size of elements over the width of a wedge that does not disturb them, between mirror planes, and
 /// between the faces of a seam, whose triangles stay as they are.
 const SPAN: f64 = 1.2;
@@ -45,40 +44,17 @@ const SLICED: f64 = 6.0;
 const HUB_COST: f64 = 2.0;
 /// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
 const WIDE: f64 = 44.0;
-/// Smallest pieces of the section, relative to its extent.
-const FINEST: f64 = 1.0 / 256.0;
 /// Cells of the grid on which samples are thinned out, per direction.
 const CELLS: f64 = 256.0;
 /// Most pairs of a sample and an edge that are looked at.
 const PAIRS: usize = 20_000_000;
-/// Classes of radius, and of size: per factor of two.
-const RADII: usize = 96;
-const PER_OCTAVE: f64 = 4.0;
-const SIZES: usize = 80;
-
-/// A size that a feature asks for, at a place of the section.
-#[derive(Clone, Copy, Debug)]
-struct Sample {
-    /// Radius and height, model units.
-    at: DVec2,
-    /// Size, model units.
-    size: f64,
-}
 
 /// Body volume by radius and element size.
 pub struct Estimate {
-    extent: f64,
-    /// Smallest size there is.
-    least: f64,
-    /// Volume of each class of radius and size.
-    volume: Vec<[f64; SIZES]>,
-    /// For each class of radius, the section's area over the square of the size, where the size is one
-    /// that was asked for.
-    walls: Vec<f64>,
-    /// The same of the body's boundary.
+    classes: Classes,
+    sums: Integral,
+    /// The body's boundary over the square of the size, where the size is one that was asked for.
     skin: f64,
-    /// For each class of radius, how far the section reaches above the plane z = 0.
-    heights: Vec<f64>,
     /// Whether there is material on the axis.
     solid: bool,
     /// Radii blocked by steep faces, increasing, disjoint.
@@ -125,12 +101,14 @@ pub struct Options<'a> {
 impl Estimate {
     /// Looks at the section and the edges of a wedge of the order found. `max_volume` is the largest
     /// volume of an element in a region, model units cubed, where one will be asked for.
-    /// `copies` of the wedge make the body, whose thin triangles cost `needles`.
+    /// `copies` of the wedge make the body, whose thin triangles cost `needles`. The result does not depend on
+    /// the number of `threads`.
     pub fn new(
         wedge: &Template,
         copies: usize,
         needles: f64,
         max_volume: impl Fn(u32) -> Option<f64>,
+        threads: usize,
     ) -> Self {
         let sections = sections(wedge);
         let mut extent = 0.0_f64;
@@ -149,81 +127,30 @@ impl Estimate {
         let caps = caps.filter_map(|(_, region)| max_volume(*region).map(edge_of_volume));
         let sizes = samples.iter().map(|s| s.size).chain(caps);
         let least = sizes.fold(extent, f64::min).max(extent * 1e-6);
+        let classes = Classes { extent, least };
+        let weight = 1.0 / sections.len().max(1) as f64;
+        let part = |(corners, region): &([DVec2; 3], u32)| Part {
+            corners: *corners,
+            cap: max_volume(*region).map_or(f64::INFINITY, edge_of_volume),
+            weight,
+        };
+        let parts: Vec<Part> = sections.iter().flatten().map(part).collect();
         let mut estimate = Self {
-            extent,
-            least,
-            volume: vec![[0.0; SIZES]; RADII],
-            walls: vec![0.0; RADII],
+            classes,
+            sums: Integral::over(&parts, &samples, classes, threads),
             skin: 0.0,
-            heights: vec![0.0; RADII],
             solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
             steep: steep(wedge),
             needles,
         };
-        let weight = 1.0 / sections.len().max(1) as f64;
-        for section in &sections {
-            for (corners, region) in section {
-                let cap = max_volume(*region).map_or(f64::INFINITY, edge_of_volume);
-                estimate.integrate(*corners, &samples, cap, weight);
-            }
-        }
         estimate.skin = estimate.boundary(wedge, copies);
         estimate
-    }
-
-    fn integrate(&mut self, triangle: [DVec2; 3], samples: &[Sample], cap: f64, weight: f64) {
-        let finest = self.extent * FINEST;
-        // The samples that matter in a triangle on the stack are a run of `near`; runs of those above it on
-        // the stack lie behind it.
-        let mut near = samples.to_vec();
-        let mut stack = vec![(triangle, 0..near.len())];
-        let mut asked: Vec<f64> = Vec::new();
-        while let Some((t, run)) = stack.pop() {
-            near.truncate(run.end);
-            let middle = (t[0] + t[1] + t[2]) / 3.0;
-            let reach = t.iter().fold(0.0_f64, |m, p| m.max(p.distance(middle)));
-            asked.clear();
-            let sizes = near[run.clone()].iter();
-            asked.extend(sizes.map(|s| s.size + GROWTH * s.at.distance(middle)));
-            let size = asked.iter().copied().fold(cap, f64::min);
-            let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| t[i].distance(t[j]));
-            let longest = (0..3)
-                .max_by(|&i, &j| sides[i].total_cmp(&sides[j]))
-                .unwrap_or(0);
-            // Near the axis wedges get narrow quickly.
-            let wanted = size.min(0.3 * middle.x).max(finest);
-            if sides[longest] <= wanted {
-                let area = 0.5 * (t[1] - t[0]).perp_dot(t[2] - t[0]).abs();
-                let volume = std::f64::consts::TAU * middle.x * area * weight;
-                let (radius, class) = (self.radius_class(middle.x), self.size_class(size));
-                self.volume[radius][class] += volume;
-                let top = t.iter().fold(0.0_f64, |m, p| m.max(p.y.abs()));
-                self.heights[radius] = self.heights[radius].max(top);
-                if size == cap {
-                    self.walls[radius] += area * weight / (size * size);
-                }
-                continue;
-            }
-            // Samples that can matter somewhere in the triangle.
-            let most = size + 2.0 * GROWTH * reach;
-            let first = near.len();
-            for (i, asked) in run.zip(&asked) {
-                if *asked <= most {
-                    near.push(near[i]);
-                }
-            }
-            let kept = first..near.len();
-            let (a, b, c) = (t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]);
-            let half = 0.5 * (a + b);
-            stack.push(([a, half, c], kept.clone()));
-            stack.push(([half, b, c], kept));
-        }
     }
 
     /// Area of the body's boundary over the square of the size of elements, as far as their size is one
     /// that was asked for.
     fn boundary(&self, wedge: &Template, copies: usize) -> f64 {
-        let squares: f64 = self.walls.iter().sum();
+        let squares: f64 = self.sums.walls.iter().sum();
         let section: f64 = self
             .classes()
             .map(|(r, _, v)| v / (std::f64::consts::TAU * r))
@@ -245,25 +172,15 @@ impl Estimate {
         }
     }
 
-    fn radius_class(&self, r: f64) -> usize {
-        ((r / self.extent * RADII as f64) as usize).min(RADII - 1)
-    }
-
-    fn size_class(&self, size: f64) -> usize {
-        (((size / self.least).log2() * PER_OCTAVE).max(0.0) as usize).min(SIZES - 1)
-    }
-
     /// Volume and size of a class, and the middle of its radii.
     fn classes(&self) -> impl Iterator<Item = (f64, f64, f64)> {
-        self.volume.iter().enumerate().flat_map(move |(i, row)| {
-            let radius = (i as f64 + 0.5) / RADII as f64 * self.extent;
+        let rows = self.sums.volume.iter().enumerate();
+        rows.flat_map(move |(i, row)| {
+            let radius = self.classes.radius(i);
             row.iter()
                 .enumerate()
                 .filter(|(_, v)| **v > 0.0)
-                .map(move |(j, &v)| {
-                    let size = self.least * ((j as f64 + 0.5) / PER_OCTAVE).exp2();
-                    (radius, size, v)
-                })
+                .map(move |(j, &v)| (radius, self.classes.size(j), v))
         })
     }
 
@@ -289,7 +206,7 @@ impl Estimate {
         let (mut outer, mut inner, mut height) = (0.0, 0.0, 0.0);
         for (r, size, v) in self.classes() {
             // Between the plane that halves the wedge and what is above there is half as much room.
-            let room = SPAN * self.heights[self.radius_class(r)];
+            let room = SPAN * self.sums.heights[self.classes.of_radius(r)];
             let size = if way.level { size.min(room) } else { size };
             if r >= radius {
                 outer += v / size.min(width(r)).powi(3);
@@ -297,26 +214,27 @@ impl Estimate {
                 let from_wall = width(radius) + GROWTH * (radius - r);
                 inner += v / size.min(from_wall).powi(3);
             }
-            if self.radius_class(r) == self.radius_class(radius) {
-                height += v / (std::f64::consts::TAU * r * self.extent / RADII as f64);
+            if self.classes.of_radius(r) == self.classes.of_radius(radius) {
+                height += v / (std::f64::consts::TAU * r * self.classes.extent / RADII as f64);
             }
         }
         outer += SKIN * self.skin + self.needles;
-        for (i, squares) in self.walls.iter().enumerate() {
+        for (i, squares) in self.sums.walls.iter().enumerate() {
             // The plane that halves wedge and hub: as wide as its circle is long, for all copies.
-            let circle = std::f64::consts::TAU * (i as f64 + 0.5) / RADII as f64 * self.extent;
-            let across = match way.level && self.heights[i] > 0.0 {
-                true => SKIN * circle / self.heights[i] * squares,
+            let circle = std::f64::consts::TAU * self.classes.radius(i);
+            let across = match way.level && self.sums.heights[i] > 0.0 {
+                true => SKIN * circle / self.sums.heights[i] * squares,
                 false => 0.0,
             };
-            if i >= self.radius_class(radius) {
+            if i >= self.classes.of_radius(radius) {
                 outer += SKIN * 2.0 * copies[0] * squares + across;
             } else {
                 inner += SKIN * 2.0 * copies[1] * squares + across;
             }
         }
         if let Some(hub) = hub {
-            let squares = self.walls[self.radius_class(hub)] / (self.extent / RADII as f64);
+            let squares =
+                self.sums.walls[self.classes.of_radius(hub)] / (self.classes.extent / RADII as f64);
             outer += HUB_SKIN * std::f64::consts::TAU * hub * squares;
             inner += HUB_SKIN * std::f64::consts::TAU * hub * squares;
             // Layers between the hub's wall and steep faces.
@@ -351,7 +269,7 @@ impl Estimate {
             free.push([from, low]);
             from = high;
         }
-        let most = self.extent;
+        let most = self.classes.extent;
         free.push([from, most]);
         let mut radii = Vec::new();
         for [low, high] in free.into_iter().filter(|f| f[1] - f[0] > 1e-3 * most) {

@@ -18,6 +18,7 @@ mod error;
 mod finish;
 mod halved;
 mod hub;
+mod integral;
 mod names;
 mod needles;
 mod opening;
@@ -271,7 +272,8 @@ fn choose(
     let (body, copies) = (&document.templates[0], wedge.instances.len());
     let size = element_size(&document.regions, body, params);
     let needles = needles::needles(body, size);
-    let estimate = choose::Estimate::new(&wedge.templates[0], copies, needles, max_volume);
+    let first = &wedge.templates[0];
+    let estimate = choose::Estimate::new(first, copies, needles, max_volume, params.threads);
     let ways = estimate.ways(&options);
     let choice = options.best(&ways, 1.0)?;
     let planes = |c: &choose::Choice| {

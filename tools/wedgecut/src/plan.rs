@@ -71,6 +71,8 @@ pub struct Params {
     pub radius_edge: f64,
     /// Edges shorter than this, relative to the radius about the axis, are collapsed; 0 for none.
     pub clean: f64,
+    /// Threads used at most; the result does not depend on it.
+    pub threads: usize,
 }
 
 impl Params {

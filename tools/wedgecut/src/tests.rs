@@ -16,6 +16,7 @@ const DEFAULT: Params = Params {
     start_angle: None,
     snap: None,
     clean: 1e-6,
+    threads: 1,
 };
 
 /// Cuts at the order found unless the parameters have another.

@@ -1,0 +1,310 @@
+//! How much of a body wants elements of which size: integrals over its section.
+//!
+//! The section's triangles are halved until they are no larger than the elements wanted there, each piece
+//! with the samples of sizes that matter in it.
+
+use glam::DVec2;
+use std::ops::Range;
+use std::panic;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// How fast element sizes grow with the distance from a feature.
+pub const GROWTH: f64 = 0.35;
+/// Classes of radius.
+pub const RADII: usize = 96;
+/// Classes of size, and how many there are per factor of two.
+pub const SIZES: usize = 80;
+pub const PER_OCTAVE: usize = 4;
+/// Bounds of the classes within a factor of two: two to the power of a quarter, a half, three quarters.
+const WITHIN_OCTAVE: [f64; PER_OCTAVE - 1] = [
+    1.189_207_115_002_721,
+    std::f64::consts::SQRT_2,
+    1.681_792_830_507_429,
+];
+/// Smallest pieces of the section, relative to its extent.
+const FINEST: f64 = 1.0 / 256.0;
+/// Parts that are summed on their own, so that sums do not depend on the number of threads.
+const PARTS: usize = 8;
+
+/// A size that a feature asks for, at a place of the section.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Radius and height, model units.
+    pub at: DVec2,
+    /// Size, model units.
+    pub size: f64,
+}
+
+/// A triangle of the section.
+pub struct Part {
+    /// Radius and height of its corners, model units.
+    pub corners: [DVec2; 3],
+    /// Largest size of elements in it, model units.
+    pub cap: f64,
+    /// Share of the section, where there are several of the same body.
+    pub weight: f64,
+}
+
+/// Classes of radius and size.
+#[derive(Clone, Copy, Debug)]
+pub struct Classes {
+    /// Largest coordinate of the section.
+    pub extent: f64,
+    /// Smallest size there is.
+    pub least: f64,
+}
+
+impl Classes {
+    pub fn of_radius(&self, r: f64) -> usize {
+        ((r / self.extent * RADII as f64) as usize).min(RADII - 1)
+    }
+
+    pub fn of_size(&self, size: f64) -> usize {
+        let ratio = size / self.least;
+        if ratio < 1.0 {
+            return 0;
+        }
+        let bits = ratio.to_bits();
+        let octave = (bits >> 52) as usize - 1023;
+        let mantissa = f64::from_bits(bits & (u64::MAX >> 12) | 1.0_f64.to_bits());
+        let within = WITHIN_OCTAVE.iter().filter(|&&b| mantissa >= b).count();
+        (PER_OCTAVE * octave + within).min(SIZES - 1)
+    }
+
+    /// Middle of a class of radius.
+    pub fn radius(&self, class: usize) -> f64 {
+        (class as f64 + 0.5) / RADII as f64 * self.extent
+    }
+
+    /// Middle of a class of size.
+    pub fn size(&self, class: usize) -> f64 {
+        self.least * ((class as f64 + 0.5) / PER_OCTAVE as f64).exp2()
+    }
+}
+
+/// What is summed over the section.
+pub struct Integral {
+    /// Body volume of each class of radius and size.
+    pub volume: Vec<[f64; SIZES]>,
+    /// For each class of radius, the section's area over the square of the size, where the size is one
+    /// that was asked for.
+    pub walls: Vec<f64>,
+    /// For each class of radius, how far the section reaches above the plane z = 0.
+    pub heights: Vec<f64>,
+}
+
+impl Integral {
+    fn zero() -> Self {
+        Self {
+            volume: vec![[0.0; SIZES]; RADII],
+            walls: vec![0.0; RADII],
+            heights: vec![0.0; RADII],
+        }
+    }
+
+    /// Over all parts of a section, with the sizes that samples ask for. Does not depend on the number of
+    /// threads.
+    pub fn over(parts: &[Part], samples: &[Sample], classes: Classes, threads: usize) -> Self {
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut done = Vec::new();
+            loop {
+                let group = next.fetch_add(1, Ordering::Relaxed);
+                if group >= PARTS.min(parts.len()) {
+                    return done;
+                }
+                let mut sums = Self::zero();
+                let mut near = Near::new(samples);
+                for part in parts.iter().skip(group).step_by(PARTS) {
+                    sums.add_part(part, &mut near, classes);
+                }
+                done.push((group, sums));
+            }
+        };
+        let mut groups = thread::scope(|scope| {
+            // Where no thread is to be had, it goes without.
+            let others: Vec<_> = (1..threads.min(PARTS).min(parts.len()))
+                .map_while(|_| thread::Builder::new().spawn_scoped(scope, work).ok())
+                .collect();
+            let mut groups = work();
+            for other in others {
+                groups.extend(other.join().unwrap_or_else(|e| panic::resume_unwind(e)));
+            }
+            groups
+        });
+        groups.sort_unstable_by_key(|(group, _)| *group);
+        let mut sums = groups.into_iter().map(|(_, sums)| sums);
+        let mut all = sums.next().unwrap_or_else(Self::zero);
+        sums.for_each(|s| all.add(&s));
+        all
+    }
+
+    fn add(&mut self, other: &Self) {
+        for (row, more) in self.volume.iter_mut().zip(&other.volume) {
+            row.iter_mut().zip(more).for_each(|(v, more)| *v += more);
+        }
+        let walls = self.walls.iter_mut().zip(&other.walls);
+        walls.for_each(|(w, more)| *w += more);
+        let heights = self.heights.iter_mut().zip(&other.heights);
+        heights.for_each(|(h, other)| *h = h.max(*other));
+    }
+
+    fn add_part(&mut self, part: &Part, near: &mut Near, classes: Classes) {
+        let finest = classes.extent * FINEST;
+        // The samples that matter in a triangle on the stack are a run of `near`; runs of those above it on
+        // the stack lie behind it.
+        let mut stack = vec![(part.corners, 0..near.all)];
+        while let Some((t, run)) = stack.pop() {
+            near.len = run.end;
+            let middle = (t[0] + t[1] + t[2]) / 3.0;
+            let size = near.ask(run.clone(), middle).min(part.cap);
+            let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| t[i].distance_squared(t[j]));
+            let longest = (0..3)
+                .max_by(|&i, &j| sides[i].total_cmp(&sides[j]))
+                .unwrap_or(0);
+            // Near the axis wedges get narrow quickly.
+            let wanted = size.min(0.3 * middle.x).max(finest);
+            if sides[longest] <= wanted * wanted {
+                let area = 0.5 * (t[1] - t[0]).perp_dot(t[2] - t[0]).abs() * part.weight;
+                let radius = classes.of_radius(middle.x);
+                let volume = std::f64::consts::TAU * middle.x * area;
+                self.volume[radius][classes.of_size(size)] += volume;
+                let top = t.iter().fold(0.0_f64, |m, p| m.max(p.y.abs()));
+                self.heights[radius] = self.heights[radius].max(top);
+                if size == part.cap {
+                    self.walls[radius] += area / (size * size);
+                }
+                continue;
+            }
+            // Samples that can matter somewhere in the triangle.
+            let reach = t.iter().map(|p| p.distance_squared(middle));
+            let reach = reach.fold(0.0_f64, f64::max).sqrt();
+            let kept = near.keep(run, size + 2.0 * GROWTH * reach);
+            let (a, b, c) = (t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]);
+            let half = 0.5 * (a + b);
+            stack.push(([a, half, c], kept.clone()));
+            stack.push(([half, b, c], kept));
+        }
+    }
+}
+
+/// Samples, coordinate by coordinate, and further copies of some of them behind; in single precision, which is
+/// more than an estimate needs and takes half the time.
+struct Near {
+    all: usize,
+    len: usize,
+    /// Radius and height, model units.
+    x: Vec<f32>,
+    y: Vec<f32>,
+    size: Vec<f32>,
+    /// What the samples last looked at ask for at the place they were asked about.
+    asked: Vec<f32>,
+}
+
+impl Near {
+    fn new(samples: &[Sample]) -> Self {
+        Self {
+            all: samples.len(),
+            len: samples.len(),
+            x: samples.iter().map(|s| s.at.x as f32).collect(),
+            y: samples.iter().map(|s| s.at.y as f32).collect(),
+            size: samples.iter().map(|s| s.size as f32).collect(),
+            asked: vec![0.0; samples.len()],
+        }
+    }
+
+    /// The smallest size that a run of samples asks for at a place.
+    fn ask(&mut self, run: Range<usize>, at: DVec2) -> f64 {
+        let at = at.as_vec2();
+        let asked = &mut self.asked[..run.len()];
+        let (x, y) = (&self.x[run.clone()], &self.y[run.clone()]);
+        let size = &self.size[run];
+        for (((asked, x), y), size) in asked.iter_mut().zip(x).zip(y).zip(size) {
+            let (dx, dy) = (x - at.x, y - at.y);
+            *asked = size + GROWTH as f32 * (dx * dx + dy * dy).sqrt();
+        }
+        // Plain comparisons become single instructions; nothing here is NaN.
+        let least = |m: f32, a: &f32| if *a < m { *a } else { m };
+        f64::from(asked.iter().fold(f32::INFINITY, least))
+    }
+
+    /// Copies those of a run that asked for no more than `most` behind all others, and says where.
+    fn keep(&mut self, run: Range<usize>, most: f64) -> Range<usize> {
+        let most = most as f32;
+        let first = self.len;
+        let room = first + run.len();
+        if self.x.len() < room {
+            for list in [&mut self.x, &mut self.y, &mut self.size] {
+                list.resize(2 * room, 0.0);
+            }
+        }
+        // Written in any case, so that there is nothing to predict.
+        let mut end = first;
+        for (k, i) in run.enumerate() {
+            self.x[end] = self.x[i];
+            self.y[end] = self.y[i];
+            self.size[end] = self.size[i];
+            end += usize::from(self.asked[k] <= most);
+        }
+        self.len = end;
+        first..end
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CLASSES: Classes = Classes {
+        extent: 2.0,
+        least: 0.01,
+    };
+
+    #[test]
+    fn sizes_are_in_the_class_whose_middle_is_nearest() {
+        for class in 0..SIZES - 1 {
+            assert_eq!(CLASSES.of_size(CLASSES.size(class)), class);
+        }
+        assert_eq!(CLASSES.of_size(0.0), 0);
+        assert_eq!(CLASSES.of_size(0.009), 0);
+        assert_eq!(CLASSES.of_size(1e300), SIZES - 1);
+        assert_eq!(CLASSES.of_size(f64::INFINITY), SIZES - 1);
+    }
+
+    #[test]
+    fn the_volume_is_that_of_the_ring_whatever_the_threads() {
+        // A ring of radii 1 and 2 and height 1, and the same with a feature in the middle.
+        let corner = DVec2::new;
+        let [a, b, c, d] =
+            [(1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0)].map(|(x, y)| corner(x, y));
+        let parts = [[a, b, c], [a, c, d]].map(|corners| Part {
+            corners,
+            cap: 0.2,
+            weight: 1.0,
+        });
+        let feature = Sample {
+            at: corner(1.5, 0.5),
+            size: 0.02,
+        };
+        for samples in [&[][..], &[feature][..]] {
+            let sums = |threads| Integral::over(&parts, samples, CLASSES, threads);
+            let one = sums(1);
+            let volume: f64 = one.volume.iter().flatten().sum();
+            let exact = std::f64::consts::PI * 3.0;
+            assert!((volume - exact).abs() < 1e-3 * exact, "{volume}");
+            let fine: f64 = one
+                .volume
+                .iter()
+                .map(|row| row[..8].iter().sum::<f64>())
+                .sum();
+            assert_eq!(fine > 0.0, !samples.is_empty());
+            let top = one.heights.iter().copied().fold(0.0, f64::max);
+            assert_eq!(top, 1.0);
+            for threads in [2, 3, 20] {
+                assert_eq!(sums(threads).volume, one.volume);
+                assert_eq!(sums(threads).walls, one.walls);
+            }
+        }
+    }
+}
