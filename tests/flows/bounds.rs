@@ -31,7 +31,7 @@ fn every_shape_goes_through_in_time() {
     // With debug assertions and beside other tests: twenty times what it takes alone.
     let limit = Duration::from_secs(120);
     for (name, _, make) in shapes::SHAPES {
-        let size = if name == "spindle" { 300 } else { 5000 };
+        let size = if name == "spindle" { 1000 } else { 5000 };
         let off = shapes::off(&make(size));
         let begun = Instant::now();
         let report = run("meshqual", &["--check"], off.as_bytes());

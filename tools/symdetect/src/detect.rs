@@ -246,7 +246,7 @@ impl Job<'_> {
         for d in &directions {
             found.extend(find(*d));
             // No other axis can have an order above two.
-            if !principal.isotropic && found.iter().any(|r| r.distinct && r.order > 2) {
+            if !principal.isotropic && found.iter().any(Rotation::is_high) {
                 break;
             }
         }
@@ -254,9 +254,8 @@ impl Job<'_> {
             "principal directions tried, {} have a rotation",
             found.len()
         ));
-        let distinct_orders = found.iter().filter(|r| r.distinct).map(|r| r.order);
-        let highest = distinct_orders.max().unwrap_or(1);
-        if principal.isotropic || (principal.degenerate && highest < 3) {
+        let has_high = found.iter().any(Rotation::is_high);
+        if principal.isotropic || (principal.degenerate && !has_high) {
             let tried = directions.len();
             directions.extend(candidates::higher(self.shape));
             directions = distinct(directions);

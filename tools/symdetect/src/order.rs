@@ -76,6 +76,11 @@ impl Rotation {
         if self.distinct { 2 * self.order } else { 5 }
     }
 
+    /// Whether no axis across this one can have an order above two, unless the body is isotropic.
+    pub fn is_high(&self) -> bool {
+        self.order > 2 && (self.distinct || self.axisymmetric)
+    }
+
     /// Whether this is the better find. `noise` is the deviation that is not worth a distinction.
     fn beats(&self, other: &Self, noise: f64) -> bool {
         if self.rank() != other.rank() {
