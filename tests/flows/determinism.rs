@@ -103,7 +103,7 @@ fn the_bytes_do_not_depend_on_threads_or_instructions() {
         }
         let threads = |n: &'static str| {
             stages(&input, move |command, tool| {
-                if ["symdetect", "tetwedge"].contains(&tool) {
+                if ["symdetect", "wedgecut", "tetwedge"].contains(&tool) {
                     command.args(["--threads", n]);
                 }
             })

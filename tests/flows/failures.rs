@@ -202,6 +202,10 @@ fn output_that_cannot_be_written() {
         if tool != "meshqual" {
             let unknown = format!("{name}/out.dwg");
             run(tool, &["-o", &unknown], input).fails(2, &["names no known format", "--to"]);
+            // Before the work: an input that is nothing does not come to be read.
+            run(tool, &["-o", &unknown], b"").fails(2, &["names no known format"]);
+            run(tool, &["-o", &nowhere], b"").fails(4, &["cannot write", &nowhere]);
+            run(tool, &["-o", name], b"").fails(4, &["it is a directory"]);
         }
     }
     assert_eq!(listing(folder.path()), [""; 0]);

@@ -32,16 +32,9 @@ impl Output {
     /// Opens `path`, or standard output; refuses binary output to a terminal.
     pub fn create(path: Option<&Path>, binary: bool) -> Result<Self, Failure> {
         let Some(path) = path.filter(|p| *p != Path::new("-")) else {
-            let stdout = io::stdout();
-            if binary && stdout.is_terminal() {
-                return Err(Failure::Usage(
-                    "binary output goes to a file or a pipe, not to a terminal; use -o PATH, or \
-                     --to txt for a readable listing"
-                        .to_owned(),
-                ));
-            }
+            refuse_terminal(binary)?;
             let name = "standard output".to_owned();
-            let file = unbuffered(&stdout).map_err(|e| Failure::writing(&name, &e))?;
+            let file = unbuffered(&io::stdout()).map_err(|e| Failure::writing(&name, &e))?;
             let target = Target::Stdout(BufWriter::with_capacity(BUFFER, file));
             return Ok(Self { target, name });
         };
@@ -55,15 +48,8 @@ impl Output {
                 .map_err(fail)?;
             Target::Special(BufWriter::with_capacity(BUFFER, file))
         } else {
-            if path.is_dir() {
-                return Err(Failure::Output(format!(
-                    "cannot write {name}: it is a directory"
-                )));
-            }
-            let folder = match path.parent() {
-                Some(p) if !p.as_os_str().is_empty() => p,
-                _ => Path::new("."),
-            };
+            refuse_folder(path)?;
+            let folder = folder_of(path);
             let stem = path.file_name().unwrap_or_default().to_string_lossy();
             let file = unfinished::create(|| {
                 tempfile::Builder::new()
@@ -134,6 +120,34 @@ impl Closed {
     }
 }
 
+fn refuse_terminal(binary: bool) -> Result<(), Failure> {
+    if binary && io::stdout().is_terminal() {
+        return Err(Failure::Usage(
+            "binary output goes to a file or a pipe, not to a terminal; use -o PATH, or \
+             --to txt for a readable listing"
+                .to_owned(),
+        ));
+    }
+    Ok(())
+}
+
+fn refuse_folder(path: &Path) -> Result<(), Failure> {
+    if path.is_dir() {
+        return Err(Failure::Output(format!(
+            "cannot write {}: it is a directory",
+            path.display()
+        )));
+    }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    }
+}
+
 #[cfg(unix)]
 fn unbuffered(stdout: &io::Stdout) -> io::Result<File> {
     use std::os::fd::AsFd;
@@ -188,6 +202,24 @@ impl Session {
                 ))),
             },
         }
+    }
+
+    /// Fails where [`Session::write`] could not write whatever the document is: before the work, not after it.
+    pub fn check_output(&self) -> Result<(), Failure> {
+        self.check_output_in(self.output_format(Format::Tmesh)?)
+    }
+
+    /// The same for [`Session::write_in`] and [`Session::write_as`].
+    pub fn check_output_in(&self, format: Format) -> Result<(), Failure> {
+        let path = self.common.output.as_deref();
+        let Some(path) = path.filter(|p| *p != Path::new("-")) else {
+            return refuse_terminal(format.is_binary());
+        };
+        refuse_folder(path)?;
+        let folder = folder_of(path).metadata();
+        folder
+            .map(|_| ())
+            .map_err(|e| Failure::writing(&path.display().to_string(), &e))
     }
 
     /// Opens the output named on the command line.

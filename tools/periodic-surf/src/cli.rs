@@ -30,6 +30,7 @@ impl Command for Cli {
 
     fn run(self, session: &Session) -> Result<(), Failure> {
         let params = self.elements.params();
+        session.check_output()?;
         let document = session.read()?;
         let log = |text: &str| session.info(text);
         let (mut document, report) =

@@ -144,6 +144,7 @@ impl Command for Cli {
                 format.name()
             )));
         }
+        session.check_output_in(format)?;
         let mut document = session.read()?;
         document.history.push(session.history_entry(Vec::new()));
         if self.sector {

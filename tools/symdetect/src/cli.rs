@@ -183,6 +183,7 @@ impl Command for Cli {
     }
 
     fn run(self, session: &Session) -> Result<(), Failure> {
+        session.check_output()?;
         let params = self.params();
         let mut document = session.read().inspect_err(|failure| {
             let defects = session.odd_edges().map(Defects::of_open);

@@ -66,6 +66,7 @@ impl Command for Cli {
 
     fn run(self, session: &Session) -> Result<(), Failure> {
         let params = self.params();
+        session.check_output()?;
         let document = session.read()?;
         let log = |text: &str| session.info(text);
         let meshed = tetrahedralize(document, &params, &log).map_err(|e| e.failure())?;

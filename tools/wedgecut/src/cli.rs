@@ -178,6 +178,7 @@ impl Command for Cli {
             clean: self.clean.0,
             threads: self.threads.map_or_else(available_threads, |n| n as usize),
         };
+        session.check_output()?;
         let document = session.read()?;
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));
