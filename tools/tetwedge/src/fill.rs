@@ -14,7 +14,7 @@ use tmesh::{Document, Template, Tet, Triangle, Wall};
 
 /// Points that belong to a plane or to the axis may be this far from it, relative to the largest
 /// coordinate: rounding of what TetGen computes.
-const ROUNDING: f64 = 1e-11;
+pub const ROUNDING: f64 = 1e-11;
 
 /// Rounds of projection onto the planes of facets.
 pub const ROUNDS: usize = 4;

@@ -3,7 +3,7 @@
 use crate::cells::{Cells, label};
 use crate::error::Place;
 use crate::facets::Facets;
-use crate::fill::ROUNDS;
+use crate::fill::{ROUNDING, ROUNDS};
 use crate::mesher::{Answer, past_bound, persist, run};
 use crate::{Error, Params, Sizes};
 use glam::DVec3;
@@ -133,24 +133,37 @@ fn attempt(
     Ok(made)
 }
 
-/// Puts new vertices back onto the planes of their facets, which the mesher got shifted by
-/// `shift` (model units; see [`crate::flat`]).
+/// Puts new vertices back onto the planes of their facets: of those that the mesher got shifted by `shift` (model
+/// units; see [`crate::flat`]), and of uneven ones where it has left them. The mesher takes circumcentres of
+/// triangles there, and the plane of a needle between three points that are nearly in the facet's plane may be
+/// any.
 fn put_back(refined: &mut Refined, shift: f64) {
-    if shift == 0.0 {
-        return;
-    }
     let first_new = refined.vertex_of_point.len();
     let mut pairs: Vec<(u32, u32)> = Vec::new();
     for (t, &f) in refined.triangles.iter().zip(&refined.facet) {
-        let facet = &refined.facets.facets[f as usize];
-        // Facets more uneven than the shift have no plane to be put back onto.
-        if facet.deviation <= shift && facet.normal != DVec3::ZERO {
+        if refined.facets.facets[f as usize].normal != DVec3::ZERO {
             let new = t.iter().filter(|&&v| v as usize >= first_new);
             pairs.extend(new.map(|&v| (v, f)));
         }
     }
     pairs.sort_unstable();
     pairs.dedup();
+    let extent = (refined.vertices.iter()).fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
+    for of_vertex in pairs.chunk_by(|a, b| a.0 == b.0) {
+        // What is on several facets is on an edge.
+        let &[(v, f)] = of_vertex else { continue };
+        let facet = &refined.facets.facets[f as usize];
+        let p = &mut refined.vertices[v as usize];
+        let off = (*p - facet.origin).dot(facet.normal);
+        if off.abs() > facet.deviation + ROUNDING * extent {
+            *p -= facet.normal * off;
+        }
+    }
+    if shift == 0.0 {
+        return;
+    }
+    // Facets more uneven than the shift have no plane to be put back onto.
+    pairs.retain(|&(_, f)| refined.facets.facets[f as usize].deviation <= shift);
     for _ in 0..ROUNDS {
         for &(v, f) in &pairs {
             let facet = &refined.facets.facets[f as usize];
