@@ -109,6 +109,11 @@ fn wrong_usage() {
         run(tool, &["--quiet", "--verbose"], b"").fails(2, &["cannot be used with"]);
         run(tool, &["a", "b"], b"").fails(2, &["unexpected argument 'b'"]);
     }
+    for tool in ["symdetect", "wedgecut", "tetwedge"] {
+        for count in ["0", "-1", "257", "all"] {
+            run(tool, &["--threads", count], b"").fails(2, &[count]);
+        }
+    }
     for tool in ["wedgecut", "periodic-surf", "tetwedge"] {
         for ratio in ["0.5", "-1", "nan", "wide"] {
             run(tool, &["--radius-edge", ratio], b"").fails(2, &["--radius-edge", ratio]);

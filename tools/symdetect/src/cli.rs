@@ -3,7 +3,7 @@
 use crate::report::FailureReport;
 use crate::{Defects, Detection, Error, Params, Report, detect, svg};
 use glam::DVec3;
-use kit::{Command, CommonArgs, Failure, Output, Session, available_threads};
+use kit::{Command, CommonArgs, Failure, Output, Session, ThreadArgs};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::{panic, thread};
@@ -53,9 +53,8 @@ pub struct Cli {
     #[arg(long)]
     allow_asymmetric: bool,
 
-    /// Threads used at most [default: as many as the machine runs at once, up to 16]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256))]
-    threads: Option<u32>,
+    #[command(flatten)]
+    threads: ThreadArgs,
 
     /// Write what was found as JSON
     #[arg(long, value_name = "PATH")]
@@ -107,7 +106,7 @@ impl Cli {
             max_order: self.max_order,
             allow_asymmetric: self.allow_asymmetric,
             profile: self.report.is_some() || self.svg.is_some() || self.common.verbose > 0,
-            threads: self.threads.map_or_else(available_threads, |n| n as usize),
+            threads: self.threads.count(),
         }
     }
 }

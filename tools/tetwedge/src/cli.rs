@@ -1,7 +1,7 @@
 //! The command line of `tetwedge`.
 
 use crate::{ElementArgs, Params, tetrahedralize};
-use kit::{Command, CommonArgs, Failure, Session};
+use kit::{Command, CommonArgs, Failure, Session, ThreadArgs};
 
 /// Fills a wedge, or any closed surface, with tetrahedra
 ///
@@ -27,9 +27,8 @@ pub struct Cli {
     #[arg(long, value_name = "STR", default_value = "", value_parser = switches, allow_hyphen_values = true, hide_default_value = true)]
     switches: String,
 
-    /// Templates meshed at the same time [default: processors]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    #[command(flatten)]
+    threads: ThreadArgs,
 }
 
 /// Appended switches may be this long; TetGen keeps them in a small buffer.
@@ -50,10 +49,7 @@ impl Cli {
     fn params(&self) -> Params {
         Params {
             switches: self.switches.clone(),
-            threads: self.threads.map_or_else(
-                || std::thread::available_parallelism().map_or(1, usize::from),
-                usize::from,
-            ),
+            threads: self.threads.count(),
             ..self.elements.params()
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::{Domain, Hub, Params, choose, cut, names};
 use geom::tet::REGULAR_RADIUS_EDGE;
-use kit::{Command, CommonArgs, Failure, Session, available_threads};
+use kit::{Command, CommonArgs, Failure, Session, ThreadArgs};
 
 const EXAMPLES: &str = "Examples:
   symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
@@ -71,9 +71,8 @@ pub struct Cli {
     #[arg(long, value_name = "REL|off", default_value = "1e-6", value_parser = clean)]
     clean: Clean,
 
-    /// Threads used at most [default: as many as the machine runs at once, up to 16]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256))]
-    threads: Option<u32>,
+    #[command(flatten)]
+    threads: ThreadArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -176,7 +175,7 @@ impl Command for Cli {
             max_volume: self.max_volume.or(self.edge_length.map(volume_of_edge)),
             radius_edge: self.radius_edge,
             clean: self.clean.0,
-            threads: self.threads.map_or_else(available_threads, |n| n as usize),
+            threads: self.threads.count(),
         };
         session.check_output()?;
         let document = session.read()?;

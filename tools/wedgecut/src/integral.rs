@@ -24,8 +24,8 @@ const WITHIN_OCTAVE: [f64; PER_OCTAVE - 1] = [
 ];
 /// Smallest pieces of the section, relative to its extent.
 const FINEST: f64 = 1.0 / 256.0;
-/// Parts that are summed on their own, so that sums do not depend on the number of threads.
-const PARTS: usize = 8;
+/// Groups of triangles that are summed on their own, so that sums do not depend on the number of threads.
+const GROUPS: usize = 8;
 
 /// A size that a feature asks for, at a place of the section.
 #[derive(Clone, Copy, Debug)]
@@ -111,12 +111,12 @@ impl Integral {
             let mut done = Vec::new();
             loop {
                 let group = next.fetch_add(1, Ordering::Relaxed);
-                if group >= PARTS.min(parts.len()) {
+                if group >= GROUPS.min(parts.len()) {
                     return done;
                 }
                 let mut sums = Self::zero();
-                let mut near = Near::new(samples);
-                for part in parts.iter().skip(group).step_by(PARTS) {
+                let mut near = Near::new(samples, classes.extent);
+                for part in parts.iter().skip(group).step_by(GROUPS) {
                     sums.add_part(part, &mut near, classes);
                 }
                 done.push((group, sums));
@@ -124,7 +124,7 @@ impl Integral {
         };
         let mut groups = thread::scope(|scope| {
             // Where no thread is to be had, it goes without.
-            let others: Vec<_> = (1..threads.min(PARTS).min(parts.len()))
+            let others: Vec<_> = (1..threads.min(GROUPS).min(parts.len()))
                 .map_while(|_| thread::Builder::new().spawn_scoped(scope, work).ok())
                 .collect();
             let mut groups = work();
@@ -190,11 +190,14 @@ impl Integral {
 }
 
 /// Samples, coordinate by coordinate, and further copies of some of them behind; in single precision, which is
-/// more than an estimate needs and takes half the time.
+/// more than an estimate needs and takes half the time. Lengths are in units of the section's extent, since
+/// single precision does not hold those of every model.
 struct Near {
     all: usize,
     len: usize,
-    /// Radius and height, model units.
+    /// Model units.
+    extent: f64,
+    /// Radius and height.
     x: Vec<f32>,
     y: Vec<f32>,
     size: Vec<f32>,
@@ -203,20 +206,25 @@ struct Near {
 }
 
 impl Near {
-    fn new(samples: &[Sample]) -> Self {
+    fn new(samples: &[Sample], extent: f64) -> Self {
+        let all = |value: fn(&Sample) -> f64| {
+            let relative = samples.iter().map(|s| (value(s) / extent) as f32);
+            relative.collect()
+        };
         Self {
             all: samples.len(),
             len: samples.len(),
-            x: samples.iter().map(|s| s.at.x as f32).collect(),
-            y: samples.iter().map(|s| s.at.y as f32).collect(),
-            size: samples.iter().map(|s| s.size as f32).collect(),
+            extent,
+            x: all(|s| s.at.x),
+            y: all(|s| s.at.y),
+            size: all(|s| s.size),
             asked: vec![0.0; samples.len()],
         }
     }
 
-    /// The smallest size that a run of samples asks for at a place.
+    /// The smallest size that a run of samples asks for at a place, model units.
     fn ask(&mut self, run: Range<usize>, at: DVec2) -> f64 {
-        let at = at.as_vec2();
+        let at = (at / self.extent).as_vec2();
         let asked = &mut self.asked[..run.len()];
         let (x, y) = (&self.x[run.clone()], &self.y[run.clone()]);
         let size = &self.size[run];
@@ -226,12 +234,12 @@ impl Near {
         }
         // Plain comparisons become single instructions; nothing here is NaN.
         let least = |m: f32, a: &f32| if *a < m { *a } else { m };
-        f64::from(asked.iter().fold(f32::INFINITY, least))
+        f64::from(asked.iter().fold(f32::INFINITY, least)) * self.extent
     }
 
     /// Copies those of a run that asked for no more than `most` behind all others, and says where.
     fn keep(&mut self, run: Range<usize>, most: f64) -> Range<usize> {
-        let most = most as f32;
+        let most = (most / self.extent) as f32;
         let first = self.len;
         let room = first + run.len();
         if self.x.len() < room {
@@ -270,6 +278,36 @@ mod tests {
         assert_eq!(CLASSES.of_size(0.009), 0);
         assert_eq!(CLASSES.of_size(1e300), SIZES - 1);
         assert_eq!(CLASSES.of_size(f64::INFINITY), SIZES - 1);
+    }
+
+    #[test]
+    fn models_of_any_size_are_alike() {
+        let sums = |unit: f64| {
+            let at = |x, y| DVec2::new(x, y) * unit;
+            let part = Part {
+                corners: [at(1.0, 0.0), at(2.0, 0.0), at(2.0, 1.0)],
+                cap: 0.2 * unit,
+                weight: 1.0,
+            };
+            let feature = Sample {
+                at: at(1.5, 0.25),
+                size: 0.02 * unit,
+            };
+            let classes = Classes {
+                extent: 2.0 * unit,
+                least: 0.01 * unit,
+            };
+            Integral::over(&[part], &[feature], classes, 1)
+        };
+        let usual = sums(1.0);
+        // Powers of two, so that nothing is rounded differently.
+        for unit in [-100, -40, 40, 100].map(|k| 2.0_f64.powi(k)) {
+            let scaled = sums(unit);
+            for (a, b) in usual.volume.iter().zip(&scaled.volume) {
+                assert_eq!(a.map(|v| v * unit.powi(3)), *b);
+            }
+            assert_eq!(usual.walls, scaled.walls);
+        }
     }
 
     #[test]
