@@ -179,6 +179,29 @@ def scaling(series, fits):
     return lines + table(head, rows)
 
 
+def shares(found):
+    """Where the time goes in large meshes."""
+    if not found:
+        return []
+    head = [
+        "order of the body", "tetrahedra", *(f"{s}, s" for s in STAGES), "TetGen in tetwedge, s", "all but TetGen",
+        "pipe to /dev/null, s", "pipe to file, s",
+    ]
+    rows = []
+    for f in found:
+        parts = [f["stages"][s] for s in STAGES]
+        rest = 100 * (1 - f["mesher"] / sum(parts))
+        rows.append([
+            f["order"], f"{f['tetrahedra']:,}", *(number(t, ".3f") for t in parts), number(f["mesher"], ".3f"),
+            f"{rest:.0f} %", number(f["pipe"], ".3f"), number(f["pipe_file"], ".3f"),
+        ])
+    text = (
+        "A coated ring, stages alone, from file to file. TetGen meshes one wedge, everything that is written comes out "
+        "of `rotassemble`: the higher the order, the less there is for TetGen."
+    )
+    return ["", "## Where the time goes in large meshes", "", text, "", *table(head, rows)]
+
+
 def failures(rows):
     found = [(r["key"], who, r[f"failure_{who}"]) for r in rows for who in ("pipe", "pipe_off", "direct", "direct_130", "hxt") if r[f"failure_{who}"]]
     if not found:
@@ -186,11 +209,11 @@ def failures(rows):
     return ["## Failures", "", "Cells are category, order, radius-edge, dihedral, volume.", "", *table(["cell", "who", "what"], found)]
 
 
-def page(header, rows, groups, series, fits, pictures):
+def page(header, rows, groups, series, large, fits, pictures):
     """The page's text."""
     lines = introduction(header, rows)
     for name in pictures:
         lines += [f"![{CAPTIONS[name]}]({name})", ""]
     if rows:
         lines += ["## Table", "", *main_table(groups), *variants(groups, rows), *stages(groups, rows), *hxt(groups, rows), *failures(rows)]
-    return "\n".join(lines + scaling(series, fits)).rstrip() + "\n"
+    return "\n".join(lines + scaling(series, fits) + shares(large)).rstrip() + "\n"

@@ -132,7 +132,7 @@ def scaling(lines):
     """Series name to its points, sorted, with the stages' times."""
     series = {name: [] for name in SERIES}
     for record in lines:
-        if record["kind"] != "scaling" or "failure" in record or "failure" in record["pipe"]:
+        if record["kind"] != "scaling" or record["series"] not in series or "failure" in record or "failure" in record["pipe"]:
             continue
         stages = {s: m["seconds"] for s, m in record["stages"].items()}
         best = record.get("file", record["null"])
@@ -153,6 +153,27 @@ def scaling(lines):
     for points in series.values():
         points.sort(key=lambda p: p["x"])
     return series
+
+
+def shares(lines):
+    """Where the time goes: per stage, and in the mesher, of one body of each order in two sizes."""
+    found = []
+    for record in lines:
+        if record["kind"] != "scaling" or "failure" in record or not record["series"].startswith("share-"):
+            continue
+        last = record.get("file", record["null"])
+        if "failure" in last or "failure" in record["pipe"]:
+            continue
+        stages = {s: m["seconds"] for s, m in record["stages"].items()}
+        found.append({
+            "order": int(record["series"].removeprefix("share-")),
+            "tetrahedra": record["tetrahedra"],
+            "stages": {**stages, "rotassemble": last["seconds"]},
+            "mesher": record["mesher_seconds"],
+            "pipe": record["pipe"]["seconds"],
+            "pipe_file": record.get("pipe_file", {}).get("seconds"),
+        })
+    return sorted(found, key=lambda s: (s["order"], s["tetrahedra"]))
 
 
 def exponents(points):
@@ -216,9 +237,9 @@ def write(lines, folder):
         shown = {name: (SERIES[name], points) for name, points in series.items() if len(points) > 1}
         save("scaling.svg", plots.scaling(shown))
         pictures.append("scaling.svg")
-    data = {"header": header, "table": table, "scaling": series, "exponents": fits, "cells": rows}
+    data = {"header": header, "table": table, "scaling": series, "shares": shares(lines), "exponents": fits, "cells": rows}
     # One line per entry, so that versions can be compared.
     entry = lambda value: ",\n".join(json.dumps(v) for v in value)
     parts = [f'"{k}": [\n{entry(v)}\n]' if isinstance(v, list) else f'"{k}": {json.dumps(v)}' for k, v in data.items()]
     save("results.json", "{\n" + ",\n".join(parts) + "\n}\n")
-    save("README.md", markdown.page(header, rows, table, series, fits, pictures))
+    save("README.md", markdown.page(header, rows, table, series, data["shares"], fits, pictures))

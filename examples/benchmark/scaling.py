@@ -7,6 +7,7 @@ four, LEVELS times, and writes binary STL.
 import json
 import os
 import shutil
+import statistics
 import struct
 import sys
 
@@ -29,10 +30,13 @@ VOLUMES = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 2.6e-8)
 QUICK_VOLUMES = (1e-5, 1e-6, 3e-7)
 # Elements over 1 / volume, roughly.
 ELEMENTS_PER_VOLUME = 5.6
+# Where the time goes: orders of the body, and for each the largest volumes that give about 1 and 20 million elements.
+SHARES = {4: (7e-6, 1.55e-7), 16: (7e-4, 2.5e-7), 128: (1e-3, 3e-7)}
+QUICK_SHARES = {16: (7e-4,)}
 
 
 def run(options, results, make_body, quick):
-    """Measures the three series as far as they are not measured yet."""
+    """Measures the series as far as they are not measured yet."""
     folder = os.path.join(options.out, "work")
     for order in QUICK_ORDER if quick else ORDER:
         arguments = ["ring", "--order", str(order)]
@@ -45,6 +49,12 @@ def run(options, results, make_body, quick):
             elements = Elements(1.4, 10, volume)
             arguments = ["ring", "--order", str(OUTPUT_ORDER)]
             point(options, results, make_body, folder, "output", volume, arguments, elements)
+    for order, volumes in (QUICK_SHARES if quick else SHARES).items():
+        for volume in volumes:
+            if ELEMENTS_PER_VOLUME / volume <= 1e6 * options.largest:
+                elements = Elements(1.4, 10, volume)
+                arguments = ["ring", "--order", str(order)]
+                point(options, results, make_body, folder, f"share-{order}", volume, arguments, elements)
     shutil.rmtree(folder, ignore_errors=True)
 
 
@@ -77,6 +87,8 @@ def measure_point(options, record, pipe, folder):
         if not runs[name].ok:
             record["failure"] = f"{name}: {runs[name].summary()['failure']}"
             return
+        if name == "tetwedge":
+            record["mesher_seconds"] = statistics.median(map(contestants.mesher_seconds, runs[name].runs))
     counts = count(options, folder)
     record.update(counts)
     # Legacy VTK: 28 bytes a tetrahedron with its region, 24 a vertex.

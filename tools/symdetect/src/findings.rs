@@ -8,6 +8,7 @@ use crate::order::{Rotation, deviation_measured};
 use crate::placement;
 use crate::shape::Motion;
 use crate::summary::OrderResidual;
+use crate::threads;
 use crate::verify::Depth;
 use glam::{DMat3, DVec3};
 use tmesh::{Axis, Frame, Isometry, OtherAxis, RejectedOrder, Symmetry};
@@ -227,27 +228,26 @@ impl Job<'_> {
             });
         };
         // A few tests tell which ones are worth more.
-        let mut measured: Vec<RejectedOrder> = (2..=most)
+        let orders: Vec<u32> = (2..=most)
             .filter(|m| !n.is_multiple_of(*m))
             // Of a body of revolution all others are alike.
             .filter(|m| !found.axisymmetric || multiple(*m))
-            .map(|m| {
-                let rough = measure(m, ROUGH);
-                match rough.residual > self.params.tolerance {
-                    true => rough,
-                    false => measure(m, CLOSE),
-                }
-            })
             .collect();
+        let threads = self.params.threads;
+        let mut measured = threads::map(&orders, threads, |&m| {
+            let rough = measure(m, ROUGH);
+            match rough.residual > self.params.tolerance {
+                true => rough,
+                false => measure(m, CLOSE),
+            }
+        });
         nearest_first(&mut measured);
         let mut place = 0;
         measured.retain(|r| {
             place += 1;
             multiple(r.order) || place <= 2 * MOST_REJECTED
         });
-        for r in &mut measured {
-            *r = measure(r.order, CLOSE);
-        }
+        measured = threads::map(&measured, threads, |r| measure(r.order, CLOSE));
         nearest_first(&mut measured);
         let nearest = measured.clone();
         let mut kept: Vec<RejectedOrder> = (measured.iter())
@@ -260,10 +260,17 @@ impl Job<'_> {
             }
         }
         // So far only those near to holding are exact.
-        for r in kept.iter_mut().filter(|r| r.residual > FAR_OFF) {
-            let exact = deviation_measured(self.shape, &found.frame, r.order, CLOSE, 1.0);
-            r.residual = exact.value / found.radius;
-        }
+        kept = threads::map(&kept, threads, |r| {
+            let exact = || deviation_measured(self.shape, &found.frame, r.order, CLOSE, 1.0);
+            let residual = match r.residual > FAR_OFF {
+                true => exact().value / found.radius,
+                false => r.residual,
+            };
+            RejectedOrder {
+                residual,
+                ..r.clone()
+            }
+        });
         kept.sort_by_key(|r| r.order);
         kept
     }

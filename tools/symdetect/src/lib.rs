@@ -29,6 +29,7 @@ mod shape;
 mod summary;
 mod svg;
 mod swing;
+mod threads;
 mod verify;
 
 #[cfg(test)]

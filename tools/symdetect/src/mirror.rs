@@ -5,6 +5,7 @@ use crate::order::{Limits, Rotation, powers};
 use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::shape::{Motion, Shape, Target};
+use crate::threads;
 use crate::verify::{Depth, Deviation, turn_matrix};
 use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
@@ -76,8 +77,10 @@ pub fn find_turned(
         }
         sum
     };
-    let angle = |i: usize| period * i as f64 / steps as f64;
-    let scores: Vec<f64> = (0..steps).map(|i| score(angle(i))).collect();
+    let angles: Vec<f64> = (0..steps)
+        .map(|i| period * i as f64 / steps as f64)
+        .collect();
+    let scores = threads::map(&angles, shape.threads, |&angle| score(angle));
     let mut candidates: Vec<usize> = (0..steps)
         .filter(|&i| {
             let s = scores[i];
@@ -90,7 +93,7 @@ pub fn find_turned(
     let bound = limits.bound(*radius);
     let mut best: Option<Found> = None;
     for i in candidates {
-        let (s, c) = libm::sincos(angle(i));
+        let (s, c) = libm::sincos(angles[i]);
         let x = frame.rotation * DVec3::new(c, s, 0.0);
         let Some(turned) = Frame::from_axis(frame.origin, frame.rotation.z_axis, x) else {
             continue;

@@ -4,6 +4,7 @@ use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::samples::{Random, Sample};
 use crate::shape::{Motion, Shape, Target};
+use crate::threads;
 use crate::verify::{Bound, Depth, Deviation, Operation, Place, golden_rotations};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -256,10 +257,11 @@ struct Search<'a> {
 impl Search<'_> {
     /// Orders that a few samples do not rule out, increasing. Regions do not count here.
     fn scan(&self, frame: &Frame, limit: f64, outliers: f64) -> Vec<u32> {
-        self.orders
-            .clone()
-            .filter(|&n| self.limits.admit(n) && self.passes(frame, n, limit, outliers))
-            .collect()
+        let orders: Vec<u32> = self.orders.clone().collect();
+        let passes = |&n: &u32| self.limits.admit(n) && self.passes(frame, n, limit, outliers);
+        let passed = threads::map(&orders, self.shape.threads, passes);
+        let passed = orders.into_iter().zip(passed).filter(|(_, passed)| *passed);
+        passed.map(|(n, _)| n).collect()
     }
 
     fn passes(&self, frame: &Frame, n: u32, limit: f64, outliers: f64) -> bool {

@@ -4,10 +4,10 @@ use crate::permutation::Permutation;
 use crate::samples::{Random, Sample};
 use crate::shape::{Motion, NO_CLASS, Shape, Target};
 use crate::swing::Swing;
+use crate::threads::in_parts;
 use glam::{DMat3, DVec3};
 use rustc_hash::FxHashMap;
-use std::panic::resume_unwind;
-use std::thread;
+use std::ops::Range;
 use tmesh::{Frame, Isometry};
 
 /// A deviation and where it was found.
@@ -244,7 +244,7 @@ impl Shape {
         bound: Bound,
         job: impl Fn(usize) -> (&'a Sample, &'a Operation) + Sync,
     ) -> Result<Deviation, Deviation> {
-        let run = |range: std::ops::Range<usize>| {
+        let run = |range: Range<usize>| {
             let mut worst = Deviation::NONE;
             for i in range {
                 let (sample, operation) = job(i);
@@ -272,30 +272,7 @@ impl Shape {
             } else {
                 self.threads
             };
-            let step = (end - first).div_ceil(parts);
-            let range = |p: usize| (first + p * step).min(end)..(first + (p + 1) * step).min(end);
-            let results: Vec<Result<Deviation, Deviation>> = if parts == 1 {
-                vec![run(first..end)]
-            } else {
-                thread::scope(|scope| {
-                    let run = &run;
-                    let handles: Vec<_> = (1..parts)
-                        .map(|p| {
-                            let range = range(p);
-                            thread::Builder::new().spawn_scoped(scope, move || run(range))
-                        })
-                        .collect();
-                    let mut all = vec![run(range(0))];
-                    for (p, handle) in (1..parts).zip(handles) {
-                        all.push(match handle {
-                            Ok(handle) => handle.join().unwrap_or_else(|e| resume_unwind(e)),
-                            // Where no thread is to be had, it goes without.
-                            Err(_) => run(range(p)),
-                        });
-                    }
-                    all
-                })
-            };
+            let results = in_parts(first..end, parts, run);
             for result in results {
                 worst = worst.max(result?);
             }

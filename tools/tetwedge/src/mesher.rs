@@ -346,8 +346,7 @@ fn template(
     let (done, past) = attempt(document, index, params, &eased, sizes, log)?;
     let count = done.filled.template.tets.len();
     let improved = done.filled.improved.unwrap_or_default();
-    let many =
-        improved.past >= SOME && improved.past as f64 > (TOO_MANY + SPOILED * past) * count as f64;
+    let many = is_many(&done.filled, past);
     let few = 1..=1.max((FEW * count as f64) as usize);
     let unlucky = count <= SMALL && few.contains(&improved.low);
     if done.advice.is_some() || !(many || unlucky) {
@@ -381,6 +380,14 @@ fn template(
     Ok(if better { tight } else { done })
 }
 
+/// Whether so many elements were left past the radius-edge bound that the mesh is worth another one, `past` being
+/// the part of the mesher's elements that are past its own.
+fn is_many(filled: &Filled, past: f64) -> bool {
+    let left = filled.improved.unwrap_or_default().past;
+    let count = filled.template.tets.len() as f64;
+    left >= SOME && left as f64 > (TOO_MANY + SPOILED * past) * count
+}
+
 /// Meshes a template as `mesher` says and improves it as `params` does; also gives the part of the
 /// mesher's tetrahedra that are past its radius-edge bound.
 fn attempt(
@@ -395,7 +402,6 @@ fn attempt(
     let ((done, past), failed) = persist(index, params, log, |number, deadline| {
         let attempt = (number, deadline);
         let answer = run(document, index, mesher, sizes, attempt, preserve, log)?;
-        let past = past_bound(&answer.mesh, mesher);
         let filled = fill(document, index, &answer.plc, &answer.mesh, params, sizes)?;
         if let Some(done) = filled.improved {
             log(&format!(
@@ -415,6 +421,11 @@ fn attempt(
                 filled.dropped
             ));
         }
+        // Only looked at where many are left; see `is_many`.
+        let past = match is_many(&filled, 0.0) {
+            true => past_bound(&answer.mesh, mesher),
+            false => 0.0,
+        };
         let done = Done {
             filled,
             switches: answer.switches,
