@@ -29,7 +29,7 @@ OUTPUT_ORDER = 128
 VOLUMES = (1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 2.6e-8)
 QUICK_VOLUMES = (1e-5, 1e-6, 3e-7)
 # Elements over 1 / volume, roughly.
-ELEMENTS_PER_VOLUME = 5.6
+ELEMENTS_PER_VOLUME = 5.1
 # Where the time goes: orders of the body, and for each the largest volumes that give about 1 and 20 million elements.
 SHARES = {4: (7e-6, 1.55e-7), 16: (7e-4, 2.5e-7), 128: (1e-3, 3e-7)}
 QUICK_SHARES = {16: (7e-4,)}

@@ -188,6 +188,35 @@ fn a_hub_that_crosses_layers_and_holds_an_interface() {
     assert_eq!((regions(0), regions(1)), (1, 3));
 }
 
+/// The hub keeps its surface when it is filled; where that spoils an element, another surface is tried. Each of these
+/// bodies had one element, in 4 to 16 copies, with half the angle asked for.
+#[test]
+fn the_surface_of_a_hub_spoils_no_element() {
+    for (order, thickness, ratio, volume) in [
+        (20, 0.02, "1.7", "0.01"),
+        (32, 0.005, "1.4", "0.001"),
+        (56, 0.005, "1.7", "0.01"),
+    ] {
+        let body = Tsv {
+            order,
+            core: 0.2,
+            thickness,
+            height: 1.0,
+            radius: 1.0,
+            tessellation: Tessellation::Symmetric,
+        }
+        .build();
+        let sizes = ["-q", "--radius-edge", ratio, "--max-volume", volume];
+        let cut = run("wedgecut", &sizes, &found(&body)).success();
+        assert_eq!(read(&cut).templates.len(), 2, "order {order}: no hub");
+        let bounds = [&sizes[..], &["--min-dihedral", "15"]].concat();
+        let filled = run("tetwedge", &bounds, &cut).success();
+        let least = ["-q", "--check", "--fail-below=min_dihedral_deg=15"];
+        let checked = run("meshqual", &least, &filled);
+        assert_eq!(checked.code, 0, "order {order}: {}", checked.stderr);
+    }
+}
+
 /// Smallest angles on the axis are not those of a wedge of 180/n degrees, and the count is near the
 /// whole body's (a wedge of the order found has seven times as many elements).
 #[test]

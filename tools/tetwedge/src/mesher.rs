@@ -5,7 +5,7 @@ use crate::diagnose::{Chatter, failure};
 use crate::fill::{Filled, NONE, fill};
 use crate::params::switches;
 use crate::plc::{DESCRIPTIONS, Plc};
-use crate::surface::{Other, impose, make};
+use crate::surface::{GUIDE_EASED, Other, impose, make};
 use crate::walls::leader;
 use crate::{Error, Params, Sizes};
 use geom::tet::TetMeasures;
@@ -54,8 +54,9 @@ pub fn tetrahedralize(
     }
     for (index, lead) in leaders.iter().enumerate() {
         if let Some(lead) = lead.and_then(|l| slots[l].as_ref()) {
-            document.templates[index] = follow(&document, index, &lead.filled, params, log)?;
-            slots[index] = Some(template(&document, index, params, &sizes, log)?);
+            let (surface, done) = follower(&document, index, &lead.filled, params, &sizes, log)?;
+            document.templates[index] = surface;
+            slots[index] = Some(done);
         }
     }
     // Every slot is filled: a leader has no leader.
@@ -150,6 +151,47 @@ fn all(
         .into_iter()
         .filter_map(|slot| slot.into_inner().unwrap_or(None))
         .collect()
+}
+
+/// Meshes a template that shares faces with one that was meshed before; returns its surface, too. The surface is
+/// kept, so that single bad elements may be its fault: then another one is tried.
+fn follower(
+    document: &Document,
+    index: usize,
+    lead: &Filled,
+    params: &Params,
+    sizes: &Sizes,
+    log: &(dyn Fn(&str) + Sync),
+) -> Result<(Template, Done), Error> {
+    let begun = Instant::now();
+    let mesh = |surface: &Params, params: &Params| {
+        let mut document = document.clone();
+        document.templates[index] = follow(&document, index, lead, surface, log)?;
+        let done = template(&document, index, params, sizes, log)?;
+        Ok((document.templates.swap_remove(index), done))
+    };
+    let least = |done: &Done| done.filled.improved.unwrap_or_default().least;
+    let first = mesh(params, params)?;
+    if first.1.advice.is_some() || !is_unlucky(&first.1.filled) {
+        return Ok(first);
+    }
+    let Some(again) = params.once_more(begun) else {
+        return Ok(first);
+    };
+    log(&format!(
+        "template {index}: an angle of {:.1} degrees is left; once more with another surface",
+        least(&first.1)
+    ));
+    // A guide without its bound eased.
+    let tighter = Params {
+        radius_edge: again.radius_edge / GUIDE_EASED,
+        ..again.clone()
+    };
+    match mesh(&tighter, &again) {
+        Ok(second) if least(&second.1) > least(&first.1) => Ok(second),
+        Err(error) if error.is_from_outside() => Err(error),
+        _ => Ok(first),
+    }
 }
 
 /// Gives a template the faces that it shares with one that was meshed before, and makes the rest of
@@ -347,9 +389,7 @@ fn template(
     let count = done.filled.template.tets.len();
     let improved = done.filled.improved.unwrap_or_default();
     let many = is_many(&done.filled, past);
-    let few = 1..=1.max((FEW * count as f64) as usize);
-    let unlucky = count <= SMALL && few.contains(&improved.low);
-    if done.advice.is_some() || !(many || unlucky) {
+    if done.advice.is_some() || !(many || is_unlucky(&done.filled)) {
         return Ok(done);
     }
     let Some(params) = params.once_more(begun) else {
@@ -386,6 +426,14 @@ fn is_many(filled: &Filled, past: f64) -> bool {
     let left = filled.improved.unwrap_or_default().past;
     let count = filled.template.tets.len() as f64;
     left >= SOME && left as f64 > (TOO_MANY + SPOILED * past) * count
+}
+
+/// Whether there are so few elements with an angle smaller than was asked for that they are chance.
+fn is_unlucky(filled: &Filled) -> bool {
+    let low = filled.improved.unwrap_or_default().low;
+    let count = filled.template.tets.len();
+    let few = 1..=1.max((FEW * count as f64) as usize);
+    count <= SMALL && few.contains(&low)
 }
 
 /// Meshes a template as `mesher` says and improves it as `params` does; also gives the part of the

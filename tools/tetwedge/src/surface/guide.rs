@@ -29,7 +29,7 @@ pub struct Refined {
 /// the template is filled and its worst elements are improved, and a guide that insists on it only multiplies
 /// points: on wheels of saw teeth (orders 2 to 30, bound 1.4) this takes up to a quarter of the elements away
 /// and leaves at most 1.7 % past the bound.
-const EASED: f64 = 1.12;
+pub const EASED: f64 = 1.12;
 
 /// With this part of the guide's tetrahedra past the eased bound and more, the shape does not allow
 /// much better elements near its sharp places, and the bound itself leaves fewer past it ...
