@@ -16,6 +16,9 @@ RANKS ?= 4
 # The Python that has dolfinx.
 PYTHON ?= python3
 MPIRUN ?= mpirun
+# Open MPI refuses more ranks than there are cores unless it is told not to.
+OMPI_MCA_rmaps_base_oversubscribe ?= 1
+export OMPI_MCA_rmaps_base_oversubscribe
 
 WEDGECUT_FLAGS = --max-volume $(VOLUME)
 TETWEDGE_FLAGS = --max-volume $(VOLUME)

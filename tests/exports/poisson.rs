@@ -28,10 +28,9 @@ fn dolfinx_reads_volumes_and_names_on_several_ranks() {
         .arg(format!("PYTHON={python}"))
         .arg(format!("BIN={}/", tools.expect("a folder").display()))
         .arg(format!("BODY={}", generator().display()))
-        // Open MPI as root, and on fewer processors than ranks.
+        // Open MPI as root.
         .env("OMPI_ALLOW_RUN_AS_ROOT", "1")
         .env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
-        .env("OMPI_MCA_rmaps_base_oversubscribe", "1")
         .env("OMP_NUM_THREADS", "1")
         .env_remove("MAKEFLAGS")
         .env_remove("MAKELEVEL")
