@@ -1,4 +1,8 @@
-//! How many threads a tool may use.
+//! How many threads a tool may use, and work shared between them.
+
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 /// Threads that pay at most.
 const MOST: usize = 16;
@@ -21,5 +25,58 @@ impl ThreadArgs {
 
 /// Threads that the machine runs at once, up to 16.
 pub fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST))
+    thread::available_parallelism().map_or(1, |n| n.get().min(MOST))
+}
+
+/// What `work` makes of each item, in their order, of up to `threads` items at the same time. Where no thread is to
+/// be had, it goes without.
+pub fn in_parallel<A: Sync, T: Send>(
+    items: &[A],
+    threads: usize,
+    work: impl Fn(&A) -> T + Sync,
+) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let share = || {
+        let mut done = Vec::new();
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            match items.get(place) {
+                Some(item) => done.push((place, work(item))),
+                None => return done,
+            }
+        }
+    };
+    let mut done = thread::scope(|scope| {
+        let others: Vec<_> = (1..threads.min(items.len()))
+            .map_while(|_| thread::Builder::new().spawn_scoped(scope, share).ok())
+            .collect();
+        let mut done = share();
+        for other in others {
+            done.extend(other.join().unwrap_or_else(|e| resume_unwind(e)));
+        }
+        done
+    });
+    done.sort_unstable_by_key(|(place, _)| *place);
+    done.into_iter().map(|(_, made)| made).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn items_keep_their_order() {
+        let items: Vec<u32> = (0..370).collect();
+        let squares: Vec<u32> = items.iter().map(|i| i * i).collect();
+        for threads in [0, 1, 2, 3, 50] {
+            assert_eq!(in_parallel(&items, threads, |i| i * i), squares);
+        }
+        assert!(in_parallel(&items[..0], 4, |i| *i).is_empty());
+    }
+
+    #[test]
+    #[should_panic(expected = "item 3")]
+    fn a_panic_is_passed_on() {
+        in_parallel(&[1, 2, 3], 2, |i| assert!(*i != 3, "item {i}"));
+    }
 }

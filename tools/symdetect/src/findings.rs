@@ -8,9 +8,9 @@ use crate::order::{Rotation, deviation_measured};
 use crate::placement;
 use crate::shape::Motion;
 use crate::summary::OrderResidual;
-use crate::threads;
 use crate::verify::Depth;
 use glam::{DMat3, DVec3};
+use kit::in_parallel;
 use tmesh::{Axis, Frame, Isometry, OtherAxis, RejectedOrder, Symmetry};
 
 /// Other axes listed at most.
@@ -234,7 +234,7 @@ impl Job<'_> {
             .filter(|m| !found.axisymmetric || multiple(*m))
             .collect();
         let threads = self.params.threads;
-        let mut measured = threads::map(&orders, threads, |&m| {
+        let mut measured = in_parallel(&orders, threads, |&m| {
             let rough = measure(m, ROUGH);
             match rough.residual > self.params.tolerance {
                 true => rough,
@@ -247,7 +247,7 @@ impl Job<'_> {
             place += 1;
             multiple(r.order) || place <= 2 * MOST_REJECTED
         });
-        measured = threads::map(&measured, threads, |r| measure(r.order, CLOSE));
+        measured = in_parallel(&measured, threads, |r| measure(r.order, CLOSE));
         nearest_first(&mut measured);
         let nearest = measured.clone();
         let mut kept: Vec<RejectedOrder> = (measured.iter())
@@ -260,7 +260,7 @@ impl Job<'_> {
             }
         }
         // So far only those near to holding are exact.
-        kept = threads::map(&kept, threads, |r| {
+        kept = in_parallel(&kept, threads, |r| {
             let exact = || deviation_measured(self.shape, &found.frame, r.order, CLOSE, 1.0);
             let residual = match r.residual > FAR_OFF {
                 true => exact().value / found.radius,

@@ -29,7 +29,6 @@ mod shape;
 mod summary;
 mod svg;
 mod swing;
-mod threads;
 mod verify;
 
 #[cfg(test)]

@@ -5,9 +5,9 @@ use crate::order::{Limits, Rotation, powers};
 use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::shape::{Motion, Shape, Target};
-use crate::threads;
 use crate::verify::{Depth, Deviation, turn_matrix};
 use glam::{DMat3, DVec3};
+use kit::in_parallel;
 use std::f64::consts::PI;
 use tmesh::{Frame, Isometry};
 
@@ -80,7 +80,7 @@ pub fn find_turned(
     let angles: Vec<f64> = (0..steps)
         .map(|i| period * i as f64 / steps as f64)
         .collect();
-    let scores = threads::map(&angles, shape.threads, |&angle| score(angle));
+    let scores = in_parallel(&angles, shape.threads, |&angle| score(angle));
     let mut candidates: Vec<usize> = (0..steps)
         .filter(|&i| {
             let s = scores[i];

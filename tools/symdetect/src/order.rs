@@ -4,9 +4,9 @@ use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::samples::{Random, Sample};
 use crate::shape::{Motion, Shape, Target};
-use crate::threads;
 use crate::verify::{Bound, Depth, Deviation, Operation, Place, golden_rotations};
 use glam::DVec3;
+use kit::in_parallel;
 use rustc_hash::FxHashMap;
 use std::ops::RangeInclusive;
 use tmesh::{Frame, Isometry};
@@ -259,7 +259,7 @@ impl Search<'_> {
     fn scan(&self, frame: &Frame, limit: f64, outliers: f64) -> Vec<u32> {
         let orders: Vec<u32> = self.orders.clone().collect();
         let passes = |&n: &u32| self.limits.admit(n) && self.passes(frame, n, limit, outliers);
-        let passed = threads::map(&orders, self.shape.threads, passes);
+        let passed = in_parallel(&orders, self.shape.threads, passes);
         let passed = orders.into_iter().zip(passed).filter(|(_, passed)| *passed);
         passed.map(|(n, _)| n).collect()
     }

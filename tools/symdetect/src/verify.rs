@@ -4,8 +4,8 @@ use crate::permutation::Permutation;
 use crate::samples::{Random, Sample};
 use crate::shape::{Motion, NO_CLASS, Shape, Target};
 use crate::swing::Swing;
-use crate::threads::in_parts;
 use glam::{DMat3, DVec3};
+use kit::in_parallel;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 use tmesh::{Frame, Isometry};
@@ -244,9 +244,9 @@ impl Shape {
         bound: Bound,
         job: impl Fn(usize) -> (&'a Sample, &'a Operation) + Sync,
     ) -> Result<Deviation, Deviation> {
-        let run = |range: Range<usize>| {
+        let run = |range: &Range<usize>| {
             let mut worst = Deviation::NONE;
-            for i in range {
+            for i in range.clone() {
                 let (sample, operation) = job(i);
                 let (value, passes) = self.test(sample, operation, bound);
                 let deviation = Deviation {
@@ -272,8 +272,10 @@ impl Shape {
             } else {
                 self.threads
             };
-            let results = in_parts(first..end, parts, run);
-            for result in results {
+            let step = (end - first).div_ceil(parts);
+            let ranges = (first..end).step_by(step);
+            let ranges: Vec<_> = ranges.map(|i| i..(i + step).min(end)).collect();
+            for result in in_parallel(&ranges, parts, run) {
                 worst = worst.max(result?);
             }
             first = end;

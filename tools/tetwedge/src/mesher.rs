@@ -5,13 +5,12 @@ use crate::diagnose::{Chatter, failure};
 use crate::fill::{Filled, NONE, fill};
 use crate::params::switches;
 use crate::plc::{DESCRIPTIONS, Plc};
-use crate::surface::{GUIDE_EASED, Other, impose, make};
+use crate::surface::{Guide, Other, impose, make};
 use crate::walls::leader;
 use crate::{Error, Params, Sizes};
 use geom::tet::TetMeasures;
 use glam::DVec3;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use kit::in_parallel;
 use std::time::Instant;
 use tetgen_sys::{Limits, Mesh};
 use tmesh::{Document, Template, Wall};
@@ -46,10 +45,9 @@ pub fn tetrahedralize(
     let leaders: Vec<Option<usize>> = (0..count).map(|i| leader(&document, i)).collect();
     let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
     let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
-    for (&index, done) in first
-        .iter()
-        .zip(all(&document, &first, params, &sizes, log))
-    {
+    let mesh = |&index: &usize| template(&document, index, params, &sizes, log);
+    let meshed = in_parallel(&first, params.threads, mesh);
+    for (&index, done) in first.iter().zip(meshed) {
         slots[index] = Some(done?);
     }
     for (index, lead) in leaders.iter().enumerate() {
@@ -119,40 +117,6 @@ pub fn tetrahedralize(
     })
 }
 
-/// Meshes the listed templates, several at a time.
-fn all(
-    document: &Document,
-    list: &[usize],
-    params: &Params,
-    sizes: &Sizes,
-    log: &(dyn Fn(&str) + Sync),
-) -> Vec<Result<Done, Error>> {
-    let next = AtomicUsize::new(0);
-    let results: Vec<Mutex<Option<Result<Done, Error>>>> =
-        list.iter().map(|_| Mutex::new(None)).collect();
-    let work = || {
-        while let Some(place) = Some(next.fetch_add(1, Ordering::Relaxed))
-            && let (Some(&index), Some(slot)) = (list.get(place), results.get(place))
-        {
-            let result = template(document, index, params, sizes, log);
-            if let Ok(mut slot) = slot.lock() {
-                *slot = Some(result);
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 1..params.threads.min(list.len()) {
-            scope.spawn(work);
-        }
-        work();
-    });
-    // Every slot is filled: each worker ends only when there is no template left.
-    results
-        .into_iter()
-        .filter_map(|slot| slot.into_inner().unwrap_or(None))
-        .collect()
-}
-
 /// Meshes a template that shares faces with one that was meshed before; returns its surface, too. The surface is
 /// kept, so that single bad elements may be its fault: then another one is tried.
 fn follower(
@@ -164,14 +128,14 @@ fn follower(
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<(Template, Done), Error> {
     let begun = Instant::now();
-    let mesh = |surface: &Params, params: &Params| {
+    let mesh = |guide: Guide, params: &Params| {
         let mut document = document.clone();
-        document.templates[index] = follow(&document, index, lead, surface, log)?;
+        follow(&mut document, index, lead, params, guide, log)?;
         let done = template(&document, index, params, sizes, log)?;
         Ok((document.templates.swap_remove(index), done))
     };
     let least = |done: &Done| done.filled.improved.unwrap_or_default().least;
-    let first = mesh(params, params)?;
+    let first = mesh(Guide::Eased, params)?;
     if first.1.advice.is_some() || !is_unlucky(&first.1.filled) {
         return Ok(first);
     }
@@ -182,12 +146,7 @@ fn follower(
         "template {index}: an angle of {:.1} degrees is left; once more with another surface",
         least(&first.1)
     ));
-    // A guide without its bound eased.
-    let tighter = Params {
-        radius_edge: again.radius_edge / GUIDE_EASED,
-        ..again.clone()
-    };
-    match mesh(&tighter, &again) {
+    match mesh(Guide::Exact, &again) {
         Ok(second) if least(&second.1) > least(&first.1) => Ok(second),
         Err(error) if error.is_from_outside() => Err(error),
         _ => Ok(first),
@@ -197,32 +156,32 @@ fn follower(
 /// Gives a template the faces that it shares with one that was meshed before, and makes the rest of
 /// its surface fit them.
 fn follow(
-    document: &Document,
+    document: &mut Document,
     index: usize,
     lead: &Filled,
     params: &Params,
+    guide: Guide,
     log: &(dyn Fn(&str) + Sync),
-) -> Result<Template, Error> {
+) -> Result<(), Error> {
     let other = Other {
         template: &lead.template,
         vertices: &lead.vertices,
         triangles: &lead.shared,
     };
-    let mut document = document.clone();
     document.templates[index] =
-        impose(&document, index, &other).map_err(|what| Error::Unusable {
+        impose(document, index, &other).map_err(|what| Error::Unusable {
             template: index,
             what,
         })?;
     if params.quality {
-        match make(&document, index, params, log) {
-            Ok(made) => return Ok(made.template),
+        match make(document, index, params, guide, log) {
+            Ok(made) => document.templates[index] = made.template,
             Err(error) => log(&format!(
                 "template {index}: {error}; its other faces are divided only where the shared one is"
             )),
         }
     }
-    Ok(document.templates.swap_remove(index))
+    Ok(())
 }
 
 /// Renumbers the second members; returns whether one has no counterpart.
@@ -240,6 +199,8 @@ struct Done {
     preserved: bool,
     /// Descriptions that failed before.
     failed: usize,
+    /// Whether so many elements are left past the radius-edge bound that the mesh is worth another one.
+    many: bool,
 }
 
 /// TetGen's answer for one template.
@@ -378,24 +339,23 @@ fn template(
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Done, Error> {
     if !params.quality || params.optimize.is_none() {
-        return Ok(attempt(document, index, params, params, sizes, log)?.0);
+        return attempt(document, index, params, params, sizes, log);
     }
     let eased = Params {
         radius_edge: EASED * params.radius_edge,
         ..params.clone()
     };
     let begun = Instant::now();
-    let (done, past) = attempt(document, index, params, &eased, sizes, log)?;
+    let done = attempt(document, index, params, &eased, sizes, log)?;
     let count = done.filled.template.tets.len();
     let improved = done.filled.improved.unwrap_or_default();
-    let many = is_many(&done.filled, past);
-    if done.advice.is_some() || !(many || is_unlucky(&done.filled)) {
+    if done.advice.is_some() || !(done.many || is_unlucky(&done.filled)) {
         return Ok(done);
     }
     let Some(params) = params.once_more(begun) else {
         return Ok(done);
     };
-    let why = match many {
+    let why = match done.many {
         true => format!("{} are past the radius-edge bound", improved.past),
         false => format!(
             "{} have an angle below {}, the smallest {:.1} degrees",
@@ -406,26 +366,26 @@ fn template(
         "template {index}: of {count} tetrahedra {why}; once more without the radius-edge bound eased"
     ));
     let tight = match attempt(document, index, &params, &params, sizes, log) {
-        Ok((tight, _)) => tight,
+        Ok(tight) => tight,
         Err(error) if error.is_from_outside() => return Err(error),
         Err(_) => return Ok(done),
     };
     let again = tight.filled.improved.unwrap_or_default();
     let share = |past: usize, count: usize| past as f64 / count.max(1) as f64;
     // A mesh that is no better only has more elements.
-    let better = match many {
+    let better = match done.many {
         true => share(again.past, tight.filled.template.tets.len()) < share(improved.past, count),
         false => again.least > improved.least,
     };
     Ok(if better { tight } else { done })
 }
 
-/// Whether so many elements were left past the radius-edge bound that the mesh is worth another one, `past` being
-/// the part of the mesher's elements that are past its own.
-fn is_many(filled: &Filled, past: f64) -> bool {
+/// Whether more elements were left past the radius-edge bound than `past`, the part of the mesher's elements that are
+/// past its own, explains. That part is looked at only where it decides.
+fn is_many(filled: &Filled, past: impl FnOnce() -> f64) -> bool {
     let left = filled.improved.unwrap_or_default().past;
-    let count = filled.template.tets.len() as f64;
-    left >= SOME && left as f64 > (TOO_MANY + SPOILED * past) * count
+    let share = left as f64 / filled.template.tets.len().max(1) as f64;
+    left >= SOME && share > TOO_MANY && share > TOO_MANY + SPOILED * past()
 }
 
 /// Whether there are so few elements with an angle smaller than was asked for that they are chance.
@@ -436,8 +396,7 @@ fn is_unlucky(filled: &Filled) -> bool {
     count <= SMALL && few.contains(&low)
 }
 
-/// Meshes a template as `mesher` says and improves it as `params` does; also gives the part of the
-/// mesher's tetrahedra that are past its radius-edge bound.
+/// Meshes a template as `mesher` says and improves it as `params` does.
 fn attempt(
     document: &Document,
     index: usize,
@@ -445,9 +404,9 @@ fn attempt(
     mesher: &Params,
     sizes: &Sizes,
     log: &(dyn Fn(&str) + Sync),
-) -> Result<(Done, f64), Error> {
+) -> Result<Done, Error> {
     let preserve = |plc: &Plc| plc.faces.preserve();
-    let ((done, past), failed) = persist(index, params, log, |number, deadline| {
+    let (done, failed) = persist(index, params, log, |number, deadline| {
         let attempt = (number, deadline);
         let answer = run(document, index, mesher, sizes, attempt, preserve, log)?;
         let filled = fill(document, index, &answer.plc, &answer.mesh, params, sizes)?;
@@ -469,21 +428,17 @@ fn attempt(
                 filled.dropped
             ));
         }
-        // Only looked at where many are left; see `is_many`.
-        let past = match is_many(&filled, 0.0) {
-            true => past_bound(&answer.mesh, mesher),
-            false => 0.0,
-        };
-        let done = Done {
+        let many = is_many(&filled, || past_bound(&answer.mesh, mesher));
+        Ok(Done {
             filled,
             switches: answer.switches,
             advice: answer.advice,
             preserved: answer.plc.faces.preserve(),
             failed: 0,
-        };
-        Ok((done, past))
+            many,
+        })
     })?;
-    Ok((Done { failed, ..done }, past))
+    Ok(Done { failed, ..done })
 }
 
 /// The part of a mesh that is past the radius-edge bound.

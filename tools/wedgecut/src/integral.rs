@@ -4,10 +4,8 @@
 //! with the samples of sizes that matter in it.
 
 use glam::DVec2;
+use kit::in_parallel;
 use std::ops::Range;
-use std::panic;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
 
 /// How fast element sizes grow with the distance from a feature.
 pub const GROWTH: f64 = 0.35;
@@ -106,35 +104,16 @@ impl Integral {
     /// Over all parts of a section, with the sizes that samples ask for. Does not depend on the number of
     /// threads.
     pub fn over(parts: &[Part], samples: &[Sample], classes: Classes, threads: usize) -> Self {
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let mut done = Vec::new();
-            loop {
-                let group = next.fetch_add(1, Ordering::Relaxed);
-                if group >= GROUPS.min(parts.len()) {
-                    return done;
-                }
-                let mut sums = Self::zero();
-                let mut near = Near::new(samples, classes.extent);
-                for part in parts.iter().skip(group).step_by(GROUPS) {
-                    sums.add_part(part, &mut near, classes);
-                }
-                done.push((group, sums));
+        let groups: Vec<usize> = (0..GROUPS.min(parts.len())).collect();
+        let of_group = |&group: &usize| {
+            let mut sums = Self::zero();
+            let mut near = Near::new(samples, classes.extent);
+            for part in parts.iter().skip(group).step_by(GROUPS) {
+                sums.add_part(part, &mut near, classes);
             }
+            sums
         };
-        let mut groups = thread::scope(|scope| {
-            // Where no thread is to be had, it goes without.
-            let others: Vec<_> = (1..threads.min(GROUPS).min(parts.len()))
-                .map_while(|_| thread::Builder::new().spawn_scoped(scope, work).ok())
-                .collect();
-            let mut groups = work();
-            for other in others {
-                groups.extend(other.join().unwrap_or_else(|e| panic::resume_unwind(e)));
-            }
-            groups
-        });
-        groups.sort_unstable_by_key(|(group, _)| *group);
-        let mut sums = groups.into_iter().map(|(_, sums)| sums);
+        let mut sums = in_parallel(&groups, threads, of_group).into_iter();
         let mut all = sums.next().unwrap_or_else(Self::zero);
         sums.for_each(|s| all.add(&s));
         all
