@@ -12,7 +12,7 @@ mod cli;
 pub use cli::Cli;
 pub use tetwedge::{Params, SurfaceError};
 
-use tetwedge::{Guide, Other, impose, make};
+use tetwedge::{Other, impose, make};
 use tmesh::{Document, Template, Wall};
 
 /// Sentences about what was done, for the history and the user.
@@ -49,7 +49,7 @@ pub fn prepare(
             // It follows another one.
             continue;
         }
-        let made = make(&document, index, params, Guide::Eased, log)?;
+        let made = make(&document, index, params, log)?;
         document.templates[index] = made.template;
         report.add(index, &document.templates[index]);
         for follower in 0..document.templates.len() {
@@ -65,7 +65,7 @@ pub fn prepare(
                         what,
                     })?;
                 document.templates[follower] = given;
-                let made = make(&document, follower, params, Guide::Eased, log)?;
+                let made = make(&document, follower, params, log)?;
                 document.templates[follower] = made.template;
                 report.add(follower, &document.templates[follower]);
             }

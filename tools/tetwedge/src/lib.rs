@@ -29,7 +29,7 @@ pub use elements::ElementArgs;
 pub use error::{Error, Place, RegionName};
 pub use mesher::{Meshed, tetrahedralize};
 pub use params::{DEFAULT_OPTIMIZE, Params, RegionSize, Sizes, volume_of_edge};
-pub use surface::{Guide, Made, Other, SurfaceError, impose, make};
+pub use surface::{Made, Other, SurfaceError, impose, make};
 
 #[cfg(test)]
 mod bodies;

@@ -5,7 +5,7 @@ use crate::diagnose::{Chatter, failure};
 use crate::fill::{Filled, NONE, fill};
 use crate::params::switches;
 use crate::plc::{DESCRIPTIONS, Plc};
-use crate::surface::{Guide, Other, impose, make};
+use crate::surface::{GUIDE_EASED, Other, impose, make};
 use crate::walls::leader;
 use crate::{Error, Params, Sizes};
 use geom::tet::TetMeasures;
@@ -128,14 +128,14 @@ fn follower(
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<(Template, Done), Error> {
     let begun = Instant::now();
-    let mesh = |guide: Guide, params: &Params| {
+    let mesh = |surface: &Params, params: &Params| {
         let mut document = document.clone();
-        follow(&mut document, index, lead, params, guide, log)?;
+        follow(&mut document, index, lead, surface, log)?;
         let done = template(&document, index, params, sizes, log)?;
         Ok((document.templates.swap_remove(index), done))
     };
     let least = |done: &Done| done.filled.improved.unwrap_or_default().least;
-    let first = mesh(Guide::Eased, params)?;
+    let first = mesh(params, params)?;
     if first.1.advice.is_some() || !is_unlucky(&first.1.filled) {
         return Ok(first);
     }
@@ -146,7 +146,13 @@ fn follower(
         "template {index}: an angle of {:.1} degrees is left; once more with another surface",
         least(&first.1)
     ));
-    match mesh(Guide::Exact, &again) {
+    // One step tighter: the bound itself where it was eased for the guide, and beyond it where the bound itself was
+    // not enough. The mesher may add a limited number of points.
+    let tighter = Params {
+        radius_edge: again.radius_edge / GUIDE_EASED,
+        ..again.clone()
+    };
+    match mesh(&tighter, &again) {
         Ok(second) if least(&second.1) > least(&first.1) => Ok(second),
         Err(error) if error.is_from_outside() => Err(error),
         _ => Ok(first),
@@ -160,7 +166,6 @@ fn follow(
     index: usize,
     lead: &Filled,
     params: &Params,
-    guide: Guide,
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<(), Error> {
     let other = Other {
@@ -174,7 +179,7 @@ fn follow(
             what,
         })?;
     if params.quality {
-        match make(document, index, params, guide, log) {
+        match make(document, index, params, log) {
             Ok(made) => document.templates[index] = made.template,
             Err(error) => log(&format!(
                 "template {index}: {error}; its other faces are divided only where the shared one is"

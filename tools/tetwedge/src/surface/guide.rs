@@ -29,7 +29,7 @@ pub struct Refined {
 /// the template is filled and its worst elements are improved, and a guide that insists on it only multiplies
 /// points: on wheels of saw teeth (orders 2 to 30, bound 1.4) this takes up to a quarter of the elements away
 /// and leaves at most 1.7 % past the bound.
-const EASED: f64 = 1.12;
+pub const EASED: f64 = 1.12;
 
 /// With this part of the guide's tetrahedra past the eased bound and more, the shape does not allow
 /// much better elements near its sharp places, and the bound itself leaves fewer past it ...
@@ -42,15 +42,6 @@ const HARD: f64 = 0.05;
 /// Fewer tetrahedra past the bound are not worth another guide.
 const FEW: f64 = 4.0;
 
-/// What a guide does about the radius-edge bound.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Guide {
-    /// It is eased, unless that leaves bad elements.
-    Eased,
-    /// It stays as it is.
-    Exact,
-}
-
 /// Meshes template `index` as asked by `params`, but free to put points on every facet, and gives
 /// the surface of that mesh. No facet joins wall faces with anything else, nor the two faces of a
 /// seam.
@@ -61,12 +52,8 @@ pub fn refine(
     document: &Document,
     index: usize,
     params: &Params,
-    guide: Guide,
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Refined, Error> {
-    if guide == Guide::Exact {
-        return Ok(attempt(document, index, params, log)?.0);
-    }
     let eased = Params {
         radius_edge: EASED * params.radius_edge,
         ..params.clone()

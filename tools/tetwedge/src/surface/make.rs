@@ -1,7 +1,7 @@
 //! The new surface of a template with a seam, or with a face that another template has refined.
 
 use super::features::{Features, NONE};
-use super::guide::{Guide, refine};
+use super::guide::refine;
 use super::outline::{merged, same};
 use super::planar::Patch;
 use super::{Refined, SurfaceError, check};
@@ -33,7 +33,6 @@ pub fn make(
     document: &Document,
     index: usize,
     params: &Params,
-    guide: Guide,
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Made, SurfaceError> {
     let input = &document.templates[index];
@@ -46,7 +45,7 @@ pub fn make(
         optimize: None,
         ..params.clone()
     };
-    let guide = refine(document, index, &params, guide, log)?;
+    let guide = refine(document, index, &params, log)?;
     let features = Features::new(input, index, &guide)?;
     let mut frozen = vec![false; guide.facets.facets.len()];
     for wall in &input.walls {

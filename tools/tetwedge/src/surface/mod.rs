@@ -22,6 +22,6 @@ mod outline;
 mod planar;
 
 pub use error::SurfaceError;
-pub use guide::{Guide, Refined};
+pub use guide::{EASED as GUIDE_EASED, Refined};
 pub use impose::{Other, impose};
 pub use make::{Made, make};
