@@ -18,4 +18,4 @@ pub use messages::MessageFormat;
 pub use output::{Closed, Output};
 pub use run::{Command, main};
 pub use session::{Progress, Session};
-pub use threads::{ThreadArgs, available_threads, in_parallel};
+pub use threads::{ThreadArgs, available_threads, both, in_parallel};

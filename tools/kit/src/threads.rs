@@ -60,6 +60,26 @@ pub fn in_parallel<A: Sync, T: Send>(
     done.into_iter().map(|(_, made)| made).collect()
 }
 
+/// What two pieces of work make, at the same time if there may be more threads than one and another one is to be had.
+pub fn both<A: Send, B>(
+    threads: usize,
+    first: impl Fn() -> A + Sync,
+    second: impl FnOnce() -> B,
+) -> (A, B) {
+    thread::scope(|scope| {
+        let other = (threads > 1)
+            .then(|| thread::Builder::new().spawn_scoped(scope, &first).ok())
+            .flatten();
+        match other {
+            Some(other) => {
+                let b = second();
+                (other.join().unwrap_or_else(|e| resume_unwind(e)), b)
+            }
+            None => (first(), second()),
+        }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -72,6 +92,13 @@ mod tests {
             assert_eq!(in_parallel(&items, threads, |i| i * i), squares);
         }
         assert!(in_parallel(&items[..0], 4, |i| *i).is_empty());
+    }
+
+    #[test]
+    fn both_are_done() {
+        for threads in [0, 1, 2] {
+            assert_eq!(both(threads, || 2 * 21, || "other"), (42, "other"));
+        }
     }
 
     #[test]

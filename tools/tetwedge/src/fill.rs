@@ -184,7 +184,12 @@ fn refine(
         scale: plc.scale,
         share: SHARE,
     };
-    Some(improve(&mut filled.template, &freedoms, &wish))
+    Some(improve(
+        &mut filled.template,
+        &freedoms,
+        &wish,
+        params.threads,
+    ))
 }
 
 /// Numbers for the points that the mesh uses: the template's own in their order there, then new ones.

@@ -7,6 +7,7 @@
 
 use super::LEAST;
 use super::mesh::{Corners, Mesh};
+use arrayvec::ArrayVec;
 use geom::tet::{EDGES, FACES};
 
 /// Tetrahedra around an edge that is removed, at most. Larger rings hardly ever give better ones.
@@ -14,27 +15,42 @@ const RING: usize = 7;
 /// The smallest quality has to grow by this part.
 const GAIN: f64 = 1e-2;
 
-/// Replaces one tetrahedron and some of its neighbours by better ones; returns whether that was
-/// possible.
-pub fn flip(mesh: &mut Mesh<'_>, tet: u32) -> bool {
+/// Most tetrahedra in the place of those around an edge.
+const FILLING: usize = 2 * (RING - 2);
+
+/// Tetrahedra, and those that are better in their place.
+pub struct Flip {
+    old: Ring,
+    new: ArrayVec<Corners, FILLING>,
+}
+
+impl Flip {
+    /// Puts the better ones in their place.
+    pub fn apply(&self, mesh: &mut Mesh<'_>) {
+        mesh.replace(&self.old, &self.new);
+    }
+}
+
+/// What could replace one tetrahedron and some of its neighbours. Depends on what there is at its corners only.
+pub fn find(mesh: &Mesh<'_>, tet: u32) -> Option<Flip> {
     let corners = mesh.corners(tet);
     EDGES
         .iter()
-        .any(|&[i, j]| remove_edge(mesh, tet, corners[i], corners[j]))
-        || FACES
-            .iter()
-            .enumerate()
-            .any(|(i, face)| remove_face(mesh, tet, corners[i], face.map(|j| corners[j])))
+        .find_map(|&[i, j]| remove_edge(mesh, tet, corners[i], corners[j]))
+        .or_else(|| {
+            let mut faces = FACES.iter().enumerate();
+            faces.find_map(|(i, face)| {
+                remove_face(mesh, tet, corners[i], face.map(|j| corners[j]))
+            })
+        })
 }
 
 /// Removes the edge from `a` to `b` of a tetrahedron.
-fn remove_edge(mesh: &mut Mesh<'_>, tet: u32, a: u32, b: u32) -> bool {
+fn remove_edge(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Flip> {
     if mesh.is_fixed_edge(a, b) {
-        return false;
+        return None;
     }
-    let Some((old, ring)) = ring(mesh, tet, a, b) else {
-        return false;
-    };
+    let (old, ring) = ring(mesh, tet, a, b)?;
     let (above, most) = mesh.bounds(&old, GAIN, LEAST);
     let region = mesh.region(tet);
     let n = ring.len();
@@ -80,10 +96,10 @@ fn remove_edge(mesh: &mut Mesh<'_>, tet: u32, a: u32, b: u32) -> bool {
         }
     }
     if best[0][n - 1] <= above {
-        return false;
+        return None;
     }
-    let mut new = Vec::with_capacity(2 * (n - 2));
-    let mut open = vec![(0, n - 1)];
+    let mut new = ArrayVec::new();
+    let mut open = ArrayVec::<_, RING>::from_iter([(0, n - 1)]);
     while let Some((i, j)) = open.pop() {
         if j - i >= 2 {
             let k = apex[i][j];
@@ -91,18 +107,20 @@ fn remove_edge(mesh: &mut Mesh<'_>, tet: u32, a: u32, b: u32) -> bool {
             open.extend([(i, k), (k, j)]);
         }
     }
-    mesh.replace(&old, &new);
-    true
+    Some(Flip { old, new })
 }
+
+/// Tetrahedra or vertices around an edge.
+type Ring = ArrayVec<u32, RING>;
 
 /// The tetrahedra around an inner edge of a region, and the vertices around it, counter-clockwise seen
 /// from `b`.
-fn ring(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<(Vec<u32>, Vec<u32>)> {
+fn ring(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<(Ring, Ring)> {
     let region = mesh.region(tet);
-    let mut old = Vec::with_capacity(RING);
+    let mut old = Ring::new();
     for &t in mesh.star(a) {
         if mesh.corners(t).contains(&b) {
-            if old.len() == RING || mesh.region(t) != region {
+            if old.is_full() || mesh.region(t) != region {
                 return None;
             }
             old.push(t);
@@ -111,12 +129,12 @@ fn ring(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<(Vec<u32>, Vec<u32>
     if old.len() < 3 {
         return None;
     }
-    let mut steps = Vec::with_capacity(RING);
+    let mut steps = ArrayVec::<_, RING>::new();
     for &t in &old {
         steps.push(opposite_side(mesh.corners(t), a, b)?);
     }
     let first = steps[0][0];
-    let mut around = Vec::with_capacity(RING);
+    let mut around = Ring::new();
     let mut here = first;
     for _ in 0..steps.len() {
         around.push(here);
@@ -144,22 +162,18 @@ fn opposite_side(corners: Corners, a: u32, b: u32) -> Option<[u32; 2]> {
 }
 
 /// Removes the face opposite to `top` of a tetrahedron, for an edge to the other side's apex.
-fn remove_face(mesh: &mut Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> bool {
+fn remove_face(mesh: &Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> Option<Flip> {
     if mesh.is_fixed_face(face) {
-        return false;
+        return None;
     }
     let region = mesh.region(tet);
     let other = mesh.star(face[0]).iter().copied().find(|&t| {
         let corners = mesh.corners(t);
         t != tet && face.iter().all(|v| corners.contains(v))
     });
-    let Some(other) = other.filter(|&t| mesh.region(t) == region) else {
-        return false;
-    };
+    let other = other.filter(|&t| mesh.region(t) == region)?;
     let apex = mesh.corners(other).into_iter().find(|v| !face.contains(v));
-    let Some(bottom) = apex else {
-        return false;
-    };
+    let bottom = apex?;
     let old = [tet, other];
     let (above, most) = mesh.bounds(&old, GAIN, LEAST);
     // The face is counter-clockwise seen from the bottom.
@@ -168,8 +182,8 @@ fn remove_face(mesh: &mut Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> bool 
         let grade = mesh.of_corners(corners);
         grade.quality > above && mesh.fits(region, grade.six_volume, most)
     });
-    if good {
-        mesh.replace(&old, &new);
-    }
-    good
+    good.then(|| Flip {
+        old: old.into_iter().collect(),
+        new: new.into_iter().collect(),
+    })
 }

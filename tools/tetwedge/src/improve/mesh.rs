@@ -1,14 +1,16 @@
 //! Tetrahedra that are replaced and vertices that are moved while the mesh is improved.
 
 use super::quality::{Goal, Grade};
+use super::stars::Stars;
 use glam::DVec3;
+use kit::both;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Template, Tet, Triangle};
 
 /// A tetrahedron, given by the places of its corners.
 pub type Corners = [u32; 4];
 
-/// The tetrahedra around each vertex, kept up to date.
+/// Tetrahedra with their grades and the stars of their vertices, kept up to date.
 pub struct Mesh<'a> {
     /// Positions, scaled to be near one.
     pub positions: Vec<DVec3>,
@@ -17,45 +19,29 @@ pub struct Mesh<'a> {
     goal: Goal,
     tets: Vec<Tet>,
     grades: Vec<Grade>,
-    /// Prefix offsets into `around`, one more than there are vertices.
-    offsets: Vec<u32>,
-    around: Vec<u32>,
-    /// What has come instead of a part of `around`.
-    changed: FxHashMap<u32, Vec<u32>>,
+    stars: Stars,
     /// Faces and edges inside of a region that are part of the surface.
     fixed_faces: FxHashSet<[u32; 3]>,
     fixed_edges: FxHashSet<[u32; 2]>,
 }
 
 impl<'a> Mesh<'a> {
-    /// Takes over the tetrahedra of a template. Linear.
+    /// Takes over the tetrahedra of a template, on two threads if there are so many. Linear.
     pub fn new(
         template: &Template,
         scale: f64,
         goal: Goal,
         limits: &'a FxHashMap<u32, f64>,
+        threads: usize,
     ) -> Self {
         let positions: Vec<DVec3> = template.vertices.iter().map(|&p| p * scale).collect();
         let tets = template.tets.clone();
-        let mut offsets = vec![0_u32; positions.len() + 1];
-        for &v in tets.iter().flat_map(|t| &t.vertices) {
-            offsets[v as usize + 1] += 1;
-        }
-        for i in 1..offsets.len() {
-            offsets[i] += offsets[i - 1];
-        }
-        let mut next = offsets.clone();
-        let mut around = vec![0; 4 * tets.len()];
-        for (i, t) in tets.iter().enumerate() {
-            for &v in &t.vertices {
-                around[next[v as usize] as usize] = i as u32;
-                next[v as usize] += 1;
-            }
-        }
-        let grades = tets
-            .iter()
-            .map(|t| goal.grade(t.vertices.map(|v| positions[v as usize])))
-            .collect();
+        let grade = |t: &Tet| goal.grade(t.vertices.map(|v| positions[v as usize]));
+        let (grades, stars) = both(
+            threads,
+            || tets.iter().map(grade).collect(),
+            || Stars::new(positions.len(), &tets),
+        );
         let inner = template.triangles.iter().filter(|t| t.front == t.back);
         let fixed_faces: FxHashSet<_> = inner.map(|t: &Triangle| sorted(t.vertices)).collect();
         let fixed_edges = fixed_faces
@@ -68,9 +54,7 @@ impl<'a> Mesh<'a> {
             goal,
             tets,
             grades,
-            offsets,
-            around,
-            changed: FxHashMap::default(),
+            stars,
             fixed_faces,
             fixed_edges,
         }
@@ -103,13 +87,18 @@ impl<'a> Mesh<'a> {
 
     /// Tetrahedra at a vertex.
     pub fn star(&self, v: u32) -> &[u32] {
-        match self.changed.get(&v) {
-            Some(list) => list,
-            None => {
-                let [from, to] = [0, 1].map(|i| self.offsets[v as usize + i] as usize);
-                &self.around[from..to]
-            }
-        }
+        self.stars.of(v)
+    }
+
+    /// Begins a new time, for [`Self::is_touched`].
+    pub fn renew(&mut self) {
+        self.stars.renew();
+    }
+
+    /// Whether anything about the tetrahedra at a vertex has changed since [`Self::renew`]: which ones they are,
+    /// their numbers, their corners or where these are.
+    pub fn is_touched(&self, v: u32) -> bool {
+        self.stars.is_touched(v)
     }
 
     /// Grades four points as a tetrahedron.
@@ -119,7 +108,9 @@ impl<'a> Mesh<'a> {
 
     /// Grades four vertices as a tetrahedron.
     pub fn of_corners(&self, corners: Corners) -> Grade {
-        self.goal.grade(corners.map(|v| self.positions[v as usize]))
+        let at = |v: u32| self.positions[v as usize];
+        let [a, b, c, d] = corners;
+        self.goal.grade([at(a), at(b), at(c), at(d)])
     }
 
     /// Whether a size is within the limit of a region, or below what there was before.
@@ -158,7 +149,9 @@ impl<'a> Mesh<'a> {
 
     /// Grades a tetrahedron anew.
     pub fn regrade(&mut self, tet: u32) {
-        self.grades[tet as usize] = self.of_corners(self.corners(tet));
+        let corners = self.corners(tet);
+        self.grades[tet as usize] = self.of_corners(corners);
+        corners.into_iter().for_each(|v| self.stars.touch(v));
     }
 
     /// Puts other tetrahedra in the place of some of the same region.
@@ -169,7 +162,7 @@ impl<'a> Mesh<'a> {
         let region = self.region(first);
         for &tet in old {
             for v in self.corners(tet) {
-                self.list(v).retain(|&t| t != tet);
+                self.stars.remove(v, tet);
             }
         }
         // Places that are left over are filled from the end.
@@ -187,27 +180,19 @@ impl<'a> Mesh<'a> {
             self.tets[place as usize] = Tet { vertices, region };
             self.regrade(place);
             for v in vertices {
-                self.list(v).push(place);
+                self.stars.push(v, place);
             }
         }
         for &hole in gone.iter().skip(new.len()).rev() {
             let last = self.tets.len() as u32 - 1;
             if hole != last {
                 for v in self.corners(last) {
-                    for t in self.list(v).iter_mut().filter(|t| **t == last) {
-                        *t = hole;
-                    }
+                    self.stars.rename(v, last, hole);
                 }
             }
             self.tets.swap_remove(hole as usize);
             self.grades.swap_remove(hole as usize);
         }
-    }
-
-    fn list(&mut self, v: u32) -> &mut Vec<u32> {
-        let [from, to] = [0, 1].map(|i| self.offsets[v as usize + i] as usize);
-        let around = &self.around[from..to];
-        self.changed.entry(v).or_insert_with(|| around.to_vec())
     }
 }
 

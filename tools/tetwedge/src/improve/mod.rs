@@ -6,17 +6,20 @@
 //! Vertices on facets, walls and straight edges move along them, so shape, walls and the
 //! triangulation of the surface stay.
 
+mod ahead;
 mod flip;
 mod freedom;
 mod mesh;
 mod quality;
 mod smooth;
+mod stars;
 
 #[cfg(test)]
 mod tests;
 
 pub use freedom::{Flats, Freedoms};
 
+use ahead::Count;
 use geom::tet::TetMeasures;
 use mesh::Mesh;
 use quality::Goal;
@@ -72,8 +75,14 @@ pub struct Improved {
     pub flipped: usize,
 }
 
-/// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay.
-pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) -> Improved {
+/// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay. The number of
+/// threads makes no difference to the result.
+pub fn improve(
+    template: &mut Template,
+    freedoms: &Freedoms,
+    wish: &Wish<'_>,
+    threads: usize,
+) -> Improved {
     let goal = Goal::new(wish.angle, wish.radius_edge);
     let cube = 6.0 * wish.scale.powi(3);
     let limits: FxHashMap<u32, f64> = wish
@@ -81,7 +90,7 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         .iter()
         .map(|(&r, &v)| (r, v * cube))
         .collect();
-    let mut mesh = Mesh::new(template, wish.scale, goal, &limits);
+    let mut mesh = Mesh::new(template, wish.scale, goal, &limits, threads);
     let mut done = Improved::default();
     let most = (mesh.len() as f64 * wish.share) as usize;
     let mut last = f64::INFINITY;
@@ -100,26 +109,10 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         last = now;
         bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         bad.truncate(most);
-        let before = done;
-        for (quality, tet) in bad {
-            // Something else may have taken its place.
-            if tet as usize >= mesh.len() || mesh.grade(tet).quality != quality {
-                continue;
-            }
-            if flip::flip(&mut mesh, tet) {
-                done.flipped += 1;
-                continue;
-            }
-            for v in mesh.corners(tet) {
-                if smooth::smooth(&mut mesh, freedoms, v) {
-                    done.moved += 1;
-                }
-                if mesh.grade(tet).quality >= 1.0 {
-                    break;
-                }
-            }
-        }
-        if before == done {
+        let count = ahead::work(&mut mesh, freedoms, &bad, threads);
+        done.moved += count.moved;
+        done.flipped += count.flipped;
+        if count == Count::default() {
             break;
         }
     }

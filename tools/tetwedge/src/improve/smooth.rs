@@ -79,12 +79,34 @@ impl Star<'_, '_> {
     }
 }
 
-/// Moves a vertex; returns whether it is better there. The tetrahedra at it are graded anew.
-pub fn smooth(mesh: &mut Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> bool {
+/// A better place for a vertex.
+pub struct Move {
+    vertex: u32,
+    to: DVec3,
+    /// Its partner on a seam, and the place for that.
+    partner: Option<(u32, DVec3)>,
+    /// All tetrahedra that move with it.
+    tets: Vec<u32>,
+}
+
+impl Move {
+    /// Moves the vertex. The tetrahedra at it are graded anew.
+    pub fn apply(&self, mesh: &mut Mesh<'_>) {
+        mesh.put(self.vertex, self.to);
+        if let Some((other, to)) = self.partner {
+            mesh.put(other, to);
+        }
+        self.tets.iter().for_each(|&tet| mesh.regrade(tet));
+    }
+}
+
+/// A better place for a vertex, or for the one that it moves with. Depends on what there is at it and at its partner
+/// only.
+pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
     let vertex = freedoms.mover(vertex);
     let directions: Vec<DVec3> = freedoms.of(vertex).directions().collect();
     if directions.is_empty() {
-        return false;
+        return None;
     }
     let partner = freedoms.partner(vertex);
     let mut tets = mesh.star(vertex).to_vec();
@@ -93,28 +115,21 @@ pub fn smooth(mesh: &mut Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> bool {
         tets.sort_unstable();
         tets.dedup();
     }
-    let found = {
-        let before = tets.iter().map(|&t| mesh.grade(t).six_volume).collect();
-        let star = Star {
-            mesh,
-            freedoms,
-            vertex,
-            tets,
-            before,
-        };
-        climb(&star, &directions).map(|p| (p, star.tets))
+    let before = tets.iter().map(|&t| mesh.grade(t).six_volume).collect();
+    let star = Star {
+        mesh,
+        freedoms,
+        vertex,
+        tets,
+        before,
     };
-    let Some((p, tets)) = found else {
-        return false;
-    };
-    mesh.put(vertex, p);
-    if let Some((other, turn)) = partner {
-        mesh.put(other, turn.apply(p));
-    }
-    for tet in tets {
-        mesh.regrade(tet);
-    }
-    true
+    let to = climb(&star, &directions)?;
+    Some(Move {
+        vertex,
+        to,
+        partner: partner.map(|(other, turn)| (other, turn.apply(to))),
+        tets: star.tets,
+    })
 }
 
 /// The best place found for the vertex, if it is better than where it is.

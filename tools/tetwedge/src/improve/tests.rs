@@ -1,14 +1,28 @@
-use super::flip::flip;
+use super::flip;
 use super::freedom::Freedom;
 use super::mesh::Mesh;
 use super::quality::Goal;
-use super::smooth::smooth;
+use super::smooth;
 use super::{Flats, Freedoms, Wish, improve};
 use geom::measure::tet_volume;
 use geom::tet::TetMeasures;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Isometry, OUTSIDE, Seam, Template, Tet, Triangle, Wall};
+
+/// Does what is found to replace a tetrahedron, if anything.
+fn flip(mesh: &mut Mesh<'_>, tet: u32) -> bool {
+    let found = flip::find(mesh, tet);
+    found.iter().for_each(|f| f.apply(mesh));
+    found.is_some()
+}
+
+/// Moves a vertex to the better place found, if any.
+fn smooth(mesh: &mut Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> bool {
+    let found = smooth::find(mesh, freedoms, vertex);
+    found.iter().for_each(|m| m.apply(mesh));
+    found.is_some()
+}
 
 /// Tetrahedra around the edge from (0, 0, -h) to (0, 0, h), with `ring` vertices on a unit circle.
 fn ring(ring: usize, h: f64) -> Template {
@@ -47,7 +61,7 @@ fn long_edges_are_removed() {
     for n in [3, 4, 5, 6, 7] {
         let template = ring(n, 4.0);
         let before = volume(&template, &template.tets);
-        let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+        let mut mesh = Mesh::new(&template, 1.0, goal, &limits, 1);
         let worst = mesh.grade(0).quality;
         assert!(worst < 1.0);
         let removed = flip(&mut mesh, 0);
@@ -57,13 +71,13 @@ fn long_edges_are_removed() {
         assert!(tets.iter().all(|t| t.region == 7));
         assert!((volume(&template, &tets) - before).abs() < 1e-12);
         let again = Template { tets, ..template };
-        let mesh = Mesh::new(&again, 1.0, goal, &limits);
+        let mesh = Mesh::new(&again, 1.0, goal, &limits, 1);
         let grades = (0..mesh.len() as u32).map(|t| mesh.grade(t).quality);
         assert!(grades.fold(f64::INFINITY, f64::min) > worst);
     }
     // Nothing that could take its place is better.
     let flat = ring(6, 0.6);
-    let mut mesh = Mesh::new(&flat, 1.0, goal, &limits);
+    let mut mesh = Mesh::new(&flat, 1.0, goal, &limits, 1);
     assert!(!flip(&mut mesh, 0));
     assert_eq!(mesh.into_tets(), flat.tets);
 }
@@ -82,20 +96,20 @@ fn faces_of_the_surface_and_sizes_are_respected() {
             back: 7,
         });
     }
-    let mut mesh = Mesh::new(&template, 1.0, goal, &none);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &none, 1);
     assert!(!flip(&mut mesh, 0));
     template.triangles.clear();
     // Another region beyond.
     template.tets[2].region = 8;
-    let mut mesh = Mesh::new(&template, 1.0, goal, &none);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &none, 1);
     assert!(!flip(&mut mesh, 0));
     // Two that are larger than the three before.
     let template = ring(3, 4.0);
     let limits = FxHashMap::from_iter([(7, 1.0)]);
-    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &limits, 1);
     assert!(!flip(&mut mesh, 0));
     let limits = FxHashMap::from_iter([(7, 12.0), (8, 1.0)]);
-    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &limits, 1);
     assert!(flip(&mut mesh, 0));
 }
 
@@ -166,7 +180,7 @@ fn inner_vertices_go_to_the_middle() {
     let kinds: Vec<_> = (0..7).map(|v| freedoms.of(v)).collect();
     assert_eq!(kinds[0], Freedom::Free);
     assert!(kinds[1..].iter().all(|&k| k == Freedom::Fixed));
-    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &limits, 1);
     let least = |mesh: &Mesh<'_>| {
         (0..8)
             .map(|t| mesh.grade(t).quality)

@@ -1,0 +1,129 @@
+//! Looks for what makes tetrahedra better on several threads, and does it in their order.
+//!
+//! What is to be done with a tetrahedron depends on what there is at its corners. So it is found for many of them on
+//! the mesh as it is, and then done one after the other; where something at a corner was changed by one before,
+//! it is found anew. The result is that of one thread, to the last bit.
+
+use super::flip::{self, Flip};
+use super::freedom::Freedoms;
+use super::mesh::Mesh;
+use super::smooth::{self, Move};
+use kit::in_parallel;
+
+/// Tetrahedra looked at together, as a part of the vertices: few of them have corners in common with what is changed
+/// before them.
+const PART: usize = 400;
+
+/// Fewer than these at a time are not worth further threads.
+const FEWEST: usize = 128;
+
+/// Tetrahedra that a thread takes at a time.
+const SHARE: usize = 16;
+
+/// A bad tetrahedron: its quality, and its number.
+pub type Bad = (f64, u32);
+
+/// What makes a tetrahedron better.
+pub enum Step {
+    /// Others in the place of some.
+    Flip(Flip),
+    /// A corner elsewhere, by its number from 0 to 3.
+    Move(usize, Move),
+}
+
+/// How often something was done.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub struct Count {
+    pub moved: usize,
+    pub flipped: usize,
+}
+
+/// Makes tetrahedra better, those that are still there with the same quality when it is their turn.
+pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], threads: usize) -> Count {
+    let mut count = Count::default();
+    let at_once = mesh.positions.len() / PART;
+    if threads <= 1 || at_once < FEWEST {
+        for &(quality, tet) in bad {
+            if is_there(mesh, quality, tet) {
+                let step = find(mesh, freedoms, tet, 0);
+                take(mesh, freedoms, tet, step, &mut count);
+            }
+        }
+        return count;
+    }
+    for some in bad.chunks(at_once) {
+        mesh.renew();
+        let shares: Vec<&[Bad]> = some.chunks(SHARE).collect();
+        let found = in_parallel(&shares, threads, |share| {
+            let step = |&(quality, tet): &Bad| {
+                let there = is_there(mesh, quality, tet);
+                there.then(|| find(mesh, freedoms, tet, 0))
+            };
+            share.iter().map(step).collect::<Vec<_>>()
+        });
+        for (&(quality, tet), step) in some.iter().zip(found.into_iter().flatten()) {
+            if is_there(mesh, quality, tet) {
+                let step = match step {
+                    Some(step) if !is_touched(mesh, freedoms, tet) => step,
+                    _ => find(mesh, freedoms, tet, 0),
+                };
+                take(mesh, freedoms, tet, step, &mut count);
+            }
+        }
+    }
+    count
+}
+
+/// Whether nothing else has taken the place of a tetrahedron.
+fn is_there(mesh: &Mesh<'_>, quality: f64, tet: u32) -> bool {
+    (tet as usize) < mesh.len() && mesh.grade(tet).quality == quality
+}
+
+/// Whether anything changed that [`find`] looks at.
+fn is_touched(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> bool {
+    mesh.corners(tet).into_iter().any(|v| {
+        let mover = freedoms.mover(v);
+        let partner = freedoms.partner(mover);
+        mesh.is_touched(v)
+            || (mover != v && mesh.is_touched(mover))
+            || partner.is_some_and(|(other, _)| mesh.is_touched(other))
+    })
+}
+
+/// The first thing that makes a tetrahedron better. From corner 0, or, after something was moved, further corners.
+fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32, from: usize) -> Option<Step> {
+    let flip = (from == 0).then(|| flip::find(mesh, tet)).flatten();
+    if let Some(flip) = flip {
+        return Some(Step::Flip(flip));
+    }
+    let corners = mesh.corners(tet);
+    (from..4).find_map(|i| {
+        let found = smooth::find(mesh, freedoms, corners[i]);
+        found.map(|m| Step::Move(i, m))
+    })
+}
+
+/// Does what was found for a tetrahedron, and moves further corners while it is not good enough.
+fn take(
+    mesh: &mut Mesh<'_>,
+    freedoms: &Freedoms,
+    tet: u32,
+    mut step: Option<Step>,
+    count: &mut Count,
+) {
+    while let Some(what) = step.take() {
+        match what {
+            Step::Flip(flip) => {
+                flip.apply(mesh);
+                count.flipped += 1;
+            }
+            Step::Move(corner, to) => {
+                to.apply(mesh);
+                count.moved += 1;
+                if mesh.grade(tet).quality < 1.0 && corner < 3 {
+                    step = find(mesh, freedoms, tet, corner + 1);
+                }
+            }
+        }
+    }
+}
