@@ -8,6 +8,7 @@ use crate::walls::{Projection, face_key, on_segments, touching_edges};
 use crate::{Error, Params, Sizes, check};
 use geom::edges::orientation;
 use glam::DVec3;
+use kit::in_parallel;
 use rustc_hash::FxHashMap;
 use tetgen_sys::Mesh;
 use tmesh::{Document, Template, Tet, Triangle, Wall};
@@ -142,7 +143,7 @@ pub fn fill(
     );
     filled.improved = improved;
     let reach = document.frame.origin.length() + plc.extent;
-    orientations(&filled.template, first_new, reach).map_err(&unusable)?;
+    orientations(&filled.template, first_new, reach, params.threads).map_err(&unusable)?;
     check::measures(document, index, plc, &faces, &filled.template).map_err(&unusable)?;
     Ok(filled)
 }
@@ -470,31 +471,44 @@ fn within(intervals: &[[f64; 2]], z: f64) -> bool {
 /// largest face.
 const TURNED: f64 = 16.0;
 
+/// Tetrahedra that a thread looks at, at a time.
+const CHUNK: usize = 1 << 14;
+
 /// All tetrahedra positive, exactly, and still so where their copies are placed: coordinates there are up to
 /// `reach` (model units), and rounded.
-fn orientations(template: &Template, first_new: usize, reach: f64) -> Result<(), String> {
-    let mut bad = 0_usize;
-    let mut first = None;
-    for t in &template.tets {
+fn orientations(
+    template: &Template,
+    first_new: usize,
+    reach: f64,
+    threads: usize,
+) -> Result<(), String> {
+    let bad = |t: &&Tet| {
         let [a, b, c, d] = t.vertices.map(|v| template.vertices[v as usize]);
         let (u, v, w) = (b - a, c - a, d - a);
         let (uv, vw, wu) = (u.cross(v), v.cross(w), w.cross(u));
         let faces = [uv, vw, wu, uv + vw + wu].map(DVec3::length_squared);
         let largest = faces.into_iter().fold(0.0, f64::max).sqrt();
         let safe = uv.dot(w) > TURNED * f64::EPSILON * reach * largest;
-        if !safe || orientation(a, b, c, d) <= 0.0 {
-            bad += 1;
-            first.get_or_insert((a + b + c + d) * 0.25);
-        }
-    }
-    match first {
+        !safe || orientation(a, b, c, d) <= 0.0
+    };
+    let chunks: Vec<&[Tet]> = template.tets.chunks(CHUNK).collect();
+    let found = in_parallel(&chunks, threads, |chunk| {
+        let mut bad = chunk.iter().filter(bad);
+        let first = bad.next();
+        (usize::from(first.is_some()) + bad.count(), first)
+    });
+    let count: usize = found.iter().map(|(count, _)| count).sum();
+    match found.iter().find_map(|(_, first)| *first) {
         None => Ok(()),
-        Some(place) => Err(format!(
-            "{bad} of {} tetrahedra are inverted or flat ({} new vertices), the first near {}",
-            template.tets.len(),
-            template.vertices.len() - first_new,
-            Place(place)
-        )),
+        Some(t) => {
+            let corners = t.vertices.map(|v| template.vertices[v as usize]);
+            Err(format!(
+                "{count} of {} tetrahedra are inverted or flat ({} new vertices), the first near {}",
+                template.tets.len(),
+                template.vertices.len() - first_new,
+                Place(corners.iter().sum::<DVec3>() * 0.25)
+            ))
+        }
     }
 }
 
@@ -512,15 +526,15 @@ mod tests {
             }],
             ..Template::default()
         };
-        assert_eq!(orientations(&flat(1e-9), 4, 1.0), Ok(()));
+        assert_eq!(orientations(&flat(1e-9), 4, 1.0, 1), Ok(()));
         // Positive, but not for coordinates of a million.
-        let told = orientations(&flat(1e-9), 4, 1e6).unwrap_err();
+        let told = orientations(&flat(1e-9), 4, 1e6, 2).unwrap_err();
         assert!(
             told.contains("1 of 1 tetrahedra are inverted or flat"),
             "{told}"
         );
-        assert!(orientations(&flat(0.0), 4, 1.0).is_err());
-        assert!(orientations(&flat(-1.0), 4, 1.0).is_err());
+        assert!(orientations(&flat(0.0), 4, 1.0, 1).is_err());
+        assert!(orientations(&flat(-1.0), 4, 1.0, 1).is_err());
     }
 
     #[test]

@@ -45,7 +45,12 @@ pub fn tetrahedralize(
     let leaders: Vec<Option<usize>> = (0..count).map(|i| leader(&document, i)).collect();
     let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
     let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
-    let mesh = |&index: &usize| template(&document, index, params, &sizes, log);
+    // What is left of the threads is for the work on a single template.
+    let each = Params {
+        threads: (params.threads / first.len().max(1)).max(1),
+        ..params.clone()
+    };
+    let mesh = |&index: &usize| template(&document, index, &each, &sizes, log);
     let meshed = in_parallel(&first, params.threads, mesh);
     for (&index, done) in first.iter().zip(meshed) {
         slots[index] = Some(done?);

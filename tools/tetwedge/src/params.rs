@@ -35,7 +35,7 @@ pub struct Params {
     pub timeout: Option<Duration>,
     /// Memory that the mesher may take for each template, bytes.
     pub max_memory: Option<u64>,
-    /// Templates meshed at the same time, at least 1.
+    /// Threads at most, at least 1: for templates at the same time, or for the work on a large one.
     pub threads: usize,
 }
 

@@ -10,12 +10,13 @@ use super::mesh::Mesh;
 use super::smooth::{self, Move};
 use kit::in_parallel;
 
-/// Tetrahedra looked at together, as a part of the vertices: few of them have corners in common with what is changed
-/// before them.
-const PART: usize = 400;
+/// Tetrahedra looked at together, as a part of the vertices, so that few of them have corners in common with what is
+/// changed before them; and at most, so that what was looked at is at hand when it is done.
+const PART: usize = 200;
+const MOST: usize = 256;
 
 /// Fewer than these at a time are not worth further threads.
-const FEWEST: usize = 128;
+const FEWEST: usize = 64;
 
 /// Tetrahedra that a thread takes at a time.
 const SHARE: usize = 16;
@@ -41,7 +42,7 @@ pub struct Count {
 /// Makes tetrahedra better, those that are still there with the same quality when it is their turn.
 pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], threads: usize) -> Count {
     let mut count = Count::default();
-    let at_once = mesh.positions.len() / PART;
+    let at_once = (mesh.positions.len() / PART).min(MOST);
     if threads <= 1 || at_once < FEWEST {
         for &(quality, tet) in bad {
             if is_there(mesh, quality, tet) {

@@ -7,6 +7,7 @@
 
 use super::LEAST;
 use super::mesh::{Corners, Mesh};
+use super::quality::Grade;
 use arrayvec::ArrayVec;
 use geom::tet::{EDGES, FACES};
 
@@ -21,7 +22,7 @@ const FILLING: usize = 2 * (RING - 2);
 /// Tetrahedra, and those that are better in their place.
 pub struct Flip {
     old: Ring,
-    new: ArrayVec<Corners, FILLING>,
+    new: ArrayVec<(Corners, Grade), FILLING>,
 }
 
 impl Flip {
@@ -39,9 +40,7 @@ pub fn find(mesh: &Mesh<'_>, tet: u32) -> Option<Flip> {
         .find_map(|&[i, j]| remove_edge(mesh, tet, corners[i], corners[j]))
         .or_else(|| {
             let mut faces = FACES.iter().enumerate();
-            faces.find_map(|(i, face)| {
-                remove_face(mesh, tet, corners[i], face.map(|j| corners[j]))
-            })
+            faces.find_map(|(i, face)| remove_face(mesh, tet, corners[i], face.map(|j| corners[j])))
         })
 }
 
@@ -103,7 +102,7 @@ fn remove_edge(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Flip> {
     while let Some((i, j)) = open.pop() {
         if j - i >= 2 {
             let k = apex[i][j];
-            new.extend(pair(i, k, j));
+            new.extend(pair(i, k, j).map(|corners| (corners, mesh.of_corners(corners))));
             open.extend([(i, k), (k, j)]);
         }
     }
@@ -177,13 +176,16 @@ fn remove_face(mesh: &Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> Option<Fl
     let old = [tet, other];
     let (above, most) = mesh.bounds(&old, GAIN, LEAST);
     // The face is counter-clockwise seen from the bottom.
-    let new = [0, 1, 2].map(|i| [face[i], face[(i + 1) % 3], top, bottom]);
-    let good = new.iter().all(|&corners| {
+    let mut new = ArrayVec::new();
+    for i in 0..3 {
+        let corners = [face[i], face[(i + 1) % 3], top, bottom];
         let grade = mesh.of_corners(corners);
-        grade.quality > above && mesh.fits(region, grade.six_volume, most)
-    });
-    good.then(|| Flip {
-        old: old.into_iter().collect(),
-        new: new.into_iter().collect(),
-    })
+        let good = grade.quality > above && mesh.fits(region, grade.six_volume, most);
+        if !good {
+            return None;
+        }
+        new.push((corners, grade));
+    }
+    let old = old.into_iter().collect();
+    Some(Flip { old, new })
 }

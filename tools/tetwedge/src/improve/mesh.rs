@@ -142,20 +142,20 @@ impl<'a> Mesh<'a> {
         !self.fixed_edges.is_empty() && self.fixed_edges.contains(&[a.min(b), a.max(b)])
     }
 
-    /// Moves a vertex; the tetrahedra at it have to be graded anew.
+    /// Moves a vertex; the tetrahedra at it need their new grades.
     pub fn put(&mut self, v: u32, p: DVec3) {
         self.positions[v as usize] = p;
     }
 
-    /// Grades a tetrahedron anew.
-    pub fn regrade(&mut self, tet: u32) {
+    /// Gives a tetrahedron with a moved corner its new grade.
+    pub fn regrade(&mut self, tet: u32, grade: Grade) {
+        self.grades[tet as usize] = grade;
         let corners = self.corners(tet);
-        self.grades[tet as usize] = self.of_corners(corners);
         corners.into_iter().for_each(|v| self.stars.touch(v));
     }
 
-    /// Puts other tetrahedra in the place of some of the same region.
-    pub fn replace(&mut self, old: &[u32], new: &[Corners]) {
+    /// Puts other tetrahedra in the place of some of the same region, with their grades.
+    pub fn replace(&mut self, old: &[u32], new: &[(Corners, Grade)]) {
         let Some(&first) = old.first() else {
             return;
         };
@@ -168,17 +168,20 @@ impl<'a> Mesh<'a> {
         // Places that are left over are filled from the end.
         let mut gone: Vec<u32> = old.to_vec();
         gone.sort_unstable();
-        for (i, &vertices) in new.iter().enumerate() {
+        for (i, &(vertices, grade)) in new.iter().enumerate() {
+            let tet = Tet { vertices, region };
             let place = match gone.get(i) {
-                Some(&place) => place,
+                Some(&place) => {
+                    self.tets[place as usize] = tet;
+                    self.grades[place as usize] = grade;
+                    place
+                }
                 None => {
-                    self.tets.push(Tet { vertices, region });
-                    self.grades.push(self.of_corners(vertices));
+                    self.tets.push(tet);
+                    self.grades.push(grade);
                     self.tets.len() as u32 - 1
                 }
             };
-            self.tets[place as usize] = Tet { vertices, region };
-            self.regrade(place);
             for v in vertices {
                 self.stars.push(v, place);
             }

@@ -9,6 +9,7 @@
 use super::LEAST;
 use super::freedom::Freedoms;
 use super::mesh::Mesh;
+use super::quality::Grade;
 use glam::DVec3;
 
 /// Steps up, at most.
@@ -85,18 +86,20 @@ pub struct Move {
     to: DVec3,
     /// Its partner on a seam, and the place for that.
     partner: Option<(u32, DVec3)>,
-    /// All tetrahedra that move with it.
-    tets: Vec<u32>,
+    /// All tetrahedra that move with it, with their grades afterwards.
+    tets: Vec<(u32, Grade)>,
 }
 
 impl Move {
-    /// Moves the vertex. The tetrahedra at it are graded anew.
+    /// Moves the vertex.
     pub fn apply(&self, mesh: &mut Mesh<'_>) {
         mesh.put(self.vertex, self.to);
         if let Some((other, to)) = self.partner {
             mesh.put(other, to);
         }
-        self.tets.iter().for_each(|&tet| mesh.regrade(tet));
+        for &(tet, grade) in &self.tets {
+            mesh.regrade(tet, grade);
+        }
     }
 }
 
@@ -124,11 +127,13 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
         before,
     };
     let to = climb(&star, &directions)?;
+    let at = star.positions(to);
+    let grade = |&tet: &u32| (tet, mesh.of_points(mesh.corners(tet).map(&at)));
     Some(Move {
         vertex,
         to,
         partner: partner.map(|(other, turn)| (other, turn.apply(to))),
-        tets: star.tets,
+        tets: star.tets.iter().map(grade).collect(),
     })
 }
 

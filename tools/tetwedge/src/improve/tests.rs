@@ -322,6 +322,7 @@ fn partners_on_a_seam_move_as_one() {
             scale: 1.0,
             share: 1.0,
         },
+        1,
     );
     assert!(done.moved > 0 && done.bad > 0, "{done:?}");
     let moved = template.vertices[4];
@@ -332,5 +333,93 @@ fn partners_on_a_seam_move_as_one() {
     for t in &template.tets {
         let m = TetMeasures::of(t.vertices.map(|v| template.vertices[v as usize]));
         assert!(m.min_dihedral.to_degrees() > 5.0);
+    }
+}
+
+/// Cubes of six tetrahedra each, `n` along an edge, their inner corners somewhere else.
+fn shaken_cubes(n: u32) -> Template {
+    let mut state = 1_u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let inner = |i: u32| i > 0 && i < n;
+    let number = |[x, y, z]: [u32; 3]| x + (n + 1) * (y + (n + 1) * z);
+    let mut template = Template::default();
+    for z in 0..=n {
+        for y in 0..=n {
+            for x in 0..=n {
+                let p = [x, y, z];
+                let moved = p.into_iter().all(inner);
+                template.vertices.push(DVec3::from_array(
+                    p.map(|i| f64::from(i) + if moved { 0.6 * random() } else { 0.0 }),
+                ));
+                for [a, b, c] in [
+                    [0, 1, 2],
+                    [1, 2, 0],
+                    [2, 0, 1],
+                    [0, 2, 1],
+                    [2, 1, 0],
+                    [1, 0, 2],
+                ] {
+                    if p.into_iter().any(|i| i == n) {
+                        continue;
+                    }
+                    // From one corner of the cube to the opposite one, axis by axis.
+                    let mut corner = p;
+                    let mut vertices = [number(corner); 4];
+                    for (vertex, axis) in vertices[1..].iter_mut().zip([a, b, c]) {
+                        corner[axis] += 1;
+                        *vertex = number(corner);
+                    }
+                    if (b + 3 - a) % 3 == 2 {
+                        vertices.swap(1, 2);
+                    }
+                    let region = 1;
+                    template.tets.push(Tet { vertices, region });
+                }
+            }
+        }
+    }
+    template
+}
+
+#[test]
+fn threads_make_no_difference() {
+    let cubes = shaken_cubes(26);
+    // The sides of the cube stay.
+    let fixed: Vec<u32> = (0..cubes.vertices.len() as u32)
+        .filter(|&v| {
+            let p = cubes.vertices[v as usize];
+            p.to_array().iter().any(|&x| x == 0.0 || x == 26.0)
+        })
+        .collect();
+    let freedoms = Freedoms::new(
+        &cubes,
+        &Flats {
+            of_triangle: &[],
+            normals: &[],
+            fixed: &fixed,
+            straight: 0.0,
+        },
+    );
+    let wish = Wish {
+        angle: 25.0,
+        radius_edge: 1.4,
+        min_dihedral: 10.0,
+        max_volume: &FxHashMap::default(),
+        scale: 1.0,
+        share: 0.1,
+    };
+    let mut one = cubes.clone();
+    let done = improve(&mut one, &freedoms, &wish, 1);
+    assert!(done.moved > 1000 && done.flipped > 1000, "{done:?}");
+    assert!((volume(&one, &one.tets) - 26_f64.powi(3)).abs() < 1e-6);
+    for threads in [2, 3] {
+        let mut several = cubes.clone();
+        assert_eq!(improve(&mut several, &freedoms, &wish, threads), done);
+        assert!(several.vertices == one.vertices && several.tets == one.tets);
     }
 }
