@@ -265,6 +265,40 @@ fn broken_promises_and_limits_end_with_one() {
 }
 
 #[test]
+fn what_is_beyond_a_bound_is_counted() {
+    let input = bytes(&pyramid());
+    let counts = |arguments: &[&str]| {
+        let (code, stdout, stderr) = meshqual(&[arguments, &["--json=-"]].concat(), &input);
+        assert_eq!(code, 0, "{stderr}");
+        let report: serde_json::Value = serde_json::from_str(&stdout).unwrap();
+        report["beyond"].clone()
+    };
+    let all = counts(&["--count-above=min_dihedral_deg=44.9"]);
+    let whole = all[0]["count"].as_u64().unwrap();
+    assert!(whole > 0 && all[0]["share"] == 1.0, "{all}");
+    let some = counts(&[
+        "--count-above=min_dihedral_deg=45.1",
+        "--count-below=min_dihedral_deg=45.1",
+    ]);
+    // Below come first.
+    assert_eq!(some[0]["above"], false);
+    assert_eq!(some[0]["metric"], "min_dihedral_deg");
+    assert_eq!(some[0]["count"], whole);
+    assert_eq!(
+        (&some[1]["count"], &some[1]["value"]),
+        (&0.into(), &45.1.into())
+    );
+    // Nothing is there that was not asked for.
+    assert!(counts(&[]).is_null());
+    let (_, stdout, _) = meshqual(&["--count-below=volume=-1"], &input);
+    assert!(stdout.contains("volume below -1: 0 (0.0000 %)"), "{stdout}");
+    for wrong in ["--count-below=volume", "--count-above=volume.p01=3"] {
+        let (code, _, stderr) = meshqual(&[wrong], &input);
+        assert_eq!(code, 2, "{stderr}");
+    }
+}
+
+#[test]
 fn comparison_with_the_assembled_mesh() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("whole.tmesh");

@@ -1,6 +1,6 @@
 //! The command line of `meshqual`.
 
-use crate::{Error, Limit, Params, Pictures, Report, analyse, html, svg, text};
+use crate::{Bound, Error, Limit, Params, Pictures, Report, analyse, html, svg, text};
 use interchange::Format;
 use kit::{Command, CommonArgs, Failure, Output, Session};
 use std::io::Write;
@@ -54,6 +54,14 @@ pub struct Cli {
     /// The same for values above; METRIC=VALUE tests the maximum
     #[arg(long, value_name = "METRIC=VALUE", value_parser = above)]
     fail_above: Vec<Limit>,
+
+    /// Count what is below a value; may be repeated
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = count_below)]
+    count_below: Vec<Bound>,
+
+    /// Count what is above a value; may be repeated
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = count_above)]
+    count_above: Vec<Bound>,
 }
 
 const AFTER: &str = "\
@@ -72,6 +80,7 @@ Examples:
   symdetect part.stl | wedgecut | tetwedge | meshqual --check
   meshqual --check --json report.json --svg report.svg part.tmesh
   meshqual --fail-below min_dihedral_deg.p01=13 --fail-above radius_edge_ratio.p99=1.4 part.tmesh
+  meshqual --count-above radius_edge_ratio=1.4 --count-below min_dihedral_deg=10 part.tmesh
   meshqual --compare direct.vtk part.vtk
   meshqual --html report.html --worst 5 part.tmesh
 
@@ -84,6 +93,14 @@ fn below(text: &str) -> Result<Limit, String> {
 
 fn above(text: &str) -> Result<Limit, String> {
     Limit::parse(text, true)
+}
+
+fn count_below(text: &str) -> Result<Bound, String> {
+    Bound::parse(text, false)
+}
+
+fn count_above(text: &str) -> Result<Bound, String> {
+    Bound::parse(text, true)
 }
 
 impl From<Error> for Failure {
@@ -105,6 +122,7 @@ impl Command for Cli {
         let params = Params {
             bins: self.bins as usize,
             limits: [self.fail_below.clone(), self.fail_above.clone()].concat(),
+            bounds: [self.count_below.clone(), self.count_above.clone()].concat(),
             worst: self.worst as usize,
         };
         let document = session.read()?;

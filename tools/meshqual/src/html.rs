@@ -1,5 +1,6 @@
 //! The report as a page: tables, histograms and pictures in one file that needs no other.
 
+use crate::beyond;
 use crate::svg::escaped;
 use crate::text::{grouped, number, symmetry_words};
 use crate::{Metric, Report, Statistic, Summary, picture, png, svg};
@@ -168,6 +169,12 @@ fn metrics(out: &mut String, report: &Report) {
         }
     }
     out.push_str("</table>\n");
+    for (name, summary) in all {
+        for line in beyond::sentences(summary) {
+            let of = if name.is_empty() { "" } else { "compared: " };
+            let _ = writeln!(out, "<p>{of}{}</p>", escaped(&line));
+        }
+    }
 }
 
 fn worst(out: &mut String, report: &Report) {

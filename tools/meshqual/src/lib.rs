@@ -3,6 +3,7 @@
 //! [`analyse`] is the whole of it: documents in, a [`Report`] out. Instanced documents are measured
 //! and checked as the mesh they stand for, without placing a copy.
 
+mod beyond;
 mod check;
 mod cli;
 mod faces;
@@ -22,6 +23,7 @@ mod svg;
 mod text;
 mod worst;
 
+pub use beyond::{Beyond, Bound};
 pub use check::{Broken, Checks};
 pub use cli::Cli;
 pub use html::{Pictures, html};

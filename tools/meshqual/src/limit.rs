@@ -21,23 +21,12 @@ impl Limit {
     /// # Errors
     /// A sentence that says which names there are.
     pub fn parse(text: &str, above: bool) -> Result<Self, String> {
-        let (name, value) = text
-            .split_once('=')
-            .ok_or("expected METRIC=VALUE or METRIC.STATISTIC=VALUE")?;
-        let value: f64 = value
-            .trim()
-            .parse()
-            .ok()
-            .filter(|v: &f64| v.is_finite())
-            .ok_or_else(|| format!("'{value}' is not a number"))?;
-        let (metric, statistic) = match name.trim().split_once('.') {
+        let (name, value) = metric_and_value(text, "METRIC=VALUE or METRIC.STATISTIC=VALUE")?;
+        let (metric, statistic) = match name.split_once('.') {
             Some((metric, statistic)) => (metric, Some(statistic)),
-            None => (name.trim(), None),
+            None => (name, None),
         };
-        let metric = Metric::from_name(metric).ok_or_else(|| {
-            let known = Metric::ALL.map(Metric::name).join(", ");
-            format!("there is no metric '{metric}'; the metrics are {known}")
-        })?;
+        let metric = Metric::parse(metric)?;
         let statistic = match statistic {
             None if above => Statistic::Max,
             None => Statistic::Min,
@@ -67,6 +56,19 @@ impl Limit {
             (found < self.value, "below")
         };
         fails.then(|| format!("{name} is {found:.6}, {word} {}", self.value))
+    }
+}
+
+/// The two sides of `NAME=VALUE`, the value finite; `form` is what an error says was expected.
+pub fn metric_and_value<'t>(text: &'t str, form: &str) -> Result<(&'t str, f64), String> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or_else(|| format!("expected {form}"))?;
+    let number = value.trim().parse().ok();
+    let number = number.filter(|v: &f64| v.is_finite());
+    match number {
+        Some(number) => Ok((name.trim(), number)),
+        None => Err(format!("'{value}' is not a number")),
     }
 }
 

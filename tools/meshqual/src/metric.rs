@@ -44,8 +44,15 @@ impl Metric {
     }
 
     /// The metric with this name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|m| m.name() == name)
+    ///
+    /// # Errors
+    /// A sentence that says which names there are.
+    pub fn parse(name: &str) -> Result<Self, String> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|m| m.name() == name).ok_or_else(|| {
+            let known = Self::ALL.map(Self::name).join(", ");
+            format!("there is no metric '{name}'; the metrics are {known}")
+        })
     }
 
     /// Boundaries of `bins` bins for values between `low` and `high`, increasing.
@@ -151,7 +158,7 @@ mod tests {
     #[test]
     fn names_lead_back() {
         for metric in Metric::ALL {
-            assert_eq!(Metric::from_name(metric.name()), Some(metric));
+            assert_eq!(Metric::parse(metric.name()), Ok(metric));
         }
         for statistic in Statistic::ALL {
             assert_eq!(Statistic::from_name(statistic.name()), Some(statistic));

@@ -4,7 +4,7 @@ use crate::check::{Checks, check};
 use crate::instances::{Realized, assembled_vertices, is_sector, realized};
 use crate::measure::{Measured, measure};
 use crate::statistics::{Statistics, common_bins};
-use crate::{Error, Limit, Metric, Statistic, Worst};
+use crate::{Beyond, Bound, Error, Limit, Metric, Statistic, Worst};
 use serde::Serialize;
 use serde::ser::SerializeMap;
 use std::collections::BTreeMap;
@@ -17,6 +17,8 @@ pub struct Params {
     pub bins: usize,
     /// Limits the mesh has to meet.
     pub limits: Vec<Limit>,
+    /// Bounds beyond which values are counted.
+    pub bounds: Vec<Bound>,
     /// Worst elements to find per metric.
     pub worst: usize,
 }
@@ -71,6 +73,9 @@ pub struct Summary {
     pub symmetry: Option<Realized>,
     /// Statistics of the metrics; each `null` without tetrahedra.
     pub metrics: Metrics,
+    /// What is beyond the bounds that were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub beyond: Vec<Beyond>,
 }
 
 /// The surface triangles of a mesh.
@@ -192,10 +197,10 @@ pub fn analyse(
         .collect();
     let checks = check(document, &measured, &violations)?;
     let worst = std::mem::take(&mut measured.worst);
-    let summary = summary(document, measured, &bins);
+    let summary = summary(document, measured, &bins, &params.bounds);
     let compare = compared.map(|(name, other, measured)| Compared {
         name: name.to_owned(),
-        summary: crate::report::summary(other, measured, &bins),
+        summary: crate::report::summary(other, measured, &bins, &params.bounds),
     });
     Ok(Report {
         limits_broken: params
@@ -250,7 +255,12 @@ fn instances_in_range(document: &Document) -> bool {
     })
 }
 
-fn summary(document: &Document, mut measured: Measured, bins: &[Vec<f64>]) -> Summary {
+fn summary(
+    document: &Document,
+    mut measured: Measured,
+    bins: &[Vec<f64>],
+    bounds: &[Bound],
+) -> Summary {
     let symmetry = if document.is_plain() {
         let promise = document.symmetry.as_ref().and_then(|s| s.promise.as_ref());
         promise.map(|p| Realized {
@@ -295,6 +305,10 @@ fn summary(document: &Document, mut measured: Measured, bins: &[Vec<f64>]) -> Su
         }
     }
     regions.sort_by_key(|r| r.id);
+    let beyond = bounds
+        .iter()
+        .map(|bound| bound.count(&measured.samples[bound.metric as usize]))
+        .collect();
     let metrics = measured
         .samples
         .into_iter()
@@ -311,6 +325,7 @@ fn summary(document: &Document, mut measured: Measured, bins: &[Vec<f64>]) -> Su
         instances: document.instances.len() as u64,
         symmetry,
         metrics: Metrics(metrics),
+        beyond,
     }
 }
 

@@ -76,6 +76,19 @@ impl Sample {
         range
     }
 
+    /// Values for which something holds, and all values.
+    pub fn count(&self, holds: impl Fn(f64) -> bool) -> (u64, u64) {
+        self.parts
+            .iter()
+            .fold((0, 0), |(some, all), (values, weight)| {
+                let found = values.iter().filter(|&&x| holds(x)).count();
+                (
+                    some + weight * found as u64,
+                    all + weight * values.len() as u64,
+                )
+            })
+    }
+
     /// The statistics, with the histogram over `edges`; `None` without values. Linear in the number
     /// of values when all weights are equal, else one sort.
     pub fn statistics(self, edges: Vec<f64>) -> Option<Statistics> {

@@ -1,5 +1,6 @@
 //! The report as text: tables and histograms for a terminal.
 
+use crate::beyond;
 use crate::instances::Realized;
 use crate::statistics::Histogram;
 use crate::{Checks, Metric, Report, Statistic, Summary};
@@ -172,6 +173,13 @@ fn metrics(out: &mut String, report: &Report) {
         if let Some(other) = &report.compare {
             row("  compared", &other.summary, metric);
         }
+    }
+    for line in beyond::sentences(&report.summary) {
+        let _ = writeln!(out, "{line}");
+    }
+    let other = report.compare.as_ref().map(|c| &c.summary);
+    for line in other.into_iter().flat_map(beyond::sentences) {
+        let _ = writeln!(out, "  compared: {line}");
     }
 }
 

@@ -9,6 +9,7 @@ fn report(document: &Document) -> Report {
     let params = Params {
         bins: 10,
         limits: Vec::new(),
+        bounds: Vec::new(),
         worst: 1,
     };
     analyse(document, None, &params).unwrap()
@@ -438,6 +439,7 @@ fn a_promise_too_high_outside() {
         let params = Params {
             bins: 10,
             limits: Vec::new(),
+            bounds: Vec::new(),
             worst: 1,
         };
         let refused = analyse(&odd, None, &params).map_or(true, |r| !r.checks.passed);
@@ -659,6 +661,7 @@ fn nothing_to_measure() {
     let params = Params {
         bins: 3,
         limits: Vec::new(),
+        bounds: Vec::new(),
         worst: 1,
     };
     let error = analyse(&empty, None, &params).unwrap_err();
