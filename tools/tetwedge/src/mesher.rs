@@ -3,6 +3,7 @@
 use crate::bound::Bound;
 use crate::diagnose::{Chatter, failure};
 use crate::fill::{Filled, NONE, fill};
+use crate::improve::Improved;
 use crate::params::switches;
 use crate::plc::{DESCRIPTIONS, Plc};
 use crate::surface::{GUIDE_EASED, Other, impose, make};
@@ -139,17 +140,22 @@ fn follower(
         let done = template(&document, index, params, sizes, log)?;
         Ok((document.templates.swap_remove(index), done))
     };
-    let least = |done: &Done| done.filled.improved.unwrap_or_default().least;
+    let improved = |done: &Done| done.filled.improved.unwrap_or_default();
     let first = mesh(params, params)?;
-    if first.1.advice.is_some() || !is_unlucky(&first.1.filled) {
+    let begin = improved(&first.1);
+    let failing = begin.past + begin.low;
+    let count = first.1.filled.template.tets.len();
+    let few = SINGLE.max((FEW * count as f64) as usize);
+    if first.1.advice.is_some() || count > SMALL || !(1..=few).contains(&failing) {
         return Ok(first);
     }
     let Some(again) = params.once_more(begun) else {
         return Ok(first);
     };
     log(&format!(
-        "template {index}: an angle of {:.1} degrees is left; once more with another surface",
-        least(&first.1)
+        "template {index}: {} tetrahedra are past the radius-edge bound, {} have a smaller angle than asked for (the \
+         smallest {:.1} degrees); once more with another surface",
+        begin.past, begin.low, begin.least
     ));
     // One step tighter: the bound itself where it was eased for the guide, and beyond it where the bound itself was
     // not enough. The mesher may add a limited number of points.
@@ -158,7 +164,7 @@ fn follower(
         ..again.clone()
     };
     match mesh(&tighter, &again) {
-        Ok(second) if least(&second.1) > least(&first.1) => Ok(second),
+        Ok(second) if is_better(improved(&second.1), begin) => Ok(second),
         Err(error) if error.is_from_outside() => Err(error),
         _ => Ok(first),
     }
@@ -339,6 +345,15 @@ const FEW: f64 = 1e-3;
 
 /// Larger meshes are not made again for single elements.
 const SMALL: usize = 50_000;
+
+/// So many elements that fail are not the shape's fault in any case, where the surface may be at fault.
+const SINGLE: usize = 8;
+
+/// Whether fewer elements fail, or as many with a larger smallest angle.
+fn is_better(this: Improved, other: Improved) -> bool {
+    let failing = |i: Improved| i.past + i.low;
+    failing(this) < failing(other) || (failing(this) == failing(other) && this.least > other.least)
+}
 
 /// Meshes a template, with the radius-edge bound eased if that can be mended.
 fn template(

@@ -76,7 +76,7 @@ pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], threads: usiz
 }
 
 /// Whether nothing else has taken the place of a tetrahedron.
-fn is_there(mesh: &Mesh<'_>, quality: f64, tet: u32) -> bool {
+pub fn is_there(mesh: &Mesh<'_>, quality: f64, tet: u32) -> bool {
     (tet as usize) < mesh.len() && mesh.grade(tet).quality == quality
 }
 

@@ -110,11 +110,11 @@ fn remove_edge(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Flip> {
 }
 
 /// Tetrahedra or vertices around an edge.
-type Ring = ArrayVec<u32, RING>;
+pub type Ring = ArrayVec<u32, RING>;
 
 /// The tetrahedra around an inner edge of a region, and the vertices around it, counter-clockwise seen
 /// from `b`.
-fn ring(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<(Ring, Ring)> {
+pub fn ring(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<(Ring, Ring)> {
     let region = mesh.region(tet);
     let mut old = Ring::new();
     for &t in mesh.star(a) {

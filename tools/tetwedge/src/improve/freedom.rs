@@ -129,9 +129,10 @@ impl Freedoms {
         self.low_of.get(&v).copied().unwrap_or(v)
     }
 
-    /// Freedom of a vertex, the low one if it has a partner on a seam.
+    /// Freedom of a vertex, the low one if it has a partner on a seam. Vertices that have come since are inside.
     pub fn of(&self, v: u32) -> Freedom {
-        self.of_vertex[v as usize]
+        let known = self.of_vertex.get(v as usize);
+        known.copied().unwrap_or(Freedom::Free)
     }
 
     /// The vertex that moves with `v`, and by which rotation.

@@ -60,6 +60,14 @@ impl<'a> Mesh<'a> {
         }
     }
 
+    /// Grades some tetrahedra by another goal, which has to be the same for all others.
+    pub fn change_goal(&mut self, goal: Goal, tets: impl Iterator<Item = u32>) {
+        self.goal = goal;
+        for tet in tets {
+            self.grades[tet as usize] = self.of_corners(self.corners(tet));
+        }
+    }
+
     /// Number of places for tetrahedra; all are taken.
     pub fn len(&self) -> usize {
         self.tets.len()
@@ -140,6 +148,13 @@ impl<'a> Mesh<'a> {
     /// Whether two vertices are an edge of such a triangle.
     pub fn is_fixed_edge(&self, a: u32, b: u32) -> bool {
         !self.fixed_edges.is_empty() && self.fixed_edges.contains(&[a.min(b), a.max(b)])
+    }
+
+    /// Adds a vertex that is at no tetrahedron yet; returns its number.
+    pub fn add(&mut self, p: DVec3) -> u32 {
+        self.positions.push(p);
+        self.stars.add();
+        self.positions.len() as u32 - 1
     }
 
     /// Moves a vertex; the tetrahedra at it need their new grades.

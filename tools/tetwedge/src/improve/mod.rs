@@ -9,6 +9,7 @@
 mod ahead;
 mod flip;
 mod freedom;
+mod insert;
 mod mesh;
 mod quality;
 mod smooth;
@@ -19,7 +20,7 @@ mod tests;
 
 pub use freedom::{Flats, Freedoms};
 
-use ahead::Count;
+use ahead::{Bad, Count};
 use geom::tet::TetMeasures;
 use mesh::Mesh;
 use quality::Goal;
@@ -36,6 +37,12 @@ const MORE_ROUNDS: usize = 14;
 
 /// Part of the tetrahedra that is many to be bad.
 const MANY: f64 = 0.01;
+
+/// So many are worked on in any case.
+const AT_LEAST: usize = 1000;
+
+/// Times that all this is done, with new vertices in between for what is left.
+const PASSES: usize = 3;
 
 /// Part of the bad tetrahedra of the last round that are left where further rounds are no use.
 const STUCK: f64 = 0.98;
@@ -73,6 +80,8 @@ pub struct Improved {
     pub moved: usize,
     /// Edges and faces replaced.
     pub flipped: usize,
+    /// New vertices.
+    pub inserted: usize,
 }
 
 /// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay. The number of
@@ -92,14 +101,45 @@ pub fn improve(
         .collect();
     let mut mesh = Mesh::new(template, wish.scale, goal, &limits, threads);
     let mut done = Improved::default();
-    let most = (mesh.len() as f64 * wish.share) as usize;
+    for pass in 0..PASSES {
+        rounds(&mut mesh, freedoms, wish, threads, &mut done);
+        if pass + 1 == PASSES || !add_vertices(&mut mesh, freedoms, wish, &mut done) {
+            break;
+        }
+    }
+    keep_bound(&mut mesh, freedoms, wish, goal, &mut done);
+    left_over(&mesh, wish, &mut done);
+    for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
+        // Exact: the scale is a power of two.
+        if *p * wish.scale != moved {
+            *p = moved / wish.scale;
+        }
+    }
+    let added = &mesh.positions[template.vertices.len()..];
+    template
+        .vertices
+        .extend(added.iter().map(|&p| p / wish.scale));
+    template.tets = mesh.into_tets();
+    done
+}
+
+/// Rounds over the worst tetrahedra, as long as they are of use.
+fn rounds(
+    mesh: &mut Mesh<'_>,
+    freedoms: &Freedoms,
+    wish: &Wish<'_>,
+    threads: usize,
+    done: &mut Improved,
+) {
+    let most = ((mesh.len() as f64 * wish.share) as usize).max(AT_LEAST);
+    let first = done.bad == 0;
     let mut last = f64::INFINITY;
     for round in 0..ROUNDS + MORE_ROUNDS {
-        let mut bad: Vec<(f64, u32)> = (0..mesh.len() as u32)
+        let mut bad: Vec<Bad> = (0..mesh.len() as u32)
             .map(|t| (mesh.grade(t).quality, t))
             .filter(|b| b.0 < 1.0)
             .collect();
-        if round == 0 {
+        if round == 0 && first {
             done.bad = bad.len();
         }
         let (now, few) = (bad.len() as f64, MANY * mesh.len() as f64);
@@ -109,28 +149,88 @@ pub fn improve(
         last = now;
         bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         bad.truncate(most);
-        let count = ahead::work(&mut mesh, freedoms, &bad, threads);
+        let count = ahead::work(mesh, freedoms, &bad, threads);
         done.moved += count.moved;
         done.flipped += count.flipped;
         if count == Count::default() {
             break;
         }
     }
-    done.least = 180.0;
+}
+
+/// Whether a tetrahedron is past the radius-edge bound, and whether it has an angle that is smaller than the mesher
+/// was asked for; and its smallest angle, degrees.
+fn failings(mesh: &Mesh<'_>, wish: &Wish<'_>, tet: u32) -> (bool, bool, f64) {
+    let measures = TetMeasures::of(mesh.corners(tet).map(|v| mesh.positions[v as usize]));
+    let angle = measures.min_dihedral.to_degrees();
+    let past = measures.radius_edge_ratio > wish.radius_edge;
+    (past, angle < wish.min_dihedral, angle)
+}
+
+/// Counts what is left.
+fn left_over(mesh: &Mesh<'_>, wish: &Wish<'_>, done: &mut Improved) {
+    (done.left, done.past, done.low, done.least) = (0, 0, 0, 180.0);
     for t in (0..mesh.len() as u32).filter(|&t| mesh.grade(t).quality < 1.0) {
-        let measures = TetMeasures::of(mesh.corners(t).map(|v| mesh.positions[v as usize]));
-        let angle = measures.min_dihedral.to_degrees();
+        let (past, low, angle) = failings(mesh, wish, t);
         done.left += 1;
-        done.past += usize::from(measures.radius_edge_ratio > wish.radius_edge);
-        done.low += usize::from(angle < wish.min_dihedral);
+        done.past += usize::from(past);
+        done.low += usize::from(low);
         done.least = done.least.min(angle);
     }
-    for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
-        // Exact: the scale is a power of two.
-        if *p * wish.scale != moved {
-            *p = moved / wish.scale;
+}
+
+/// Tetrahedra that are not as the mesher was asked for, the worst first.
+fn failing(mesh: &Mesh<'_>, wish: &Wish<'_>) -> Vec<Bad> {
+    let below = (0..mesh.len() as u32).filter(|&t| mesh.grade(t).quality < 1.0);
+    let failing = below.filter(|&t| {
+        let (past, low, _) = failings(mesh, wish, t);
+        past || low
+    });
+    let mut bad: Vec<Bad> = failing.map(|t| (mesh.grade(t).quality, t)).collect();
+    bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    bad
+}
+
+/// Gives what is still not as the mesher was asked for new vertices, where that helps; returns whether it did.
+fn add_vertices(
+    mesh: &mut Mesh<'_>,
+    freedoms: &Freedoms,
+    wish: &Wish<'_>,
+    done: &mut Improved,
+) -> bool {
+    let before = done.inserted;
+    for (quality, tet) in failing(mesh, wish) {
+        if ahead::is_there(mesh, quality, tet)
+            && let Some(insertion) = insert::find(mesh, freedoms, tet)
+        {
+            insertion.apply(mesh);
+            done.inserted += 1;
         }
     }
-    template.tets = mesh.into_tets();
-    done
+    done.inserted > before
+}
+
+/// Brings what is still past the radius-edge bound back below it, for angles as small as the mesher was asked for.
+fn keep_bound(
+    mesh: &mut Mesh<'_>,
+    freedoms: &Freedoms,
+    wish: &Wish<'_>,
+    goal: Goal,
+    done: &mut Improved,
+) {
+    let bad = failing(mesh, wish);
+    if bad.is_empty() {
+        return;
+    }
+    let goal = goal.with_bound_before(wish.min_dihedral);
+    mesh.change_goal(goal, bad.into_iter().map(|(_, tet)| tet));
+    for _ in 0..PASSES {
+        let count = ahead::work(mesh, freedoms, &failing(mesh, wish), 1);
+        done.moved += count.moved;
+        done.flipped += count.flipped;
+        let added = add_vertices(mesh, freedoms, wish, done);
+        if !added && count == Count::default() {
+            break;
+        }
+    }
 }

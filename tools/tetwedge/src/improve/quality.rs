@@ -1,11 +1,15 @@
 //! How good a tetrahedron is, against what is asked for.
 
+use super::LEAST;
 use glam::DVec3;
 
 /// Quality of an element just past the radius-edge bound, and the power by which it falls from there on. With none
 /// of a step, elements would be traded for some past the bound too readily.
 const PAST: f64 = 0.62;
 const FALL: i32 = 3;
+
+/// Part by which the smallest angle asked for must be exceeded where it is worth more than the bound.
+const ABOVE: f64 = 1.02;
 
 /// What every tetrahedron should reach.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +18,8 @@ pub struct Goal {
     tangent: f64,
     /// Largest ratio of circumradius to shortest edge.
     radius_edge: f64,
+    /// Quality of an element just past that.
+    past: f64,
 }
 
 /// Quality and size of a tetrahedron.
@@ -32,6 +38,17 @@ impl Goal {
         Self {
             tangent: libm::tan(angle.to_radians()),
             radius_edge,
+            past: PAST,
+        }
+    }
+
+    /// The same goal, but that elements past the radius-edge bound are worse than any whose smallest dihedral angle is a
+    /// little above `angle`, degrees.
+    pub fn with_bound_before(self, angle: f64) -> Self {
+        let least = ABOVE * libm::tan(angle.to_radians()) / self.tangent;
+        Self {
+            past: least.clamp(LEAST, PAST),
+            ..self
         }
     }
 
@@ -67,17 +84,17 @@ impl Goal {
         let ratio =
             self.radius_edge * 2.0 * six_volume * (shortest / centre.length_squared()).sqrt();
         Grade {
-            quality: angle.min(ratio_quality(ratio)),
+            quality: angle.min(self.ratio_quality(ratio)),
             six_volume,
         }
     }
-}
 
-/// The quality that the inverse of a radius-edge ratio allows, as a part of what is asked for.
-fn ratio_quality(part: f64) -> f64 {
-    match part >= 1.0 {
-        true => part,
-        false => PAST * part.powi(FALL),
+    /// The quality that the inverse of a radius-edge ratio allows, as a part of what is asked for.
+    fn ratio_quality(&self, part: f64) -> f64 {
+        match part >= 1.0 {
+            true => part,
+            false => self.past * part.powi(FALL),
+        }
     }
 }
 
@@ -88,11 +105,19 @@ mod tests {
 
     #[test]
     fn the_bound_is_a_step() {
+        let goal = Goal::new(25.0, 1.4);
+        let ratio_quality = |part: f64| goal.ratio_quality(part);
         assert_eq!(ratio_quality(1.0), 1.0);
         assert_eq!(ratio_quality(1.3), 1.3);
         // An element just past the bound is worth less than one with two thirds of the angle asked for.
         assert!(ratio_quality(1.0 - 1e-9) < 0.66);
         assert!(ratio_quality(0.8) < ratio_quality(0.9) && ratio_quality(0.8) > 0.0);
+        // And less than one with the angle that the mesher is asked for, where the bound comes first.
+        let ten = libm::tan(10_f64.to_radians()) / libm::tan(25_f64.to_radians());
+        let past = goal.with_bound_before(10.0).ratio_quality(1.0 - 1e-9);
+        assert!(past > ten && past < 1.05 * ten, "{past}");
+        assert_eq!(goal.with_bound_before(20.0).past, PAST);
+        assert!(goal.with_bound_before(0.0).past > 0.0);
     }
 
     #[test]
@@ -114,7 +139,7 @@ mod tests {
             signs[usize::from(m.volume > 0.0)] += 1;
             if m.volume > 0.0 {
                 let angle = m.min_dihedral.tan() / 20_f64.to_radians().tan();
-                let ratio = ratio_quality(1.4 / m.radius_edge_ratio);
+                let ratio = goal.ratio_quality(1.4 / m.radius_edge_ratio);
                 let expected = angle.min(ratio);
                 assert!(
                     (grade.quality / expected - 1.0).abs() < 1e-9,

@@ -7,8 +7,8 @@
 //! A vertex on a seam has its star on both sides of it: what is at its partner is turned back.
 
 use super::LEAST;
-use super::freedom::Freedoms;
-use super::mesh::Mesh;
+use super::freedom::{Freedom, Freedoms};
+use super::mesh::{Corners, Mesh};
 use super::quality::Grade;
 use glam::DVec3;
 
@@ -22,6 +22,8 @@ const FIRST: f64 = 0.25;
 const ACTIVE: f64 = 0.1;
 /// The smallest quality has to grow by this part.
 const GAIN: f64 = 1e-3;
+/// With a smaller quality, small steps lead nowhere, since what comes out has to be at least [`LEAST`].
+const FLAT: f64 = 10.0 * LEAST;
 /// There is no way up when the shortest vector is less than this part of the longest gradient.
 const NO_WAY: f64 = 1e-2;
 /// Difference for gradients, as a part of the distance to the other corners.
@@ -32,9 +34,10 @@ struct Star<'m, 'a> {
     mesh: &'m Mesh<'a>,
     freedoms: &'m Freedoms,
     vertex: u32,
-    tets: Vec<u32>,
-    /// Size of each tetrahedron before, six volumes.
-    before: Vec<f64>,
+    tets: Vec<Corners>,
+    regions: Vec<u32>,
+    /// Size that each tetrahedron may have in any case, six volumes.
+    sizes: Vec<f64>,
 }
 
 impl Star<'_, '_> {
@@ -42,17 +45,33 @@ impl Star<'_, '_> {
     fn qualities(&self, p: DVec3, above: f64) -> Option<Vec<f64>> {
         let at = self.positions(p);
         let mut list = Vec::with_capacity(self.tets.len());
-        for (&tet, &before) in self.tets.iter().zip(&self.before) {
-            let grade = self.mesh.of_points(self.mesh.corners(tet).map(&at));
-            let fits = self
-                .mesh
-                .fits(self.mesh.region(tet), grade.six_volume, before);
-            if grade.quality <= above || !fits {
+        let tets = self.tets.iter().zip(&self.regions).zip(&self.sizes);
+        for ((corners, &region), &size) in tets {
+            let grade = self.mesh.of_points(corners.map(&at));
+            if grade.quality <= above || !self.mesh.fits(region, grade.six_volume, size) {
                 return None;
             }
             list.push(grade.quality);
         }
         Some(list)
+    }
+
+    /// The middle of the other corners, if the vertex is free to go there.
+    fn middle(&self) -> Option<DVec3> {
+        let free = self.freedoms.of(self.vertex) == Freedom::Free;
+        let all = self.tets.iter().flatten();
+        let others = all.filter(|&&u| u != self.vertex).copied();
+        let (sum, count) = others.fold((DVec3::ZERO, 0), |(sum, count), u| {
+            (sum + self.mesh.positions[u as usize], count + 1)
+        });
+        (free && count > 0).then(|| sum / f64::from(count))
+    }
+
+    /// Grades with the vertex at `p`.
+    fn grades(&self, p: DVec3) -> impl Iterator<Item = Grade> + use<'_> {
+        let at = self.positions(p);
+        let tets = self.tets.iter();
+        tets.map(move |corners| self.mesh.of_points(corners.map(&at)))
     }
 
     /// Positions of vertices, with the moved one at `p`.
@@ -69,11 +88,18 @@ impl Star<'_, '_> {
     }
 
     /// Gradient of the quality of one tetrahedron, in the directions that are free.
-    fn gradient(&self, tet: u32, p: DVec3, quality: f64, directions: &[DVec3], step: f64) -> DVec3 {
+    fn gradient(
+        &self,
+        tet: Corners,
+        p: DVec3,
+        quality: f64,
+        directions: &[DVec3],
+        step: f64,
+    ) -> DVec3 {
         let mut gradient = DVec3::ZERO;
         for &direction in directions {
             let at = self.positions(p + direction * step);
-            let moved = self.mesh.of_points(self.mesh.corners(tet).map(&at)).quality;
+            let moved = self.mesh.of_points(tet.map(&at)).quality;
             gradient += direction * ((moved - quality) / step);
         }
         gradient
@@ -118,35 +144,73 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
         tets.sort_unstable();
         tets.dedup();
     }
-    let before = tets.iter().map(|&t| mesh.grade(t).six_volume).collect();
+    let grades: Vec<Grade> = tets.iter().map(|&t| mesh.grade(t)).collect();
     let star = Star {
         mesh,
         freedoms,
         vertex,
-        tets,
-        before,
+        tets: tets.iter().map(|&t| mesh.corners(t)).collect(),
+        regions: tets.iter().map(|&t| mesh.region(t)).collect(),
+        sizes: grades.iter().map(|g| g.six_volume).collect(),
     };
-    let to = climb(&star, &directions)?;
-    let at = star.positions(to);
-    let grade = |&tet: &u32| (tet, mesh.of_points(mesh.corners(tet).map(&at)));
+    let start = mesh.positions[vertex as usize];
+    let qualities: Vec<f64> = grades.iter().map(|g| g.quality).collect();
+    let least = smallest(&qualities);
+    let to = match star.middle().filter(|_| least < FLAT) {
+        Some(middle) if let Some(there) = star.qualities(middle, least.max(LEAST)) => {
+            climb(&star, middle, there, &directions).unwrap_or(middle)
+        }
+        _ => climb(&star, start, qualities, &directions)?,
+    };
+    let grades = star.grades(to);
     Some(Move {
         vertex,
         to,
         partner: partner.map(|(other, turn)| (other, turn.apply(to))),
-        tets: star.tets.iter().map(grade).collect(),
+        tets: tets.into_iter().zip(grades).collect(),
     })
 }
 
-/// The best place found for the vertex, if it is better than where it is.
-fn climb(star: &Star<'_, '_>, directions: &[DVec3]) -> Option<DVec3> {
-    let mesh = star.mesh;
-    let start = mesh.positions[star.vertex as usize];
+/// The best place found for a vertex that is new, from `start` on, and the grades of the tetrahedra at it. They are all
+/// in one region, and may have a size of `most`, six volumes, in any case.
+pub fn settle(
+    mesh: &Mesh<'_>,
+    freedoms: &Freedoms,
+    start: DVec3,
+    tets: &[Corners],
+    (region, most): (u32, f64),
+) -> (DVec3, Vec<Grade>) {
+    let star = Star {
+        mesh,
+        freedoms,
+        vertex: mesh.positions.len() as u32,
+        tets: tets.to_vec(),
+        regions: vec![region; tets.len()],
+        sizes: vec![most; tets.len()],
+    };
+    let directions: Vec<DVec3> = Freedom::Free.directions().collect();
+    let qualities = star.grades(start).map(|g| g.quality).collect();
+    let to = climb(&star, start, qualities, &directions).unwrap_or(start);
+    let grades = star.grades(to).collect();
+    (to, grades)
+}
+
+fn smallest(list: &[f64]) -> f64 {
+    list.iter().fold(f64::INFINITY, |m, &q| m.min(q))
+}
+
+/// The best place found for the vertex, if it is better than `start`, where it is.
+fn climb(
+    star: &Star<'_, '_>,
+    start: DVec3,
+    mut qualities: Vec<f64>,
+    directions: &[DVec3],
+) -> Option<DVec3> {
     let size = {
         let at = star.positions(start);
         let own = star.freedoms.partner(star.vertex).map(|p| p.0);
         let mut nearest = f64::INFINITY;
-        for &tet in &star.tets {
-            let corners = mesh.corners(tet);
+        for &corners in &star.tets {
             let here = corners
                 .iter()
                 .find(|&&u| u == star.vertex || Some(u) == own);
@@ -163,8 +227,6 @@ fn climb(star: &Star<'_, '_>, directions: &[DVec3]) -> Option<DVec3> {
         return None;
     }
     let mut p = start;
-    let mut qualities: Vec<f64> = star.tets.iter().map(|&t| mesh.grade(t).quality).collect();
-    let smallest = |list: &[f64]| list.iter().fold(f64::INFINITY, |m, &q| m.min(q));
     let mut least = smallest(&qualities);
     let mut step = FIRST * size;
     for _ in 0..STEPS {

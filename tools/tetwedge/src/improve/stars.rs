@@ -51,6 +51,14 @@ impl Stars {
         stars
     }
 
+    /// Adds a vertex without tetrahedra.
+    pub fn add(&mut self) {
+        self.spans.push(Span {
+            stamp: self.now,
+            ..Span::default()
+        });
+    }
+
     /// Tetrahedra at a vertex.
     pub fn of(&self, v: u32) -> &[u32] {
         let span = self.spans[v as usize];
