@@ -4,7 +4,7 @@ use crate::cells::{Cells, label};
 use crate::error::Place;
 use crate::facets::Facets;
 use crate::fill::{ROUNDING, ROUNDS};
-use crate::mesher::{Answer, past_bound, persist, run};
+use crate::mesher::{Answer, outside, persist, run};
 use crate::{Error, Params, Sizes};
 use glam::DVec3;
 use std::time::Instant;
@@ -101,7 +101,7 @@ fn attempt(
                 log(&format!("template {index}: {advice}"));
                 0.0
             }
-            None => past_bound(&mesh, params),
+            None => outside(&mesh, params)[0],
         };
         let kept = plc.points.len();
         if mesh.points().len() < kept || mesh.points()[..kept] != plc.points {
