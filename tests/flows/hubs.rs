@@ -188,11 +188,13 @@ fn a_hub_that_crosses_layers_and_holds_an_interface() {
     assert_eq!((regions(0), regions(1)), (1, 3));
 }
 
-/// The hub keeps its surface when it is filled; where that spoils an element, another surface is tried. Each of these
-/// bodies had one element, in 4 to 16 copies, with half the angle asked for.
+/// The hub keeps its surface when it is filled; where that spoils an element, a vertex is added or another surface tried.
+/// Each of these bodies had elements, in 4 to 16 copies, with half the angle asked for.
 #[test]
 fn the_surface_of_a_hub_spoils_no_element() {
     for (order, thickness, ratio, volume) in [
+        (8, 0.005, "1.7", "0.01"),
+        (8, 0.005, "1.7", "0.001"),
         (20, 0.02, "1.7", "0.01"),
         (32, 0.005, "1.4", "0.001"),
         (56, 0.005, "1.7", "0.01"),
@@ -211,8 +213,9 @@ fn the_surface_of_a_hub_spoils_no_element() {
         assert_eq!(read(&cut).templates.len(), 2, "order {order}: no hub");
         let bounds = [&sizes[..], &["--min-dihedral", "15"]].concat();
         let filled = run("tetwedge", &bounds, &cut).success();
-        let least = ["-q", "--check", "--fail-below=min_dihedral_deg=15"];
-        let checked = run("meshqual", &least, &filled);
+        let most = format!("--fail-above=radius_edge_ratio={ratio}000001");
+        let limits = ["-q", "--check", "--fail-below=min_dihedral_deg=15", &most];
+        let checked = run("meshqual", &limits, &filled);
         assert_eq!(checked.code, 0, "order {order}: {}", checked.stderr);
     }
 }

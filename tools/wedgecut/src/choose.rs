@@ -42,6 +42,11 @@ const HUB_SKIN: f64 = 0.6;
 const SLICED: f64 = 6.0;
 /// Time for an element of the hub, which is meshed twice, over that for one of the wedge.
 const HUB_COST: f64 = 2.0;
+/// Elements, up to the same factor, that are meshed in the time that it takes to start the mesher: some 400. With
+/// tiny meshes, nothing is won by a narrower wedge, nor by a hub.
+const START: f64 = 25.0;
+/// Ways within this factor of the fastest are as fast; the one of the lowest order has the fewest cuts.
+const AS_FAST: f64 = 1.02;
 /// Angle of a wedge, degrees, from which it needs no hub where the axis runs through material.
 const WIDE: f64 = 44.0;
 /// Cells of the grid on which samples are thinned out, per direction.
@@ -74,7 +79,7 @@ pub struct Choice {
     pub level: bool,
     /// Estimated elements over those of the whole body.
     pub elements: f64,
-    /// Estimated elements to be meshed over those of the whole body.
+    /// Time to mesh it, as estimated elements over those of the whole body.
     pub meshed: f64,
 }
 
@@ -329,7 +334,9 @@ impl Estimate {
                     let (mut outer, inner) = self.parts(&way, options.mirror, both);
                     outer += seam;
                     way.elements = (outer + inner) / whole;
-                    way.meshed = (outer / copies + HUB_COST * inner / hub_copies) / whole;
+                    let starts = if hub.is_some() { 1.0 + HUB_COST } else { 1.0 };
+                    let meshed = outer / copies + HUB_COST * inner / hub_copies;
+                    way.meshed = (meshed + START * starts) / whole;
                     found.push(way);
                 }
             }
@@ -351,10 +358,13 @@ impl Options<'_> {
             (None, false, true) => ACCEPTED,
             (None, false, false) => ACCEPTED_SEAM,
         };
-        let accepted = ways.iter().filter(|w| w.elements <= base * limit(w));
-        let fastest = accepted.min_by(|a, b| a.meshed.total_cmp(&b.meshed));
+        let accepted = || ways.iter().filter(|w| w.elements <= base * limit(w));
+        let least = accepted().map(|w| w.meshed).fold(f64::INFINITY, f64::min);
+        let as_fast = accepted().filter(|w| w.meshed <= AS_FAST * least);
+        let chosen =
+            as_fast.min_by(|a, b| a.order.cmp(&b.order).then(a.meshed.total_cmp(&b.meshed)));
         let fewest = || ways.iter().min_by(|a, b| a.elements.total_cmp(&b.elements));
-        fastest.or_else(fewest).copied()
+        chosen.or_else(fewest).copied()
     }
 }
 

@@ -28,6 +28,12 @@ pub struct Insertion {
 }
 
 impl Insertion {
+    /// Whether no more than `count` tetrahedra make room.
+    #[cfg(test)]
+    pub fn replaces_at_most(&self, count: usize) -> bool {
+        self.old.len() <= count
+    }
+
     /// Adds the vertex, and puts the tetrahedra in their place.
     pub fn apply(&self, mesh: &mut Mesh<'_>) {
         mesh.add(self.at);
@@ -82,10 +88,17 @@ fn insert(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32, start: DVec3) -> Optio
             next += 1;
             continue;
         }
-        let other = beyond(mesh, face, inside)?;
-        if old.len() == ROOM || mesh.region(other) != region || mesh.is_fixed_face(face) {
-            return None;
-        }
+        let other = beyond(mesh, face, inside)
+            .filter(|&t| mesh.region(t) == region && !mesh.is_fixed_face(face))
+            .filter(|_| old.len() < ROOM);
+        let Some(other) = other else {
+            // The vertex is moved later on.
+            if grade.quality <= LEAST {
+                return None;
+            }
+            next += 1;
+            continue;
+        };
         old.push(other);
         // Faces that it has in common with the cavity are gone, the others are new ones.
         for (face, inside) in faces(mesh, other) {

@@ -1,5 +1,6 @@
 use super::flip;
 use super::freedom::Freedom;
+use super::insert;
 use super::mesh::Mesh;
 use super::quality::Goal;
 use super::smooth;
@@ -193,6 +194,64 @@ fn inner_vertices_go_to_the_middle() {
     assert!(!smooth(&mut mesh, &freedoms, 1));
     assert!(least(&mesh) > 2.0 * before);
     assert!(mesh.positions[0].length() < 0.1, "{}", mesh.positions[0]);
+}
+
+/// Steps that are small against what is next to the vertex would never make a good tetrahedron.
+#[test]
+fn a_vertex_next_to_another_one_goes_to_the_middle() {
+    let goal = Goal::new(25.0, 1.4);
+    let limits = FxHashMap::default();
+    for distance in [1e-3, 1e-6, 1e-9] {
+        let template = octahedron(DVec3::X * (1.0 - distance));
+        let (of_triangle, normals) = facets(&template);
+        let freedoms = freedoms(&template, &of_triangle, &normals);
+        let mut mesh = Mesh::new(&template, 1.0, goal, &limits, 1);
+        assert!(smooth(&mut mesh, &freedoms, 0), "{distance}");
+        assert!(mesh.positions[0].length() < 0.3, "{}", mesh.positions[0]);
+    }
+}
+
+#[test]
+fn new_vertices_come_where_nothing_else_helps() {
+    // A long edge in the middle makes long radii.
+    let goal = Goal::new(25.0, 1.4);
+    let limits = FxHashMap::default();
+    let template = ring(4, 2.0);
+    let before = volume(&template, &template.tets);
+    let freedoms = freedoms(&template, &[], &[]);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &limits, 1);
+    let worst = mesh.grade(0).quality;
+    assert!(worst < 1.0);
+    let found = insert::find(&mesh, &freedoms, 0).expect("a place");
+    found.apply(&mut mesh);
+    assert!((0..mesh.len() as u32).all(|t| mesh.grade(t).quality >= 1.0));
+    assert!(mesh.positions[6].length() < 0.2, "{}", mesh.positions[6]);
+    let grown = Template {
+        vertices: mesh.positions.clone(),
+        ..Template::default()
+    };
+    let tets = mesh.into_tets();
+    assert_eq!(tets.len(), 8);
+    assert!(tets.iter().all(|t| t.region == 7));
+    assert!((volume(&grown, &tets) - before).abs() < 1e-12);
+    // Not across faces that are part of the surface, nor into another region.
+    let face = |corner| Triangle {
+        vertices: [0, 1, corner],
+        marker: 1,
+        front: 7,
+        back: 7,
+    };
+    let mut divided = template.clone();
+    divided.triangles = [2, 4].map(face).to_vec();
+    let mut regions = template;
+    regions.tets[2..].iter_mut().for_each(|t| t.region = 8);
+    for (other, most) in [(divided, 2), (regions, 2)] {
+        let mesh = Mesh::new(&other, 1.0, goal, &limits, 1);
+        for tet in 0..4 {
+            let found = insert::find(&mesh, &freedoms, tet);
+            assert!(found.is_none_or(|f| f.replaces_at_most(most)), "{tet}");
+        }
+    }
 }
 
 /// A triangular prism from z = 0 to 1 with a vertex in the middle of its bottom and one on an upright edge.
@@ -408,14 +467,17 @@ fn threads_make_no_difference() {
     let wish = Wish {
         angle: 25.0,
         radius_edge: 1.4,
-        min_dihedral: 10.0,
+        min_dihedral: 19.0,
         max_volume: &FxHashMap::default(),
         scale: 1.0,
         share: 0.1,
     };
     let mut one = cubes.clone();
     let done = improve(&mut one, &freedoms, &wish, 1);
-    assert!(done.moved > 1000 && done.flipped > 1000, "{done:?}");
+    assert!(
+        done.moved > 1000 && done.flipped > 1000 && done.inserted > 0,
+        "{done:?}"
+    );
     assert!((volume(&one, &one.tets) - 26_f64.powi(3)).abs() < 1e-6);
     for threads in [2, 3] {
         let mut several = cubes.clone();
