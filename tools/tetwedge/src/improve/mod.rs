@@ -41,6 +41,9 @@ const MANY: f64 = 0.01;
 /// So many are worked on in any case.
 const AT_LEAST: usize = 1000;
 
+/// Angles below this times the smallest one asked for get new vertices, too.
+const MARGIN: f64 = 1.5;
+
 /// Times that all this is done, with new vertices in between for what is left.
 const PASSES: usize = 3;
 
@@ -103,11 +106,17 @@ pub fn improve(
     let mut done = Improved::default();
     for pass in 0..PASSES {
         rounds(&mut mesh, freedoms, wish, threads, &mut done);
-        if pass + 1 == PASSES || !add_vertices(&mut mesh, freedoms, wish, &mut done) {
+        if pass + 1 == PASSES || !add_vertices(&mut mesh, freedoms, wish, 1.0, &mut done) {
             break;
         }
     }
-    keep_bound(&mut mesh, freedoms, wish, goal, &mut done);
+    let bound_before = goal.with_bound_before(wish.min_dihedral);
+    let failing_ones = failing(&mesh, wish, 1.0);
+    mesh.change_goal(bound_before, failing_ones.into_iter().map(|(_, tet)| tet));
+    // Within the bounds first, then with some room.
+    for margin in [1.0, MARGIN] {
+        mend(&mut mesh, freedoms, wish, margin, &mut done);
+    }
     left_over(&mesh, wish, &mut done);
     for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
         // Exact: the scale is a power of two.
@@ -179,12 +188,13 @@ fn left_over(mesh: &Mesh<'_>, wish: &Wish<'_>, done: &mut Improved) {
     }
 }
 
-/// Tetrahedra that are not as the mesher was asked for, the worst first.
-fn failing(mesh: &Mesh<'_>, wish: &Wish<'_>) -> Vec<Bad> {
+/// Tetrahedra that are not as the mesher was asked for, the worst first; angles count that are less than `margin` times
+/// the smallest one asked for.
+fn failing(mesh: &Mesh<'_>, wish: &Wish<'_>, margin: f64) -> Vec<Bad> {
     let below = (0..mesh.len() as u32).filter(|&t| mesh.grade(t).quality < 1.0);
     let failing = below.filter(|&t| {
-        let (past, low, _) = failings(mesh, wish, t);
-        past || low
+        let (past, _, angle) = failings(mesh, wish, t);
+        past || angle < margin * wish.min_dihedral
     });
     let mut bad: Vec<Bad> = failing.map(|t| (mesh.grade(t).quality, t)).collect();
     bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -196,10 +206,11 @@ fn add_vertices(
     mesh: &mut Mesh<'_>,
     freedoms: &Freedoms,
     wish: &Wish<'_>,
+    margin: f64,
     done: &mut Improved,
 ) -> bool {
     let before = done.inserted;
-    for (quality, tet) in failing(mesh, wish) {
+    for (quality, tet) in failing(mesh, wish, margin) {
         if ahead::is_there(mesh, quality, tet)
             && let Some(insertion) = insert::find(mesh, freedoms, tet)
         {
@@ -210,25 +221,19 @@ fn add_vertices(
     done.inserted > before
 }
 
-/// Brings what is still past the radius-edge bound back below it, for angles as small as the mesher was asked for.
-fn keep_bound(
+/// Everything that helps against what is not as the mesher was asked for, and nothing else.
+fn mend(
     mesh: &mut Mesh<'_>,
     freedoms: &Freedoms,
     wish: &Wish<'_>,
-    goal: Goal,
+    margin: f64,
     done: &mut Improved,
 ) {
-    let bad = failing(mesh, wish);
-    if bad.is_empty() {
-        return;
-    }
-    let goal = goal.with_bound_before(wish.min_dihedral);
-    mesh.change_goal(goal, bad.into_iter().map(|(_, tet)| tet));
     for _ in 0..PASSES {
-        let count = ahead::work(mesh, freedoms, &failing(mesh, wish), 1);
+        let count = ahead::work(mesh, freedoms, &failing(mesh, wish, margin), 1);
         done.moved += count.moved;
         done.flipped += count.flipped;
-        let added = add_vertices(mesh, freedoms, wish, done);
+        let added = add_vertices(mesh, freedoms, wish, margin, done);
         if !added && count == Count::default() {
             break;
         }
