@@ -16,6 +16,9 @@ use glam::DVec3;
 /// The smallest quality has to grow by this part for a new vertex.
 const GAIN: f64 = 5e-2;
 
+/// Places that are tried in earnest, the best of all.
+const TRIED: usize = 4;
+
 /// Tetrahedra that make room for a vertex, at most.
 const ROOM: usize = 40;
 
@@ -41,12 +44,27 @@ impl Insertion {
     }
 }
 
+/// Tetrahedra that would make room for a vertex.
+struct Cavity {
+    start: DVec3,
+    old: Vec<u32>,
+    /// What would be in their place, and the smallest quality of them with the vertex at `start`.
+    new: Vec<Corners>,
+    least: f64,
+}
+
 /// The new vertex in or at a tetrahedron that makes the worst one there better, and as good as possible.
 pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> Option<Insertion> {
     let points = mesh.corners(tet).map(|v| mesh.positions[v as usize]);
+    let mut cavities: Vec<Cavity> = places(points)
+        .filter_map(|p| cavity(mesh, tet, p))
+        .collect();
+    // The vertex is moved from there, which takes time.
+    cavities.sort_by(|a, b| b.least.total_cmp(&a.least));
+    cavities.truncate(TRIED);
     let mut best: Option<Insertion> = None;
-    for p in places(points) {
-        let found = insert(mesh, freedoms, tet, p);
+    for cavity in cavities {
+        let found = fill(mesh, freedoms, cavity);
         if let Some(found) = found
             && best.as_ref().is_none_or(|b| b.least < found.least)
         {
@@ -72,8 +90,8 @@ fn places(points: [DVec3; 4]) -> impl Iterator<Item = DVec3> {
     all.chain(towards.into_iter().filter(|p| p.is_finite()))
 }
 
-/// A vertex near `start`, with the cavity that suits it.
-fn insert(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32, start: DVec3) -> Option<Insertion> {
+/// The cavity that suits a vertex at `start`.
+fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3) -> Option<Cavity> {
     let region = mesh.region(tet);
     let (above, _) = mesh.bounds(&[tet], GAIN, LEAST);
     let vertex = mesh.positions.len() as u32;
@@ -126,20 +144,36 @@ fn insert(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32, start: DVec3) -> Optio
     if !whole {
         return None;
     }
-    let (above, most) = mesh.bounds(&old, GAIN, LEAST);
-    let tets: Vec<Corners> = hull
+    let new: Vec<Corners> = hull
         .iter()
         .map(|&([a, b, c], _)| [a, b, c, vertex])
         .collect();
-    let (at, grades) = settle(mesh, freedoms, start, &tets, (region, most));
-    let least = grades
-        .iter()
-        .map(|g| g.quality)
-        .fold(f64::INFINITY, f64::min);
+    let qualities = hull.iter().map(|(face, _)| {
+        let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+        mesh.of_points([a, b, c, start]).quality
+    });
+    Some(Cavity {
+        least: qualities.fold(f64::INFINITY, f64::min),
+        start,
+        old,
+        new,
+    })
+}
+
+/// Fills a cavity from a vertex that is moved to the best place, if that makes the worst tetrahedron better.
+fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, cavity: Cavity) -> Option<Insertion> {
+    let Cavity {
+        start, old, new, ..
+    } = cavity;
+    let (above, most) = mesh.bounds(&old, GAIN, LEAST);
+    let region = mesh.region(*old.first()?);
+    let (at, grades) = settle(mesh, freedoms, start, &new, (region, most));
+    let qualities = grades.iter().map(|g| g.quality);
+    let least = qualities.fold(f64::INFINITY, f64::min);
     (least > above).then(|| Insertion {
         at,
         old,
-        new: tets.into_iter().zip(grades).collect(),
+        new: new.into_iter().zip(grades).collect(),
         least,
     })
 }

@@ -41,6 +41,11 @@ const MANY: f64 = 0.01;
 /// So many are worked on in any case.
 const AT_LEAST: usize = 1000;
 
+/// So many are few, and this part of all: they are given new vertices, which takes a hundred times as long as to
+/// replace a face.
+const FEW: usize = 128;
+const FEW_PART: f64 = 1.0 / 400.0;
+
 /// Angles below this times the smallest one asked for get new vertices, too.
 const MARGIN: f64 = 1.5;
 
@@ -56,7 +61,7 @@ pub struct Wish<'a> {
     pub angle: f64,
     /// Largest radius-edge ratio.
     pub radius_edge: f64,
-    /// Smallest dihedral angle that the mesher was asked for, degrees; only counted.
+    /// Smallest dihedral angle asked for, degrees; the mesher may have been asked for less.
     pub min_dihedral: f64,
     /// Largest volume by region, model units cubed.
     pub max_volume: &'a FxHashMap<u32, f64>,
@@ -106,13 +111,15 @@ pub fn improve(
     let mut done = Improved::default();
     for pass in 0..PASSES {
         rounds(&mut mesh, freedoms, wish, threads, &mut done);
-        if pass + 1 == PASSES || !add_vertices(&mut mesh, freedoms, wish, 1.0, &mut done) {
+        // Where many are not as asked for, the shape is to blame, and other rounds are no use.
+        let last = pass + 1 == PASSES || failing(&mesh, wish, 1.0).len() > few(&mesh);
+        if last || !add_vertices(&mut mesh, freedoms, wish, 1.0, &mut done) {
             break;
         }
     }
     let bound_before = goal.with_bound_before(wish.min_dihedral);
-    let failing_ones = failing(&mesh, wish, 1.0);
-    mesh.change_goal(bound_before, failing_ones.into_iter().map(|(_, tet)| tet));
+    let past = failing(&mesh, wish, 1.0);
+    mesh.change_goal(bound_before, past.into_iter().map(|(_, tet)| tet));
     // Within the bounds first, then with some room.
     for margin in [1.0, MARGIN] {
         mend(&mut mesh, freedoms, wish, margin, &mut done);
@@ -188,6 +195,11 @@ fn left_over(mesh: &Mesh<'_>, wish: &Wish<'_>, done: &mut Improved) {
     }
 }
 
+/// How many tetrahedra are worth much work each.
+fn few(mesh: &Mesh<'_>) -> usize {
+    FEW.max((FEW_PART * mesh.len() as f64) as usize)
+}
+
 /// Tetrahedra that are not as the mesher was asked for, the worst first; angles count that are less than `margin` times
 /// the smallest one asked for.
 fn failing(mesh: &Mesh<'_>, wish: &Wish<'_>, margin: f64) -> Vec<Bad> {
@@ -210,7 +222,8 @@ fn add_vertices(
     done: &mut Improved,
 ) -> bool {
     let before = done.inserted;
-    for (quality, tet) in failing(mesh, wish, margin) {
+    let worst = failing(mesh, wish, margin).into_iter().take(few(mesh));
+    for (quality, tet) in worst {
         if ahead::is_there(mesh, quality, tet)
             && let Some(insertion) = insert::find(mesh, freedoms, tet)
         {
@@ -230,7 +243,9 @@ fn mend(
     done: &mut Improved,
 ) {
     for _ in 0..PASSES {
-        let count = ahead::work(mesh, freedoms, &failing(mesh, wish, margin), 1);
+        let mut worst = failing(mesh, wish, margin);
+        worst.truncate(few(mesh));
+        let count = ahead::work(mesh, freedoms, &worst, 1);
         done.moved += count.moved;
         done.flipped += count.flipped;
         let added = add_vertices(mesh, freedoms, wish, margin, done);
