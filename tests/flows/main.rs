@@ -7,6 +7,7 @@ mod generator;
 mod bodies;
 mod bounds;
 mod determinism;
+mod elements;
 mod exchanged;
 mod failures;
 mod hubs;

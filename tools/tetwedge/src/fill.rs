@@ -149,7 +149,7 @@ pub fn fill(
 }
 
 /// Improves the tetrahedra, as far as elements are to be optimized: the smallest angle to reach is what
-/// remains of a straight angle, halved.
+/// remains of a straight angle, halved, and the one asked for at least.
 fn refine(
     document: &Document,
     plc: &Plc,
@@ -178,7 +178,8 @@ fn refine(
     );
     let regions = document.regions.iter().zip(&sizes.of_region);
     let wish = Wish {
-        angle: 0.5 * (180.0 - largest),
+        // The mesher was asked for less than `min_dihedral`.
+        angle: (0.5 * (180.0 - largest)).max(params.min_dihedral),
         radius_edge: params.radius_edge,
         min_dihedral: params.min_dihedral,
         max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),

@@ -462,8 +462,9 @@ fn attempt(
         let filled = fill(document, index, &answer.plc, &answer.mesh, params, sizes)?;
         if let Some(done) = filled.improved {
             log(&format!(
-                "template {index}: {} tetrahedra to be improved, {} remain; {} vertices moved, {} edges and faces replaced",
-                done.bad, done.left, done.moved, done.flipped,
+                "template {index}: {} tetrahedra to be improved, {} remain; {} vertices moved, {} added, {} edges and faces \
+                 replaced",
+                done.bad, done.left, done.moved, done.inserted, done.flipped,
             ));
         }
         log(&format!(

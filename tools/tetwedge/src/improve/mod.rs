@@ -1,4 +1,4 @@
-//! Makes the worst tetrahedra better: moves vertices, replaces edges and faces.
+//! Makes the worst tetrahedra better: moves vertices, replaces edges and faces, adds vertices.
 //!
 //! The mesher sees a wedge with a surface that it must keep where copies meet, and cannot do there what it
 //! does inside. Here a seam is the inside that it is in the assembled mesh: the star of a vertex on it
@@ -92,8 +92,11 @@ pub struct Improved {
     pub inserted: usize,
 }
 
-/// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay. The number of
-/// threads makes no difference to the result.
+/// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay; new vertices have
+/// numbers beyond. The number of threads makes no difference to the result.
+///
+/// At first an element past the radius-edge bound is worth as much as one with two thirds of the angle. When nothing
+/// helps any more, the bounds that the mesher was to keep come first.
 pub fn improve(
     template: &mut Template,
     freedoms: &Freedoms,
