@@ -132,7 +132,7 @@ fn measure(document: &Document) {
     let params = Params {
         bins: 7,
         limits: Vec::new(),
-bounds: Vec::new(),
+        bounds: Vec::new(),
         worst: 2,
     };
     if let Ok(report) = analyse(document, None, &params) {

@@ -27,7 +27,7 @@ pub type Bad = (f64, u32);
 /// What makes a tetrahedron better.
 pub enum Step {
     /// Others in the place of some.
-    Flip(Flip),
+    Flip(Box<Flip>),
     /// A corner elsewhere, by its number from 0 to 3.
     Move(usize, Move),
 }
@@ -95,7 +95,7 @@ fn is_touched(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> bool {
 fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32, from: usize) -> Option<Step> {
     let flip = (from == 0).then(|| flip::find(mesh, tet)).flatten();
     if let Some(flip) = flip {
-        return Some(Step::Flip(flip));
+        return Some(Step::Flip(Box::new(flip)));
     }
     let corners = mesh.corners(tet);
     (from..4).find_map(|i| {
