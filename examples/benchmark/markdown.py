@@ -70,7 +70,7 @@ def main_table(groups):
     head = [
         "category", "order", "sets", "speed-up min / mean / max", "without direct's output", "elements over direct's",
         "1st percentile of the smallest dihedral, worst gain", "its minimum, worst gain",
-        "past radius-edge bound, worst: pipe (direct)", "failed: pipe, direct", "checks passed",
+        "past radius-edge bound, worst: pipe (direct); more than direct in", "failed: pipe, direct", "checks passed",
     ]
     rows = []
     for g in groups:
@@ -80,7 +80,8 @@ def main_table(groups):
             spread(g["speedup"]) + (f" (over the limit: at least {bound['min']:.0f})" if bound else ""),
             spread(g["speedup_without_output"]), spread(g["count_ratio"], ".2f"),
             number(g["p01_gain"], "+.2f"), number(g["min_gain"], "+.2f"),
-            f"{number(percent(g['violations_pipe']), '.2f')} % ({number(percent(g['violations_direct']), '.2f')} %)",
+            f"{number(percent(g['violations_pipe']), '.3f')} % ({number(percent(g['violations_direct']), '.3f')} %)"
+            f"; {g['violations_more']}",
             f"{g['pipe_failed']}, {g['direct_failed']}", f"{g['checks_passed']} of {g['sets']}",
         ])
     return table(head, rows)

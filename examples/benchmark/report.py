@@ -113,6 +113,7 @@ def aggregate(rows):
             "min_gain": gain("min_dihedral"),
             "violations_pipe": worst("violations_pipe"),
             "violations_direct": worst("violations_direct"),
+            "violations_more": sum((r["violations_pipe"] or 0) > (r["violations_direct"] or 0) for r in mine),
             "checks_passed": sum(r["checks_pipe"] is True for r in mine),
         })
     return table
