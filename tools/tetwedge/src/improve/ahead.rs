@@ -53,7 +53,7 @@ pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], threads: usiz
         return count;
     }
     for some in bad.chunks(at_once) {
-        mesh.renew();
+        let now = mesh.renew();
         let shares: Vec<&[Bad]> = some.chunks(SHARE).collect();
         let found = in_parallel(&shares, threads, |share| {
             let step = |&(quality, tet): &Bad| {
@@ -65,7 +65,7 @@ pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], threads: usiz
         for (&(quality, tet), step) in some.iter().zip(found.into_iter().flatten()) {
             if is_there(mesh, quality, tet) {
                 let step = match step {
-                    Some(step) if !is_touched(mesh, freedoms, tet) => step,
+                    Some(step) if !is_touched(mesh, freedoms, tet, now) => step,
                     _ => find(mesh, freedoms, tet, 0),
                 };
                 take(mesh, freedoms, tet, step, &mut count);
@@ -80,14 +80,14 @@ pub fn is_there(mesh: &Mesh<'_>, quality: f64, tet: u32) -> bool {
     (tet as usize) < mesh.len() && mesh.grade(tet).quality == quality
 }
 
-/// Whether anything changed that [`find`] looks at.
-fn is_touched(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> bool {
+/// Whether anything changed since that [`find`] looks at.
+fn is_touched(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32, time: u32) -> bool {
     mesh.corners(tet).into_iter().any(|v| {
         let mover = freedoms.mover(v);
         let partner = freedoms.partner(mover);
-        mesh.is_touched(v)
-            || (mover != v && mesh.is_touched(mover))
-            || partner.is_some_and(|(other, _)| mesh.is_touched(other))
+        mesh.is_touched(v, time)
+            || (mover != v && mesh.is_touched(mover, time))
+            || partner.is_some_and(|(other, _)| mesh.is_touched(other, time))
     })
 }
 

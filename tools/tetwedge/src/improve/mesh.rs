@@ -98,15 +98,16 @@ impl<'a> Mesh<'a> {
         self.stars.of(v)
     }
 
-    /// Begins a new time, for [`Self::is_touched`].
-    pub fn renew(&mut self) {
+    /// Begins a new time, for [`Self::is_touched`], and returns it.
+    pub fn renew(&mut self) -> u32 {
         self.stars.renew();
+        self.stars.now()
     }
 
-    /// Whether anything about the tetrahedra at a vertex has changed since [`Self::renew`]: which ones they are,
+    /// Whether anything about the tetrahedra at a vertex changed at that time or later: which ones they are,
     /// their numbers, their corners or where these are.
-    pub fn is_touched(&self, v: u32) -> bool {
-        self.stars.is_touched(v)
+    pub fn is_touched(&self, v: u32, time: u32) -> bool {
+        self.stars.is_touched(v, time)
     }
 
     /// Grades four points as a tetrahedron.

@@ -22,7 +22,7 @@ pub use freedom::{Flats, Freedoms};
 
 use ahead::{Bad, Count};
 use geom::tet::TetMeasures;
-use mesh::Mesh;
+use mesh::{Corners, Mesh};
 use quality::Goal;
 use rustc_hash::FxHashMap;
 use tmesh::Template;
@@ -112,11 +112,12 @@ pub fn improve(
         .collect();
     let mut mesh = Mesh::new(template, wish.scale, goal, &limits, threads);
     let mut done = Improved::default();
+    let mut tried = Tried::default();
     for pass in 0..PASSES {
         rounds(&mut mesh, freedoms, wish, threads, &mut done);
         // Where many are not as asked for, the shape is to blame, and other rounds are no use.
         let last = pass + 1 == PASSES || failing(&mesh, wish, 1.0).len() > few(&mesh);
-        if last || !add_vertices(&mut mesh, freedoms, wish, 1.0, &mut done) {
+        if last || !add_vertices(&mut mesh, freedoms, wish, 1.0, &mut tried, &mut done) {
             break;
         }
     }
@@ -124,8 +125,9 @@ pub fn improve(
     let past = failing(&mesh, wish, 1.0);
     mesh.change_goal(bound_before, past.into_iter().map(|(_, tet)| tet));
     // Within the bounds first, then with some room.
+    let mut tried = Tried::default();
     for margin in [1.0, MARGIN] {
-        mend(&mut mesh, freedoms, wish, margin, &mut done);
+        mend(&mut mesh, freedoms, wish, margin, &mut tried, &mut done);
     }
     left_over(&mesh, wish, &mut done);
     for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
@@ -198,6 +200,10 @@ fn left_over(mesh: &Mesh<'_>, wish: &Wish<'_>, done: &mut Improved) {
     }
 }
 
+/// Tetrahedra that were tried for a new vertex, and when: it is tried again only where something has changed at their
+/// corners.
+type Tried = FxHashMap<Corners, u32>;
+
 /// How many tetrahedra are worth much work each.
 fn few(mesh: &Mesh<'_>) -> usize {
     FEW.max((FEW_PART * mesh.len() as f64) as usize)
@@ -222,16 +228,25 @@ fn add_vertices(
     freedoms: &Freedoms,
     wish: &Wish<'_>,
     margin: f64,
+    tried: &mut Tried,
     done: &mut Improved,
 ) -> bool {
     let before = done.inserted;
     let worst = failing(mesh, wish, margin).into_iter().take(few(mesh));
+    let mut now = mesh.renew();
     for (quality, tet) in worst {
-        if ahead::is_there(mesh, quality, tet)
-            && let Some(insertion) = insert::find(mesh, freedoms, tet)
-        {
+        if !ahead::is_there(mesh, quality, tet) {
+            continue;
+        }
+        let corners = mesh.corners(tet);
+        let last = tried.insert(corners, now);
+        if last.is_some_and(|time| corners.iter().all(|&v| !mesh.is_touched(v, time))) {
+            continue;
+        }
+        if let Some(insertion) = insert::find(mesh, freedoms, tet) {
             insertion.apply(mesh);
             done.inserted += 1;
+            now = mesh.renew();
         }
     }
     done.inserted > before
@@ -243,6 +258,7 @@ fn mend(
     freedoms: &Freedoms,
     wish: &Wish<'_>,
     margin: f64,
+    tried: &mut Tried,
     done: &mut Improved,
 ) {
     for _ in 0..PASSES {
@@ -251,7 +267,7 @@ fn mend(
         let count = ahead::work(mesh, freedoms, &worst, 1);
         done.moved += count.moved;
         done.flipped += count.flipped;
-        let added = add_vertices(mesh, freedoms, wish, margin, done);
+        let added = add_vertices(mesh, freedoms, wish, margin, tried, done);
         if !added && count == Count::default() {
             break;
         }

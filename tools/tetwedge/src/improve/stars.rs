@@ -106,14 +106,19 @@ impl Stars {
         self.spans[v as usize].stamp = self.now;
     }
 
-    /// Begins a new time: nothing has changed since.
+    /// Begins a new time: at that nothing has changed yet.
     pub fn renew(&mut self) {
         self.now += 1;
     }
 
-    /// Whether any tetrahedron at a vertex changed since [`Self::renew`].
-    pub fn is_touched(&self, v: u32) -> bool {
-        self.spans[v as usize].stamp == self.now
+    /// The time that it is: how often there was a new one.
+    pub fn now(&self) -> u32 {
+        self.now
+    }
+
+    /// Whether any tetrahedron at a vertex changed at that time or later.
+    pub fn is_touched(&self, v: u32, time: u32) -> bool {
+        self.spans[v as usize].stamp >= time
     }
 }
 
@@ -157,13 +162,15 @@ mod tests {
         }];
         let mut stars = Stars::new(5, &tets);
         stars.renew();
-        assert!((0..5).all(|v| !stars.is_touched(v)));
+        let first = stars.now();
+        assert!((0..5).all(|v| !stars.is_touched(v, first)));
         stars.push(0, 1);
         stars.remove(1, 0);
         stars.rename(2, 0, 5);
         stars.touch(3);
-        assert!((0..4).all(|v| stars.is_touched(v)) && !stars.is_touched(4));
+        assert!((0..4).all(|v| stars.is_touched(v, first)) && !stars.is_touched(4, first));
         stars.renew();
-        assert!((0..5).all(|v| !stars.is_touched(v)));
+        assert!((0..5).all(|v| !stars.is_touched(v, stars.now())));
+        assert!(stars.is_touched(0, first) && !stars.is_touched(4, first));
     }
 }
