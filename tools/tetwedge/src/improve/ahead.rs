@@ -9,6 +9,7 @@ use super::freedom::Freedoms;
 use super::mesh::Mesh;
 use super::smooth::{self, Move};
 use kit::in_parallel;
+use std::iter::repeat_with;
 
 /// Tetrahedra looked at together, as a part of the vertices, so that few of them have corners in common with what is
 /// changed before them; and at most, so that what was looked at is at hand when it is done.
@@ -39,40 +40,72 @@ pub struct Count {
     pub flipped: usize,
 }
 
+/// When nothing was found for a tetrahedron, by its number: nothing will be before something changes at its corners.
+pub type Failed = Vec<Option<u32>>;
+
 /// Makes tetrahedra better, those that are still there with the same quality when it is their turn.
-pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], threads: usize) -> Count {
+pub fn work(
+    mesh: &mut Mesh<'_>,
+    freedoms: &Freedoms,
+    bad: &[Bad],
+    threads: usize,
+    failed: &mut Failed,
+) -> Count {
     let mut count = Count::default();
     let at_once = (mesh.positions.len() / PART).min(MOST);
-    if threads <= 1 || at_once < FEWEST {
-        for &(quality, tet) in bad {
-            if is_there(mesh, quality, tet) {
-                let step = find(mesh, freedoms, tet, 0);
-                take(mesh, freedoms, tet, step, &mut count);
+    let ahead = threads > 1 && at_once >= FEWEST;
+    for some in bad.chunks(if ahead { at_once } else { bad.len().max(1) }) {
+        failed.resize(failed.len().max(mesh.len()), None);
+        let now = mesh.now();
+        let found = match ahead {
+            true => look(mesh, freedoms, some, threads, failed),
+            false => Vec::new(),
+        };
+        let found = found.into_iter().map(Some).chain(repeat_with(|| None));
+        for (&(quality, tet), step) in some.iter().zip(found) {
+            if !is_there(mesh, quality, tet) {
+                continue;
             }
-        }
-        return count;
-    }
-    for some in bad.chunks(at_once) {
-        let now = mesh.renew();
-        let shares: Vec<&[Bad]> = some.chunks(SHARE).collect();
-        let found = in_parallel(&shares, threads, |share| {
-            let step = |&(quality, tet): &Bad| {
-                let there = is_there(mesh, quality, tet);
-                there.then(|| find(mesh, freedoms, tet, 0))
+            let last = failed.get(tet as usize).copied().flatten();
+            if last.is_some_and(|time| !is_touched(mesh, freedoms, tet, time)) {
+                continue;
+            }
+            let (step, time) = match step {
+                Some(step) if !is_touched(mesh, freedoms, tet, now) => (step, now),
+                _ => (find(mesh, freedoms, tet, 0), mesh.now()),
             };
-            share.iter().map(step).collect::<Vec<_>>()
-        });
-        for (&(quality, tet), step) in some.iter().zip(found.into_iter().flatten()) {
-            if is_there(mesh, quality, tet) {
-                let step = match step {
-                    Some(step) if !is_touched(mesh, freedoms, tet, now) => step,
-                    _ => find(mesh, freedoms, tet, 0),
-                };
-                take(mesh, freedoms, tet, step, &mut count);
+            if step.is_none()
+                && let Some(failed) = failed.get_mut(tet as usize)
+            {
+                *failed = Some(time);
             }
+            take(mesh, freedoms, tet, step, &mut count);
         }
     }
     count
+}
+
+/// What makes each tetrahedron better, on several threads.
+fn look(
+    mesh: &Mesh<'_>,
+    freedoms: &Freedoms,
+    bad: &[Bad],
+    threads: usize,
+    failed: &Failed,
+) -> Vec<Option<Step>> {
+    let shares: Vec<&[Bad]> = bad.chunks(SHARE).collect();
+    let found = in_parallel(&shares, threads, |share| {
+        let step = |&(quality, tet): &Bad| {
+            let last = failed.get(tet as usize).copied().flatten();
+            let hopeless = last.is_some_and(|time| !is_touched(mesh, freedoms, tet, time));
+            match is_there(mesh, quality, tet) && !hopeless {
+                true => find(mesh, freedoms, tet, 0),
+                false => None,
+            }
+        };
+        share.iter().map(step).collect::<Vec<_>>()
+    });
+    found.into_iter().flatten().collect()
 }
 
 /// Whether nothing else has taken the place of a tetrahedron.
@@ -80,7 +113,7 @@ pub fn is_there(mesh: &Mesh<'_>, quality: f64, tet: u32) -> bool {
     (tet as usize) < mesh.len() && mesh.grade(tet).quality == quality
 }
 
-/// Whether anything changed since that [`find`] looks at.
+/// Whether anything that [`find`] looks at changed after that time.
 fn is_touched(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32, time: u32) -> bool {
     mesh.corners(tet).into_iter().any(|v| {
         let mover = freedoms.mover(v);

@@ -28,6 +28,7 @@ pub struct Flip {
 impl Flip {
     /// Puts the better ones in their place.
     pub fn apply(&self, mesh: &mut Mesh<'_>) {
+        mesh.renew();
         mesh.replace(&self.old, &self.new);
     }
 }

@@ -39,6 +39,7 @@ impl Insertion {
 
     /// Adds the vertex, and puts the tetrahedra in their place.
     pub fn apply(&self, mesh: &mut Mesh<'_>) {
+        mesh.renew();
         mesh.add(self.at);
         mesh.replace(&self.old, &self.new);
     }

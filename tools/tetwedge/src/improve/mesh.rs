@@ -98,13 +98,17 @@ impl<'a> Mesh<'a> {
         self.stars.of(v)
     }
 
-    /// Begins a new time, for [`Self::is_touched`], and returns it.
-    pub fn renew(&mut self) -> u32 {
+    /// Begins a new time, for [`Self::is_touched`]: before every change.
+    pub fn renew(&mut self) {
         self.stars.renew();
+    }
+
+    /// The time that it is.
+    pub fn now(&self) -> u32 {
         self.stars.now()
     }
 
-    /// Whether anything about the tetrahedra at a vertex changed at that time or later: which ones they are,
+    /// Whether anything about the tetrahedra at a vertex changed after that time: which ones they are,
     /// their numbers, their corners or where these are.
     pub fn is_touched(&self, v: u32, time: u32) -> bool {
         self.stars.is_touched(v, time)

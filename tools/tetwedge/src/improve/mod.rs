@@ -20,7 +20,7 @@ mod tests;
 
 pub use freedom::{Flats, Freedoms};
 
-use ahead::{Bad, Count};
+use ahead::{Bad, Count, Failed};
 use geom::tet::TetMeasures;
 use mesh::{Corners, Mesh};
 use quality::Goal;
@@ -114,7 +114,7 @@ pub fn improve(
     let mut done = Improved::default();
     let mut tried = Tried::default();
     for pass in 0..PASSES {
-        rounds(&mut mesh, freedoms, wish, threads, &mut done);
+        rounds(&mut mesh, freedoms, wish, threads, &mut tried, &mut done);
         // Where many are not as asked for, the shape is to blame, and other rounds are no use.
         let last = pass + 1 == PASSES || failing(&mesh, wish, 1.0).len() > few(&mesh);
         if last || !add_vertices(&mut mesh, freedoms, wish, 1.0, &mut tried, &mut done) {
@@ -150,6 +150,7 @@ fn rounds(
     freedoms: &Freedoms,
     wish: &Wish<'_>,
     threads: usize,
+    tried: &mut Tried,
     done: &mut Improved,
 ) {
     let most = ((mesh.len() as f64 * wish.share) as usize).max(AT_LEAST);
@@ -170,7 +171,7 @@ fn rounds(
         last = now;
         bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         bad.truncate(most);
-        let count = ahead::work(mesh, freedoms, &bad, threads);
+        let count = ahead::work(mesh, freedoms, &bad, threads, &mut tried.others);
         done.moved += count.moved;
         done.flipped += count.flipped;
         if count == Count::default() {
@@ -200,9 +201,15 @@ fn left_over(mesh: &Mesh<'_>, wish: &Wish<'_>, done: &mut Improved) {
     }
 }
 
-/// Tetrahedra that were tried for a new vertex, and when: it is tried again only where something has changed at their
+/// Tetrahedra for which nothing was found, and when: they are tried again only where something has changed at their
 /// corners.
-type Tried = FxHashMap<Corners, u32>;
+#[derive(Default)]
+struct Tried {
+    /// A new vertex.
+    vertices: FxHashMap<Corners, u32>,
+    /// Everything else.
+    others: Failed,
+}
 
 /// How many tetrahedra are worth much work each.
 fn few(mesh: &Mesh<'_>) -> usize {
@@ -233,20 +240,18 @@ fn add_vertices(
 ) -> bool {
     let before = done.inserted;
     let worst = failing(mesh, wish, margin).into_iter().take(few(mesh));
-    let mut now = mesh.renew();
     for (quality, tet) in worst {
         if !ahead::is_there(mesh, quality, tet) {
             continue;
         }
         let corners = mesh.corners(tet);
-        let last = tried.insert(corners, now);
+        let last = tried.vertices.insert(corners, mesh.now());
         if last.is_some_and(|time| corners.iter().all(|&v| !mesh.is_touched(v, time))) {
             continue;
         }
         if let Some(insertion) = insert::find(mesh, freedoms, tet) {
             insertion.apply(mesh);
             done.inserted += 1;
-            now = mesh.renew();
         }
     }
     done.inserted > before
@@ -264,7 +269,7 @@ fn mend(
     for _ in 0..PASSES {
         let mut worst = failing(mesh, wish, margin);
         worst.truncate(few(mesh));
-        let count = ahead::work(mesh, freedoms, &worst, 1);
+        let count = ahead::work(mesh, freedoms, &worst, 1, &mut tried.others);
         done.moved += count.moved;
         done.flipped += count.flipped;
         let added = add_vertices(mesh, freedoms, wish, margin, tried, done);

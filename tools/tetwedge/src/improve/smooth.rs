@@ -119,6 +119,7 @@ pub struct Move {
 impl Move {
     /// Moves the vertex.
     pub fn apply(&self, mesh: &mut Mesh<'_>) {
+        mesh.renew();
         mesh.put(self.vertex, self.to);
         if let Some((other, to)) = self.partner {
             mesh.put(other, to);

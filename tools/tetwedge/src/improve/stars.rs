@@ -106,7 +106,7 @@ impl Stars {
         self.spans[v as usize].stamp = self.now;
     }
 
-    /// Begins a new time: at that nothing has changed yet.
+    /// Begins a new time: what changes now changes after what came before.
     pub fn renew(&mut self) {
         self.now += 1;
     }
@@ -116,9 +116,9 @@ impl Stars {
         self.now
     }
 
-    /// Whether any tetrahedron at a vertex changed at that time or later.
+    /// Whether any tetrahedron at a vertex changed after that time.
     pub fn is_touched(&self, v: u32, time: u32) -> bool {
-        self.spans[v as usize].stamp >= time
+        self.spans[v as usize].stamp > time
     }
 }
 
@@ -161,9 +161,9 @@ mod tests {
             region: 1,
         }];
         let mut stars = Stars::new(5, &tets);
-        stars.renew();
         let first = stars.now();
         assert!((0..5).all(|v| !stars.is_touched(v, first)));
+        stars.renew();
         stars.push(0, 1);
         stars.remove(1, 0);
         stars.rename(2, 0, 5);
