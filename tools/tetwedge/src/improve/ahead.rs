@@ -63,11 +63,7 @@ pub fn work(
         };
         let found = found.into_iter().map(Some).chain(repeat_with(|| None));
         for (&(quality, tet), step) in some.iter().zip(found) {
-            if !is_there(mesh, quality, tet) {
-                continue;
-            }
-            let last = failed.get(tet as usize).copied().flatten();
-            if last.is_some_and(|time| !is_touched(mesh, freedoms, tet, time)) {
+            if !is_there(mesh, quality, tet) || is_hopeless(mesh, freedoms, tet, failed) {
                 continue;
             }
             let (step, time) = match step {
@@ -96,12 +92,8 @@ fn look(
     let shares: Vec<&[Bad]> = bad.chunks(SHARE).collect();
     let found = in_parallel(&shares, threads, |share| {
         let step = |&(quality, tet): &Bad| {
-            let last = failed.get(tet as usize).copied().flatten();
-            let hopeless = last.is_some_and(|time| !is_touched(mesh, freedoms, tet, time));
-            match is_there(mesh, quality, tet) && !hopeless {
-                true => find(mesh, freedoms, tet, 0),
-                false => None,
-            }
+            let open = is_there(mesh, quality, tet) && !is_hopeless(mesh, freedoms, tet, failed);
+            open.then(|| find(mesh, freedoms, tet, 0)).flatten()
         };
         share.iter().map(step).collect::<Vec<_>>()
     });
@@ -111,6 +103,12 @@ fn look(
 /// Whether nothing else has taken the place of a tetrahedron.
 pub fn is_there(mesh: &Mesh<'_>, quality: f64, tet: u32) -> bool {
     (tet as usize) < mesh.len() && mesh.grade(tet).quality == quality
+}
+
+/// Whether nothing was found for a tetrahedron that is there, and nothing has changed since.
+fn is_hopeless(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32, failed: &Failed) -> bool {
+    let last = failed.get(tet as usize).copied().flatten();
+    last.is_some_and(|time| !is_touched(mesh, freedoms, tet, time))
 }
 
 /// Whether anything that [`find`] looks at changed after that time.
