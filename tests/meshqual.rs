@@ -293,8 +293,12 @@ fn what_is_beyond_a_bound_is_counted() {
     let (_, stdout, _) = meshqual(&["--count-below=volume=-1"], &input);
     assert!(stdout.contains("volume below -1: 0 (0.0000 %)"), "{stdout}");
     for wrong in ["--count-below=volume", "--count-above=volume.p01=3"] {
-        let (code, _, stderr) = meshqual(&[wrong], &input);
-        assert_eq!(code, 2, "{stderr}");
+        let (code, stdout, stderr) = meshqual(&[wrong], &input);
+        assert_eq!((code, stdout.as_str()), (2, ""), "{stderr}");
+        assert!(
+            stderr.contains(wrong.split('=').next().unwrap()),
+            "{stderr}"
+        );
     }
 }
 

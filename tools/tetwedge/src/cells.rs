@@ -30,7 +30,7 @@ pub struct Contradiction {
     pub place: [f64; 3],
 }
 
-/// Labels tetrahedra by flood fill between surface triangles, and orients the triangles.
+/// Labels tetrahedra by the cells that surface triangles enclose, and orients the triangles.
 ///
 /// Facet normals say which region is on which side. Thin triangles have unreliable normals, so each
 /// cell takes the region most of its boundary's area speaks for; then every triangle must separate
@@ -63,7 +63,7 @@ pub fn label(plc: &Plc, mesh: &Mesh) -> Result<Cells, Contradiction> {
         }
         pieces.push((corners, facet, sides));
     }
-    let (cell, cells) = flood(mesh, &walled);
+    let (cell, cells) = connected(mesh, &walled);
 
     // Which regions each cell's boundary speaks for: (region, area), few per cell.
     let mut votes: Vec<Vec<(u32, f64)>> = vec![Vec::new(); cells];
@@ -166,9 +166,9 @@ fn apex(tet: [i32; 4], face: [i32; 3]) -> i32 {
 ///
 /// Disjoint sets whose roots are their first members: one pass in the order of the numbers, where a flood goes
 /// through memory at random.
-fn flood(mesh: &Mesh, walled: &[u8]) -> (Vec<u32>, usize) {
+fn connected(mesh: &Mesh, walled: &[u8]) -> (Vec<u32>, usize) {
     let mut first: Vec<u32> = (0..walled.len() as u32).collect();
-    for (tet, around) in mesh.neighbors().iter().enumerate() {
+    for (tet, around) in mesh.neighbors().iter().enumerate().take(walled.len()) {
         let mut root = root_of(&mut first, tet as u32);
         for (corner, &next) in around.iter().enumerate() {
             // Each face is seen from both sides; one of them is enough.

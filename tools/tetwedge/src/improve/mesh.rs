@@ -10,6 +10,9 @@ use tmesh::{Template, Tet, Triangle};
 /// A tetrahedron, given by the places of its corners.
 pub type Corners = [u32; 4];
 
+/// With fewer tetrahedra than these, another thread takes longer to start than it saves.
+const LARGE: usize = 1 << 14;
+
 /// Tetrahedra with their grades and the stars of their vertices, kept up to date.
 pub struct Mesh<'a> {
     /// Positions, scaled to be near one.
@@ -26,7 +29,7 @@ pub struct Mesh<'a> {
 }
 
 impl<'a> Mesh<'a> {
-    /// Takes over the tetrahedra of a template, on two threads if there are so many. Linear.
+    /// Takes over the tetrahedra of a template, [`LARGE`] ones on two threads. Linear.
     pub fn new(
         template: &Template,
         scale: f64,
@@ -38,7 +41,7 @@ impl<'a> Mesh<'a> {
         let tets = template.tets.clone();
         let grade = |t: &Tet| goal.grade(t.vertices.map(|v| positions[v as usize]));
         let (grades, stars) = both(
-            threads,
+            if tets.len() < LARGE { 1 } else { threads },
             || tets.iter().map(grade).collect(),
             || Stars::new(positions.len(), &tets),
         );

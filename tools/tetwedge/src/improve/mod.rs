@@ -96,7 +96,7 @@ pub struct Improved {
 /// numbers beyond. The number of threads makes no difference to the result.
 ///
 /// At first an element past the radius-edge bound is worth as much as one with two thirds of the angle. When nothing
-/// helps any more, the bounds that the mesher was to keep come first.
+/// helps any more, the bounds that were asked for come first.
 pub fn improve(
     template: &mut Template,
     freedoms: &Freedoms,
@@ -110,26 +110,30 @@ pub fn improve(
         .iter()
         .map(|(&r, &v)| (r, v * cube))
         .collect();
-    let mut mesh = Mesh::new(template, wish.scale, goal, &limits, threads);
-    let mut done = Improved::default();
-    let mut tried = Tried::default();
+    let mut work = Work {
+        mesh: Mesh::new(template, wish.scale, goal, &limits, threads),
+        freedoms,
+        wish,
+        threads,
+        tried: Tried::default(),
+        done: Improved::default(),
+    };
+    work.done.bad = work.bad().len();
     for pass in 0..PASSES {
-        rounds(&mut mesh, freedoms, wish, threads, &mut tried, &mut done);
+        work.rounds();
         // Where many are not as asked for, the shape is to blame, and other rounds are no use.
-        let last = pass + 1 == PASSES || failing(&mesh, wish, 1.0).len() > few(&mesh);
-        if last || !add_vertices(&mut mesh, freedoms, wish, 1.0, &mut tried, &mut done) {
+        let last = pass + 1 == PASSES || work.failing(1.0).len() > work.affordable();
+        if last || !work.add_vertices(1.0) {
             break;
         }
     }
-    let bound_before = goal.with_bound_before(wish.min_dihedral);
-    let past = failing(&mesh, wish, 1.0);
-    mesh.change_goal(bound_before, past.into_iter().map(|(_, tet)| tet));
+    work.put_bounds_first(goal);
     // Within the bounds first, then with some room.
-    let mut tried = Tried::default();
     for margin in [1.0, MARGIN] {
-        mend(&mut mesh, freedoms, wish, margin, &mut tried, &mut done);
+        work.mend(margin);
     }
-    left_over(&mesh, wish, &mut done);
+    work.count_what_is_left();
+    let Work { mesh, done, .. } = work;
     for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
         // Exact: the scale is a power of two.
         if *p * wish.scale != moved {
@@ -144,61 +148,14 @@ pub fn improve(
     done
 }
 
-/// Rounds over the worst tetrahedra, as long as they are of use.
-fn rounds(
-    mesh: &mut Mesh<'_>,
-    freedoms: &Freedoms,
-    wish: &Wish<'_>,
+/// A mesh that is improved.
+struct Work<'a> {
+    mesh: Mesh<'a>,
+    freedoms: &'a Freedoms,
+    wish: &'a Wish<'a>,
     threads: usize,
-    tried: &mut Tried,
-    done: &mut Improved,
-) {
-    let most = ((mesh.len() as f64 * wish.share) as usize).max(AT_LEAST);
-    let first = done.bad == 0;
-    let mut last = f64::INFINITY;
-    for round in 0..ROUNDS + MORE_ROUNDS {
-        let mut bad: Vec<Bad> = (0..mesh.len() as u32)
-            .map(|t| (mesh.grade(t).quality, t))
-            .filter(|b| b.0 < 1.0)
-            .collect();
-        if round == 0 && first {
-            done.bad = bad.len();
-        }
-        let (now, few) = (bad.len() as f64, MANY * mesh.len() as f64);
-        if round >= ROUNDS && (now < few || now > STUCK * last) {
-            break;
-        }
-        last = now;
-        bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        bad.truncate(most);
-        let count = ahead::work(mesh, freedoms, &bad, threads, &mut tried.others);
-        done.moved += count.moved;
-        done.flipped += count.flipped;
-        if count == Count::default() {
-            break;
-        }
-    }
-}
-
-/// Whether a tetrahedron is past the radius-edge bound, and whether it has an angle that is smaller than the mesher
-/// was asked for; and its smallest angle, degrees.
-fn failings(mesh: &Mesh<'_>, wish: &Wish<'_>, tet: u32) -> (bool, bool, f64) {
-    let measures = TetMeasures::of(mesh.corners(tet).map(|v| mesh.positions[v as usize]));
-    let angle = measures.min_dihedral.to_degrees();
-    let past = measures.radius_edge_ratio > wish.radius_edge;
-    (past, angle < wish.min_dihedral, angle)
-}
-
-/// Counts what is left.
-fn left_over(mesh: &Mesh<'_>, wish: &Wish<'_>, done: &mut Improved) {
-    (done.left, done.past, done.low, done.least) = (0, 0, 0, 180.0);
-    for t in (0..mesh.len() as u32).filter(|&t| mesh.grade(t).quality < 1.0) {
-        let (past, low, angle) = failings(mesh, wish, t);
-        done.left += 1;
-        done.past += usize::from(past);
-        done.low += usize::from(low);
-        done.least = done.least.min(angle);
-    }
+    tried: Tried,
+    done: Improved,
 }
 
 /// Tetrahedra for which nothing was found, and when: they are tried again only where something has changed at their
@@ -211,70 +168,126 @@ struct Tried {
     others: Failed,
 }
 
-/// How many tetrahedra are worth much work each.
-fn few(mesh: &Mesh<'_>) -> usize {
-    FEW.max((FEW_PART * mesh.len() as f64) as usize)
+/// What of the wishes a tetrahedron does not fulfil.
+struct Failing {
+    /// The radius-edge bound.
+    past: bool,
+    /// Its smallest dihedral angle, degrees.
+    angle: f64,
 }
 
-/// Tetrahedra that are not as the mesher was asked for, the worst first; angles count that are less than `margin` times
-/// the smallest one asked for.
-fn failing(mesh: &Mesh<'_>, wish: &Wish<'_>, margin: f64) -> Vec<Bad> {
-    let below = (0..mesh.len() as u32).filter(|&t| mesh.grade(t).quality < 1.0);
-    let failing = below.filter(|&t| {
-        let (past, _, angle) = failings(mesh, wish, t);
-        past || angle < margin * wish.min_dihedral
-    });
-    let mut bad: Vec<Bad> = failing.map(|t| (mesh.grade(t).quality, t)).collect();
-    bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    bad
-}
+impl Work<'_> {
+    /// Tetrahedra that are not good enough, the worst first.
+    fn bad(&self) -> Vec<Bad> {
+        let all = 0..self.mesh.len() as u32;
+        let grades = all.map(|t| (self.mesh.grade(t).quality, t));
+        let mut bad: Vec<Bad> = grades.filter(|b| b.0 < 1.0).collect();
+        bad.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        bad
+    }
 
-/// Gives what is still not as the mesher was asked for new vertices, where that helps; returns whether it did.
-fn add_vertices(
-    mesh: &mut Mesh<'_>,
-    freedoms: &Freedoms,
-    wish: &Wish<'_>,
-    margin: f64,
-    tried: &mut Tried,
-    done: &mut Improved,
-) -> bool {
-    let before = done.inserted;
-    let worst = failing(mesh, wish, margin).into_iter().take(few(mesh));
-    for (quality, tet) in worst {
-        if !ahead::is_there(mesh, quality, tet) {
-            continue;
-        }
-        let corners = mesh.corners(tet);
-        let last = tried.vertices.insert(corners, mesh.now());
-        if last.is_some_and(|time| corners.iter().all(|&v| !mesh.is_touched(v, time))) {
-            continue;
-        }
-        if let Some(insertion) = insert::find(mesh, freedoms, tet) {
-            insertion.apply(mesh);
-            done.inserted += 1;
+    /// Those of them that are not as asked for, the worst first; angles count that are less than `margin` times the
+    /// smallest one asked for.
+    fn failing(&self, margin: f64) -> Vec<Bad> {
+        let mut bad = self.bad();
+        bad.retain(|&(_, tet)| {
+            let Failing { past, angle } = self.measured(tet);
+            past || angle < margin * self.wish.min_dihedral
+        });
+        bad
+    }
+
+    fn measured(&self, tet: u32) -> Failing {
+        let at = |v: u32| self.mesh.positions[v as usize];
+        let measures = TetMeasures::of(self.mesh.corners(tet).map(at));
+        Failing {
+            past: measures.radius_edge_ratio > self.wish.radius_edge,
+            angle: measures.min_dihedral.to_degrees(),
         }
     }
-    done.inserted > before
-}
 
-/// Everything that helps against what is not as the mesher was asked for, and nothing else.
-fn mend(
-    mesh: &mut Mesh<'_>,
-    freedoms: &Freedoms,
-    wish: &Wish<'_>,
-    margin: f64,
-    tried: &mut Tried,
-    done: &mut Improved,
-) {
-    for _ in 0..PASSES {
-        let mut worst = failing(mesh, wish, margin);
-        worst.truncate(few(mesh));
-        let count = ahead::work(mesh, freedoms, &worst, 1, &mut tried.others);
-        done.moved += count.moved;
-        done.flipped += count.flipped;
-        let added = add_vertices(mesh, freedoms, wish, margin, tried, done);
-        if !added && count == Count::default() {
-            break;
+    /// How many tetrahedra are worth much work each.
+    fn affordable(&self) -> usize {
+        FEW.max((FEW_PART * self.mesh.len() as f64) as usize)
+    }
+
+    /// Moves vertices and replaces edges and faces for some tetrahedra; returns whether anything was done.
+    fn work_on(&mut self, bad: &[Bad], threads: usize) -> bool {
+        let others = &mut self.tried.others;
+        let count = ahead::work(&mut self.mesh, self.freedoms, bad, threads, others);
+        self.done.moved += count.moved;
+        self.done.flipped += count.flipped;
+        count != Count::default()
+    }
+
+    /// Rounds over the worst tetrahedra, as long as they are of use.
+    fn rounds(&mut self) {
+        let most = ((self.mesh.len() as f64 * self.wish.share) as usize).max(AT_LEAST);
+        let mut last = f64::INFINITY;
+        for round in 0..ROUNDS + MORE_ROUNDS {
+            let mut bad = self.bad();
+            let (now, many) = (bad.len() as f64, MANY * self.mesh.len() as f64);
+            if round >= ROUNDS && (now < many || now > STUCK * last) {
+                break;
+            }
+            last = now;
+            bad.truncate(most);
+            if !self.work_on(&bad, self.threads) {
+                break;
+            }
         }
+    }
+
+    /// Gives what is still not as asked for new vertices, where that helps; returns whether it did.
+    fn add_vertices(&mut self, margin: f64) -> bool {
+        let before = self.done.inserted;
+        let worst = self.failing(margin).into_iter().take(self.affordable());
+        for (quality, tet) in worst {
+            let mesh = &mut self.mesh;
+            if !ahead::is_there(mesh, quality, tet) {
+                continue;
+            }
+            let corners = mesh.corners(tet);
+            let last = self.tried.vertices.insert(corners, mesh.now());
+            if last.is_some_and(|time| corners.iter().all(|&v| !mesh.is_touched(v, time))) {
+                continue;
+            }
+            if let Some(insertion) = insert::find(mesh, self.freedoms, tet) {
+                insertion.apply(mesh);
+                self.done.inserted += 1;
+            }
+        }
+        self.done.inserted > before
+    }
+
+    /// From now on an element past the radius-edge bound is worse than one with the smallest angle asked for.
+    fn put_bounds_first(&mut self, goal: Goal) {
+        let past = self.failing(1.0).into_iter().map(|(_, tet)| tet);
+        self.mesh
+            .change_goal(goal.with_bound_before(self.wish.min_dihedral), past);
+        self.tried = Tried::default();
+    }
+
+    /// Everything that helps against what is not as asked for, and nothing else.
+    fn mend(&mut self, margin: f64) {
+        for _ in 0..PASSES {
+            let mut worst = self.failing(margin);
+            worst.truncate(self.affordable());
+            let changed = self.work_on(&worst, 1);
+            if !self.add_vertices(margin) && !changed {
+                break;
+            }
+        }
+    }
+
+    fn count_what_is_left(&mut self) {
+        let left: Vec<Failing> = (self.bad().into_iter())
+            .map(|(_, tet)| self.measured(tet))
+            .collect();
+        let low = |f: &&Failing| f.angle < self.wish.min_dihedral;
+        self.done.left = left.len();
+        self.done.past = left.iter().filter(|f| f.past).count();
+        self.done.low = left.iter().filter(low).count();
+        self.done.least = left.iter().fold(180.0, |least, f| f.angle.min(least));
     }
 }
