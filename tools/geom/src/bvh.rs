@@ -450,7 +450,13 @@ fn build(items: &mut [Item]) -> Vec<Node> {
         if let Some((node, slot)) = parent {
             nodes[node].child[slot] = at as u32;
         }
-        let mut parts = vec![range];
+        let mut parts: ArrayVec<Range, WIDTH> = ArrayVec::new();
+        if range.count <= WIDTH {
+            let each = range.first..range.first + range.count;
+            parts.extend(each.map(|i| Range::new(items, i, 1, range.depth + 1)));
+        } else {
+            parts.push(range);
+        }
         while parts.len() < WIDTH {
             let widest = (0..parts.len())
                 .filter(|&i| parts[i].count > 1)

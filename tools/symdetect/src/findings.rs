@@ -21,8 +21,8 @@ const MOST_REJECTED: usize = 16;
 const FEWEST_PLOTTED: u32 = 24;
 const MOST_PLOTTED: u32 = 300;
 /// Tests of an order that is not among the nearest to holding, and of one that is.
-const ROUGH: usize = 32;
-const CLOSE: usize = 200;
+const ROUGH: usize = 24;
+const CLOSE: usize = 128;
 /// Deviation, relative to the radius, beyond which a rejected order is not measured exactly.
 const FAR_OFF: f64 = 0.05;
 
@@ -245,7 +245,7 @@ impl Job<'_> {
         let mut place = 0;
         measured.retain(|r| {
             place += 1;
-            multiple(r.order) || place <= 2 * MOST_REJECTED
+            multiple(r.order) || place <= MOST_REJECTED + MOST_REJECTED / 4
         });
         measured = in_parallel(&measured, threads, |r| measure(r.order, CLOSE));
         nearest_first(&mut measured);

@@ -3,7 +3,7 @@
 use crate::mirror::{HALF_TURN, HORIZONTAL, VERTICAL};
 use crate::permutation::Permutation;
 use crate::shape::{Motion, Shape};
-use crate::verify::{Bound, Depth, Deviation, Operation};
+use crate::verify::{Bound, Depth, Deviation, Operation, implies};
 use glam::DMat3;
 use tmesh::{Frame, Isometry};
 
@@ -85,14 +85,11 @@ impl Group {
         depth: Depth,
     ) -> Result<Verified, Deviation> {
         let identity = Permutation::identity(shape.regions.len());
-        let mut worst = Deviation::NONE;
-        let mut rotation = identity.clone();
+        let mut rotation = (Deviation::NONE, identity.clone());
         if self.order > 1 {
-            let (deviation, permutation) =
-                shape.verify_rotation(frame, self.order, bound, depth)?;
-            worst = worst.max(deviation);
-            rotation = permutation;
+            rotation = shape.verify_rotation(frame, self.order, bound, depth)?;
         }
+        let mut worst = rotation.0;
         let (mut mirror, mut flip) = (identity.clone(), identity);
         if self.mirror {
             let found = self.verify_coset(shape, frame, VERTICAL, &rotation, bound, depth)?;
@@ -106,7 +103,7 @@ impl Group {
         }
         Ok(Verified {
             deviation: worst,
-            rotation,
+            rotation: rotation.1,
             mirror,
             flip,
         })
@@ -118,12 +115,12 @@ impl Group {
         shape: &Shape,
         frame: &Frame,
         matrix: DMat3,
-        rotation: &Permutation,
+        (turning, rotation): &(Deviation, Permutation),
         bound: Bound,
         depth: Depth,
     ) -> Result<(Deviation, Permutation), Deviation> {
         let (first, permutation) = shape.verify_one(Motion::new(frame, matrix), bound, depth)?;
-        if self.order == 1 {
+        if self.order == 1 || implies(self.order, *turning, first, bound) {
             return Ok((first, permutation));
         }
         let powers = rotation.powers(self.order);

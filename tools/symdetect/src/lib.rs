@@ -13,6 +13,7 @@ mod defects;
 mod detect;
 mod drawing;
 mod error;
+mod faces;
 mod facets;
 mod findings;
 mod group;

@@ -27,6 +27,9 @@ pub const EXACT: f64 = 1e-11;
 /// Candidate angles looked at closely.
 const CLOSE: usize = 6;
 
+/// Difference up to which parts of a step of the rotation are the same.
+const CLOSE_PARTS: f64 = 1e-6;
+
 /// An operation found beside the rotations.
 pub struct Found {
     /// Frame in which the operation has its standard matrix.
@@ -54,6 +57,11 @@ pub fn find_turned(
         ..
     } = rotation;
     let loose = limits.loose * radius;
+    if kind == VERTICAL
+        && let Some(exact) = mirror_of_faces(shape, rotation, limits)
+    {
+        return Some(exact);
+    }
     let period = PI / f64::from(*order);
     // An angle off by half a step moves an image by one step times the radius.
     let steps = ((2.0 * period / limits.loose).ceil() as usize).max(32);
@@ -134,6 +142,44 @@ pub fn find_turned(
         }
     }
     best
+}
+
+/// The mirror that contains the axis of a rotation which takes faces to faces, if it does so too: it takes the
+/// corner that is farthest from the axis to one that is as far, on the same height.
+fn mirror_of_faces(shape: &Shape, rotation: &Rotation, limits: Limits) -> Option<Found> {
+    let frame = &rotation.frame;
+    let faces = rotation.deviation.everywhere.then(|| shape.faces())??;
+    let place = |p: DVec3| {
+        let p = frame.to_canonical(p);
+        (libm::hypot(p.x, p.y), p.z)
+    };
+    let within = 2.0 * shape.same_corner();
+    let corners = faces.farthest(place, within);
+    // Angles from the first of them, as parts of a step of the rotation: others are equivalent.
+    let angles: Vec<f64> = (corners.iter())
+        .map(|p| frame.to_canonical(*p))
+        .map(|p| libm::atan2(p.y, p.x))
+        .collect();
+    let step = 2.0 * PI / f64::from(rotation.order);
+    let mut parts: Vec<f64> = (angles.iter())
+        .map(|a| ((a - angles[0]) / step).rem_euclid(1.0))
+        .collect();
+    parts.sort_unstable_by(f64::total_cmp);
+    parts.dedup_by(|a, b| *a - *b < CLOSE_PARTS);
+    let bound = limits.bound(rotation.radius);
+    parts.truncate(CLOSE);
+    parts.into_iter().find_map(|part| {
+        let (s, c) = libm::sincos(angles[0] + 0.5 * part * step);
+        let x = frame.rotation * DVec3::new(c, s, 0.0);
+        let frame = Frame::from_axis(frame.origin, frame.rotation.z_axis, x)?;
+        let motion = Motion::new(&frame, VERTICAL);
+        let (deviation, permutation) = shape.verify_one(motion, bound, Depth::Quick).ok()?;
+        deviation.everywhere.then_some(Found {
+            frame,
+            deviation,
+            permutation,
+        })
+    })
 }
 
 fn canonical(matrix: DMat3) -> Canonical {

@@ -1,5 +1,6 @@
 //! The highest rotation order about one axis.
 
+use crate::faces::Faces;
 use crate::permutation::Permutation;
 use crate::refine::{Canonical, refine};
 use crate::samples::{Random, Sample};
@@ -93,6 +94,8 @@ impl Rotation {
 
 /// Samples in a scan over orders.
 const SCAN: usize = 96;
+/// Turns that tell which of them are taken off the surface.
+const TELLING_TURNS: usize = 4;
 /// What facets may add to the tolerance at most, in tolerances: the diagonal of the square around
 /// the circle of the radius, by which the exactness of drawings is commonly stated, is `2 sqrt 2`
 /// radii.
@@ -217,9 +220,10 @@ pub fn may_hold(
         depth: Depth::Quick,
     };
     let bound = limits.bound(shape.radius(frame)).most();
+    let places = search.telling_first(frame, bound);
     orders
         .into_iter()
-        .any(|n| search.passes(frame, n, bound, 0.0))
+        .any(|n| search.passes(frame, n, &places, bound, 0.0))
 }
 
 /// A handful of powers of the rotation by a turn over `n`, for an adjustment.
@@ -258,24 +262,43 @@ impl Search<'_> {
     /// Orders that a few samples do not rule out, increasing. Regions do not count here.
     fn scan(&self, frame: &Frame, limit: f64, outliers: f64) -> Vec<u32> {
         let orders: Vec<u32> = self.orders.clone().collect();
-        let passes = |&n: &u32| self.limits.admit(n) && self.passes(frame, n, limit, outliers);
+        let places = self.telling_first(frame, limit);
+        let passes =
+            |&n: &u32| self.limits.admit(n) && self.passes(frame, n, &places, limit, outliers);
         let passed = in_parallel(&orders, self.shape.threads, passes);
         let passed = orders.into_iter().zip(passed).filter(|(_, passed)| *passed);
         passed.map(|(n, _)| n).collect()
     }
 
-    fn passes(&self, frame: &Frame, n: u32, limit: f64, outliers: f64) -> bool {
+    /// Numbers of the samples of a scan, those first that most turns take off the surface.
+    fn telling_first(&self, frame: &Frame, limit: f64) -> Vec<usize> {
         let samples = &self.shape.samples.mixed;
-        let count = SCAN.min(samples.len());
-        let mut left = (outliers * count as f64) as usize;
-        let mut random = Random(u64::from(n));
-        for (i, sample) in samples.iter().take(count).enumerate() {
+        let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
+        let misses = |i: &usize| {
+            let off = |turn: &&Operation| {
+                let image = turn.motion.apply(samples[*i].point);
+                (self.shape.nearest(image, 0, &Target::Any, limit)).is_none()
+            };
+            turns.iter().filter(off).count()
+        };
+        let mut places: Vec<usize> = (0..SCAN.min(samples.len())).collect();
+        places.sort_by_cached_key(|i| std::cmp::Reverse(misses(i)));
+        places
+    }
+
+    fn passes(&self, frame: &Frame, n: u32, places: &[usize], limit: f64, outliers: f64) -> bool {
+        let samples = &self.shape.samples.mixed;
+        let mut left = (outliers * places.len() as f64) as usize;
+        let random = Random(u64::from(n));
+        for &i in places {
+            // Whatever comes first, each sample has a power of its own.
             let k = if i % 2 == 0 {
                 1
             } else {
-                1 + random.below(n as usize - 1) as i64
+                1 + random.after(i / 2).below(n as usize - 1) as i64
             };
-            if distance(self.shape, frame, Isometry::rotation(k, n), sample, limit).is_none() {
+            let turn = Isometry::rotation(k, n);
+            if distance(self.shape, frame, turn, &samples[i], limit).is_none() {
                 if left == 0 {
                     return false;
                 }
@@ -383,37 +406,37 @@ impl Search<'_> {
         let most = *self.orders.end();
         // Rounding of coordinates is no distinction.
         let floor = 2.0 * self.shape.precision.max(1e-13);
-        let measure = |n: u32, count, limit| {
-            deviation_of_order(self.shape, frame, n, count, limit).max(floor)
-        };
         // A few vertices tell; only when they do not, more of them. Exact symmetry is told from all else
-        // close by.
-        [
-            (12, SEPARATION * floor),
-            (12, 3.0 * limit),
-            (48, 3.0 * limit),
-        ]
-        .into_iter()
-        .find_map(|(count, reach)| {
-            let measure = |n: u32, count| measure(n, count, reach);
-            let worst: Vec<f64> = (0..=most)
-                .map(|n| if n < 2 { 0.0 } else { measure(n, count) })
-                .collect();
-            let wanted = (3..=most).rev().filter(|&n| self.limits.admit(n));
-            wanted.into_iter().find(|&n| {
-                let largest = |of: &dyn Fn(u32) -> f64| {
-                    let divisors = (2..=n).filter(|d| n % d == 0);
-                    divisors.map(of).fold(0.0, f64::max)
+        // close by, and where there are flat faces, corners that do not land on corners tell it.
+        let exact = (12, SEPARATION * floor, self.shape.faces());
+        [exact, (12, 3.0 * limit, None), (48, 3.0 * limit, None)]
+            .into_iter()
+            .find_map(|(count, reach, faces)| {
+                let measure = |n: u32, count| {
+                    let off = match faces {
+                        Some(faces) => deviation_of_corners(faces, frame, n, count, reach),
+                        None => deviation_of_order(self.shape, frame, n, count, reach),
+                    };
+                    off.max(floor)
                 };
-                let apart = |inside: f64| {
-                    inside <= limit.min(reach / SEPARATION)
-                        && (2..=most)
-                            .filter(|m| n % m != 0)
-                            .all(|m| worst[m as usize] >= SEPARATION * inside)
-                };
-                apart(largest(&|d| worst[d as usize])) && apart(largest(&|d| measure(d, 96)))
+                let worst: Vec<f64> = (0..=most)
+                    .map(|n| if n < 2 { 0.0 } else { measure(n, count) })
+                    .collect();
+                let wanted = (3..=most).rev().filter(|&n| self.limits.admit(n));
+                wanted.into_iter().find(|&n| {
+                    let largest = |of: &dyn Fn(u32) -> f64| {
+                        let divisors = (2..=n).filter(|d| n % d == 0);
+                        divisors.map(of).fold(0.0, f64::max)
+                    };
+                    let apart = |inside: f64| {
+                        inside <= limit.min(reach / SEPARATION)
+                            && (2..=most)
+                                .filter(|m| n % m != 0)
+                                .all(|m| worst[m as usize] >= SEPARATION * inside)
+                    };
+                    apart(largest(&|d| worst[d as usize])) && apart(largest(&|d| measure(d, 96)))
+                })
             })
-        })
     }
 }
 
@@ -496,14 +519,38 @@ fn distance(
 /// Largest deviation of `count` vertices under random powers of the rotation of order `n` that do not
 /// belong to a lower order, up to `limit`. Regions do not count.
 pub fn deviation_of_order(shape: &Shape, frame: &Frame, n: u32, count: usize, limit: f64) -> f64 {
+    let samples = shape.samples.vertices.iter().take(count);
+    largest_of_order(n, samples, limit, |sample, turn| {
+        distance(shape, frame, turn, sample, limit)
+    })
+}
+
+/// The same of corners of faces, some evenly chosen, from the corners nearest to their images.
+fn deviation_of_corners(faces: &Faces, frame: &Frame, n: u32, count: usize, limit: f64) -> f64 {
+    let corners = faces.corners();
+    let some = corners.iter().step_by(corners.len().div_ceil(count).max(1));
+    largest_of_order(n, some, limit, |&corner, turn| {
+        let image = frame.to_world(turn.apply(frame.to_canonical(corner)));
+        faces.corner_at(image, limit).map(|(_, distance)| distance)
+    })
+}
+
+/// Largest of the distances that `off` finds for each of some things under a random power of the rotation of order
+/// `n` that does not belong to a lower one; `limit` where it finds none.
+fn largest_of_order<T>(
+    n: u32,
+    things: impl Iterator<Item = T>,
+    limit: f64,
+    off: impl Fn(T, Isometry) -> Option<f64>,
+) -> f64 {
     let mut random = Random(u64::from(n));
     let mut worst = 0.0_f64;
-    for sample in shape.samples.vertices.iter().take(count) {
+    for thing in things {
         let mut k = 1 + random.below(n as usize - 1) as i64;
         while gcd(k as u32, n) != 1 {
             k = 1 + k % (i64::from(n) - 1);
         }
-        match distance(shape, frame, Isometry::rotation(k, n), sample, limit) {
+        match off(thing, Isometry::rotation(k, n)) {
             Some(d) => worst = worst.max(d),
             None => return limit,
         }

@@ -49,6 +49,14 @@ impl Random {
         z ^ (z >> 31)
     }
 
+    /// The same generator so many numbers later.
+    pub fn after(&self, numbers: usize) -> Self {
+        Self(
+            self.0
+                .wrapping_add((numbers as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)),
+        )
+    }
+
     /// Uniform in `0..n`, `n` positive.
     pub fn below(&mut self, n: usize) -> usize {
         ((u128::from(self.bits()) * n as u128) >> 64) as usize

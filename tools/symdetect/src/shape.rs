@@ -1,12 +1,13 @@
 //! The body, made ready for symmetry tests: centred, scaled to unit size, sampled, and searchable.
 
+use crate::faces::{Faces, Surface};
 use crate::facets::Facets;
 use crate::moments::Moments;
 use crate::permutation::Permutation;
 use crate::samples::Samples;
 use geom::bvh::{Bvh, Nearest};
 use glam::{DMat3, DVec3};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use tmesh::{Frame, OUTSIDE, Template};
 
 /// A surface in coordinates where its centre is the origin and its farthest point is at distance 1.
@@ -40,6 +41,7 @@ pub struct Shape {
     all: Bvh,
     by_class: Vec<ClassSurface>,
     facets: OnceLock<Facets>,
+    faces: OnceLock<Option<Faces>>,
 }
 
 /// The triangles of one class.
@@ -80,8 +82,11 @@ pub enum Target {
     /// Any triangle.
     Any,
     /// Triangles of the class that the list gives for each class; [`NO_CLASS`] where there is none.
-    Classes(Vec<u32>),
+    Classes(Arc<[u32]>),
 }
+
+/// Triangles up to which flat faces are looked for: where there are more, samples tell sooner.
+const FACES_LOOKED_FOR: usize = 100_000;
 
 /// No interface separates the two regions.
 pub const NO_CLASS: u32 = u32::MAX;
@@ -185,6 +190,7 @@ impl Shape {
             all,
             by_class,
             facets: OnceLock::new(),
+            faces: OnceLock::new(),
             vertices,
             triangles,
             normals,
@@ -255,6 +261,21 @@ impl Shape {
     pub fn facets(&self) -> &Facets {
         let make = || Facets::new(&self.vertices, &self.triangles, &self.normals);
         self.facets.get_or_init(make)
+    }
+
+    /// Flat faces, where there are any that tell more than samples do.
+    pub fn faces(&self) -> Option<&Faces> {
+        let make = || {
+            let surface = Surface {
+                vertices: &self.vertices,
+                triangles: &self.triangles,
+                sides: &self.sides,
+                class: &self.class,
+            };
+            let few = self.triangles.len() <= FACES_LOOKED_FOR;
+            few.then(|| Faces::new(&surface, &self.normals, self.rounding()))?
+        };
+        self.faces.get_or_init(make).as_ref()
     }
 
     /// The target that a permutation of regions asks for.

@@ -19,6 +19,8 @@ pub struct Deviation {
     pub at: DVec3,
     /// Its image.
     pub image: DVec3,
+    /// Whether it is the largest of the whole surface ([`crate::faces`]), not of samples.
+    pub everywhere: bool,
 }
 
 impl Deviation {
@@ -27,17 +29,28 @@ impl Deviation {
         value: 0.0,
         at: DVec3::ZERO,
         image: DVec3::ZERO,
+        everywhere: true,
     };
 
     /// The larger of two.
     pub fn max(self, other: Self) -> Self {
-        if other.value > self.value {
+        let larger = if other.value > self.value {
             other
         } else {
             self
+        };
+        Self {
+            everywhere: self.everywhere && other.everywhere,
+            ..larger
         }
     }
 }
+
+/// Before the first test.
+const NO_TEST: Deviation = Deviation {
+    everywhere: false,
+    ..Deviation::NONE
+};
 
 /// How thorough a verification is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -133,6 +146,11 @@ const SHARED: [usize; 2] = [8_000, 60_000];
 /// Share of the limit up to which what a full test of the first operation implies for its powers leaves
 /// those to a quick one.
 const IMPLIED: f64 = 0.25;
+/// Corners looked at for powers of a rotation that takes faces to faces.
+const SOME_CORNERS: usize = 64;
+/// Distance up to which corners may be images of each other, where rounding does not explain more; in the units of
+/// the shape.
+const SAME_CORNER: f64 = 1e-10;
 
 impl Shape {
     /// Deviation of one test, and whether it passes. Beyond the bound, the distance to any triangle
@@ -245,7 +263,7 @@ impl Shape {
         job: impl Fn(usize) -> (&'a Sample, &'a Operation) + Sync,
     ) -> Result<Deviation, Deviation> {
         let run = |range: &Range<usize>| {
-            let mut worst = Deviation::NONE;
+            let mut worst = NO_TEST;
             for i in range.clone() {
                 let (sample, operation) = job(i);
                 let (value, passes) = self.test(sample, operation, bound);
@@ -253,6 +271,7 @@ impl Shape {
                     value,
                     at: sample.point,
                     image: operation.motion.apply(sample.point),
+                    everywhere: false,
                 };
                 if !passes {
                     return Err(deviation);
@@ -261,7 +280,7 @@ impl Shape {
             }
             Ok(worst)
         };
-        let mut worst = Deviation::NONE;
+        let mut worst = NO_TEST;
         let mut first = 0;
         // Small blocks to begin with: what fails mostly fails early.
         let mut block = PARALLEL / 2;
@@ -330,6 +349,9 @@ impl Shape {
                 motion,
                 target: self.target(permutation),
             };
+            if let Some(everywhere) = self.deviation_of_faces(&operation, bound) {
+                return Ok(everywhere);
+            }
             let (mixed, sorted) = (&self.samples.mixed, &self.samples.sorted);
             let first = mixed.len().min(QUICK);
             let worst = self.worst(first, bound, |i| (&mixed[i], &operation))?;
@@ -358,14 +380,57 @@ impl Shape {
                     ..Deviation::NONE
                 });
             }
-            let operations: Vec<Operation> = (1..n)
-                .map(|k| Operation {
-                    motion: Motion::new(frame, Isometry::rotation(i64::from(k), n).matrix()),
-                    target: self.target(&powers[k as usize]),
-                })
-                .collect();
+            let power = |k: u32| Operation {
+                motion: Motion::new(frame, Isometry::rotation(i64::from(k), n).matrix()),
+                target: self.target(&powers[k as usize]),
+            };
+            if let Some(everywhere) = self.rotation_of_faces(n, power, bound) {
+                return Ok(everywhere);
+            }
+            let operations: Vec<Operation> = (1..n).map(power).collect();
             self.verify_family(&operations, bound, depth)
         })
+    }
+
+    /// Deviation of an operation that takes all flat faces to faces, if it does.
+    fn deviation_of_faces(&self, operation: &Operation, bound: Bound) -> Option<Deviation> {
+        let faces = self.faces()?;
+        let within = self.same_corner().min(bound.limit);
+        let (value, at) = faces.image(&operation.motion, &operation.target, within)?;
+        Some(Deviation {
+            value,
+            at,
+            image: operation.motion.apply(at),
+            everywhere: true,
+        })
+    }
+
+    /// The same of all powers of a rotation: what its first one implies is not asked again, and how far off others
+    /// are is measured in some corners.
+    fn rotation_of_faces(
+        &self,
+        n: u32,
+        power: impl Fn(u32) -> Operation,
+        bound: Bound,
+    ) -> Option<Deviation> {
+        let mut worst = self.deviation_of_faces(&power(1), bound)?;
+        if !implies(n, worst, Deviation::NONE, bound) {
+            return None;
+        }
+        for k in [n / 2, n / 3, 2 * n / 5, n - 1] {
+            if k > 1 {
+                let within = self.same_corner().min(bound.limit);
+                let faces = self.faces()?;
+                let value = faces.image_of_some(&power(k).motion, SOME_CORNERS, within)?;
+                worst.value = worst.value.max(value);
+            }
+        }
+        Some(worst)
+    }
+
+    /// Distance up to which corners may be images of each other.
+    pub fn same_corner(&self) -> f64 {
+        self.rounding().max(SAME_CORNER)
     }
 
     /// Verifies many operations: a share of the samples for each, and with [`Depth::Full`] all of
@@ -426,6 +491,8 @@ impl Shape {
             Err(failed) => failed,
         };
         if self.regions.len() > 2
+            // What is too far from any triangle is too far from those of every permutation.
+            && (self.nearest(failed.image, 0, &Target::Any, 1.01 * bound.most())).is_some()
             && let Some(permutation) = self.vote(&motion, bound.most())
             && !permutation.is_identity()
             && let Ok(deviation) = check(&permutation)
@@ -451,6 +518,14 @@ impl Shape {
     pub fn target_in_place(&self) -> Target {
         self.target(&Permutation::identity(self.regions.len()))
     }
+}
+
+/// Whether a rotation by a turn over `n` and an operation beside it, which both hold everywhere, leave no doubt that
+/// all products with its powers do: those deviate by at most so many times what the rotation does, and by what the
+/// other one does.
+pub fn implies(n: u32, rotation: Deviation, other: Deviation, bound: Bound) -> bool {
+    let most = rotation.value * f64::from(n - 1) + other.value;
+    rotation.everywhere && other.everywhere && most <= IMPLIED * bound.limit
 }
 
 /// The `i`-th of points spread evenly over a triangle, as multiples of two of its sides: the R2 sequence
