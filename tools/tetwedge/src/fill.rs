@@ -43,7 +43,37 @@ pub struct Filled {
     pub improved: Option<Improved>,
 }
 
-/// Makes the filled template `index` from TetGen's mesh of `plc`.
+impl Filled {
+    /// What templates need that share faces with this one: what [`finish`] leaves as it is.
+    pub fn shared_surface(&self) -> Self {
+        let template = Template {
+            vertices: self.template.vertices.clone(),
+            triangles: self.template.triangles.clone(),
+            ..Template::default()
+        };
+        Self {
+            template,
+            vertices: self.vertices.clone(),
+            triangles: Vec::new(),
+            shared: self.shared.clone(),
+            dropped: 0,
+            improved: None,
+        }
+    }
+}
+
+/// What is known of a filled template that is not finished.
+pub struct Origin {
+    /// Facet of each triangle.
+    facets: Vec<usize>,
+    /// Wall face of each triangle.
+    faces: Vec<u32>,
+    /// Number of the first vertex that the input does not have.
+    first_new: usize,
+}
+
+/// Makes the filled template `index` from TetGen's mesh of `plc`. What it shares with others is settled then, the
+/// rest is for [`finish`].
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
@@ -52,9 +82,7 @@ pub fn fill(
     index: usize,
     plc: &Plc,
     mesh: &Mesh,
-    params: &Params,
-    sizes: &Sizes,
-) -> Result<Filled, Error> {
+) -> Result<(Filled, Origin), Error> {
     let input = &document.templates[index];
     let unusable = |what: String| Error::Unusable {
         template: index,
@@ -133,19 +161,35 @@ pub fn fill(
     restore_preserved(input, plc, &faces, &mut filled).map_err(&unusable)?;
     let shifted = on_shifted_facets(plc, &facets, first_new, &filled.template);
     restore_walls(input, plc, &faces, first_new, shifted, &mut filled).map_err(&unusable)?;
-    let improved = refine(
-        document,
-        plc,
-        &facets,
-        params,
-        sizes,
-        (&mut filled, first_new),
-    );
-    filled.improved = improved;
+    let origin = Origin {
+        facets,
+        faces,
+        first_new,
+    };
+    Ok((filled, origin))
+}
+
+/// Improves the tetrahedra of a filled template, and checks all of it.
+///
+/// # Errors
+/// [`Error::Unusable`] when anything that must hold does not.
+pub fn finish(
+    document: &Document,
+    index: usize,
+    plc: &Plc,
+    (filled, origin): (&mut Filled, &Origin),
+    params: &Params,
+    sizes: &Sizes,
+) -> Result<(), Error> {
+    let unusable = |what: String| Error::Unusable {
+        template: index,
+        what,
+    };
+    filled.improved = refine(document, plc, &origin.facets, params, sizes, filled);
     let reach = document.frame.origin.length() + plc.extent;
-    orientations(&filled.template, first_new, reach, params.threads).map_err(&unusable)?;
-    check::measures(document, index, plc, &faces, &filled.template).map_err(&unusable)?;
-    Ok(filled)
+    let template = &filled.template;
+    orientations(template, origin.first_new, reach, params.threads).map_err(unusable)?;
+    check::measures(document, index, plc, &origin.faces, template).map_err(unusable)
 }
 
 /// Improves the tetrahedra, as far as elements are to be optimized: the smallest angle to reach is what
@@ -156,16 +200,15 @@ fn refine(
     facets: &[usize],
     params: &Params,
     sizes: &Sizes,
-    (filled, first_new): (&mut Filled, usize),
+    filled: &mut Filled,
 ) -> Option<Improved> {
     let largest = params.optimize.filter(|_| params.quality)?;
     let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
     let normals: Vec<DVec3> = plc.facets.facets.iter().map(|f| f.normal).collect();
-    // Templates that share a face take new vertices over, unless it is settled, and have the old ones already.
+    // Templates that share a face take it over as it is.
     let shared = filled.shared.iter();
     let fixed: Vec<u32> = shared
         .flat_map(|&t| filled.template.triangles[t as usize].vertices)
-        .filter(|&v| plc.faces.preserve() || (v as usize) < first_new)
         .collect();
     let freedoms = Freedoms::new(
         &filled.template,

@@ -2,7 +2,7 @@
 
 use crate::bound::Bound;
 use crate::diagnose::{Chatter, failure};
-use crate::fill::{Filled, NONE, fill};
+use crate::fill::{Filled, NONE, fill, finish};
 use crate::improve::Improved;
 use crate::params::switches;
 use crate::plc::{DESCRIPTIONS, Plc};
@@ -11,7 +11,7 @@ use crate::walls::leader;
 use crate::{Error, Params, Sizes};
 use geom::tet::TetMeasures;
 use glam::DVec3;
-use kit::in_parallel;
+use kit::{both, in_parallel};
 use std::time::Instant;
 use tetgen_sys::{Limits, Mesh};
 use tmesh::{Document, Template, Wall};
@@ -51,14 +51,31 @@ pub fn tetrahedralize(
         threads: (params.threads / first.len().max(1)).max(1),
         ..params.clone()
     };
-    let mesh = |&index: &usize| template(&document, index, &each, &sizes, log);
+    let mesh = |&index: &usize| {
+        let followers = (0..count).filter(|&i| leaders[i] == Some(index));
+        template(
+            &document,
+            index,
+            &followers.collect::<Vec<_>>(),
+            &each,
+            &sizes,
+            log,
+        )
+    };
     let meshed = in_parallel(&first, params.threads, mesh);
+    let mut followed: Vec<Followed> = Vec::new();
     for (&index, done) in first.iter().zip(meshed) {
-        slots[index] = Some(done?);
+        let mut done = done?;
+        followed.append(&mut done.followed);
+        slots[index] = Some(done);
     }
     for (index, lead) in leaders.iter().enumerate() {
         if let Some(lead) = lead.and_then(|l| slots[l].as_ref()) {
-            let (surface, done) = follower(&document, index, &lead.filled, params, &sizes, log)?;
+            let known = followed.iter().position(|(follower, _)| *follower == index);
+            let (surface, done) = match known {
+                Some(known) => followed.swap_remove(known).1?,
+                None => follower(&document, index, &lead.filled, params, &sizes, log)?,
+            };
             document.templates[index] = surface;
             slots[index] = Some(done);
         }
@@ -137,7 +154,7 @@ fn follower(
     let mesh = |surface: &Params, params: &Params| {
         let mut document = document.clone();
         follow(&mut document, index, lead, surface, log)?;
-        let done = template(&document, index, params, sizes, log)?;
+        let done = template(&document, index, &[], params, sizes, log)?;
         Ok((document.templates.swap_remove(index), done))
     };
     let improved = |done: &Done| done.filled.improved.unwrap_or_default();
@@ -222,7 +239,12 @@ struct Done {
     failed: usize,
     /// Whether so many elements are left past the radius-edge bound that the mesh is worth another one.
     many: bool,
+    /// Templates that share faces with this one, if they were meshed while it was finished.
+    followed: Vec<Followed>,
 }
+
+/// A follower, its surface, and what became of it.
+type Followed = (usize, Result<(Template, Done), Error>);
 
 /// TetGen's answer for one template.
 pub struct Answer {
@@ -384,19 +406,22 @@ fn eased(params: &Params) -> Params {
     bounds
 }
 
-/// Meshes a template, with the bounds eased if that can be mended.
+/// Meshes a template, with the bounds eased if that can be mended; followers, too, if it is done at the first attempt
+/// and there are threads for it.
 fn template(
     document: &Document,
     index: usize,
+    followers: &[usize],
     params: &Params,
     sizes: &Sizes,
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Done, Error> {
     if !improves(params) {
-        return attempt(document, index, params, params, sizes, log);
+        return attempt(document, index, followers, (params, params), sizes, log);
     }
     let begun = Instant::now();
-    let done = attempt(document, index, params, &eased(params), sizes, log)?;
+    let mesher = eased(params);
+    let done = attempt(document, index, followers, (params, &mesher), sizes, log)?;
     let count = done.filled.template.tets.len();
     let improved = done.filled.improved.unwrap_or_default();
     if done.advice.is_some() || !(done.many || is_unlucky(&done.filled)) {
@@ -410,7 +435,7 @@ fn template(
          smallest {:.1} degrees); once more without the bounds eased",
         improved.past, improved.low, params.min_dihedral, improved.least
     ));
-    let tight = match attempt(document, index, &params, &params, sizes, log) {
+    let tight = match attempt(document, index, &[], (&params, &params), sizes, log) {
         Ok(tight) => tight,
         Err(error) if error.is_from_outside() => return Err(error),
         Err(_) => return Ok(done),
@@ -449,12 +474,13 @@ fn is_unlucky(filled: &Filled) -> bool {
         || (count <= VERY_SMALL && few.contains(&(left.past + left.low)))
 }
 
-/// Meshes a template as `mesher` says and improves it as `params` does.
+/// Meshes a template as `mesher` says and improves it as `params` does. What it shares with followers is settled before
+/// that: where there are threads, they are meshed at the same time.
 fn attempt(
     document: &Document,
     index: usize,
-    params: &Params,
-    mesher: &Params,
+    followers: &[usize],
+    (params, mesher): (&Params, &Params),
     sizes: &Sizes,
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Done, Error> {
@@ -462,7 +488,23 @@ fn attempt(
     let (done, failed) = persist(index, params, log, |number, deadline| {
         let attempt = (number, deadline);
         let answer = run(document, index, mesher, sizes, attempt, preserve, log)?;
-        let filled = fill(document, index, &answer.plc, &answer.mesh, params, sizes)?;
+        let (mut filled, origin) = fill(document, index, &answer.plc, &answer.mesh)?;
+        let parallel = params.threads > 1 && !followers.is_empty();
+        let surface = parallel.then(|| filled.shared_surface());
+        let follow = || {
+            let follow = |surface: &Filled| {
+                let each = followers.iter();
+                each.map(|&i| (i, follower(document, i, surface, params, sizes, log)))
+                    .collect()
+            };
+            surface.as_ref().map_or_else(Vec::new, follow)
+        };
+        let finish = || {
+            let filled = (&mut filled, &origin);
+            finish(document, index, &answer.plc, filled, params, sizes)
+        };
+        let (followed, finished) = both(if parallel { 2 } else { 1 }, follow, finish);
+        finished?;
         if let Some(done) = filled.improved {
             log(&format!(
                 "template {index}: {} tetrahedra to be improved, {} remain; {} vertices moved, {} added, {} edges and faces \
@@ -490,6 +532,7 @@ fn attempt(
             preserved: answer.plc.faces.preserve(),
             failed: 0,
             many,
+            followed,
         })
     })?;
     Ok(Done { failed, ..done })

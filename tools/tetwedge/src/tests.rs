@@ -532,7 +532,7 @@ fn overhead() {
 
 #[test]
 fn equivalent_descriptions_give_equivalent_meshes() {
-    use crate::fill::fill;
+    use crate::fill::{fill, finish};
     use crate::params::{Sizes, switches};
     use crate::plc::{DESCRIPTIONS, Plc};
     for document in [coated_ring(7, 5e-3), ratchet(7)] {
@@ -548,7 +548,8 @@ fn equivalent_descriptions_give_equivalent_meshes() {
             };
             let mesh =
                 tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |_| ()).unwrap();
-            let filled = fill(&document, 0, &plc, &mesh, &params, &sizes).unwrap();
+            let (mut filled, origin) = fill(&document, 0, &plc, &mesh).unwrap();
+            finish(&document, 0, &plc, (&mut filled, &origin), &params, &sizes).unwrap();
             let mut done = document.clone();
             done.templates[0] = filled.template;
             check(&document, &done);
