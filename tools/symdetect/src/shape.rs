@@ -7,6 +7,7 @@ use crate::permutation::Permutation;
 use crate::samples::Samples;
 use geom::bvh::{Bvh, Nearest};
 use glam::{DMat3, DVec3};
+use kit::both;
 use std::sync::{Arc, OnceLock};
 use tmesh::{Frame, OUTSIDE, Template};
 
@@ -85,6 +86,9 @@ pub enum Target {
     Classes(Arc<[u32]>),
 }
 
+/// With fewer triangles, another thread takes longer to start than it saves.
+const LARGE: usize = 500;
+
 /// Triangles up to which flat faces are looked for: where there are more, samples tell sooner.
 const FACES_LOOKED_FOR: usize = 100_000;
 
@@ -162,24 +166,28 @@ impl Shape {
                 (b - a).cross(c - a).normalize_or_zero()
             })
             .collect();
-        let samples = Samples::new(&vertices, &triangles, &class, classes.len());
-        let corners = |t: &[u32; 3]| t.map(|v| vertices[v as usize]);
-        let all = Bvh::new(triangles.iter().map(corners));
-        let by_class = if classes.len() > 1 {
-            let mut members: Vec<Vec<u32>> = vec![Vec::new(); classes.len()];
-            for (t, &c) in class.iter().enumerate() {
-                members[c as usize].push(t as u32);
-            }
-            members
-                .into_iter()
-                .map(|members| ClassSurface {
-                    bvh: Bvh::new(members.iter().map(|&t| corners(&triangles[t as usize]))),
-                    triangles: members,
-                })
-                .collect()
-        } else {
-            Vec::new()
+        let corners = |t: u32| triangles[t as usize].map(|v| vertices[v as usize]);
+        let sample = || {
+            let samples = Samples::new(&vertices, &triangles, &class, classes.len());
+            (samples, Bvh::new((0..triangles.len() as u32).map(corners)))
         };
+        let sort_out = || {
+            // Of one kind are all.
+            let kinds = if classes.len() > 1 { classes.len() } else { 0 };
+            let mut members = vec![Vec::new(); kinds];
+            for (t, &c) in class.iter().enumerate() {
+                if let Some(members) = members.get_mut(c as usize) {
+                    members.push(t as u32);
+                }
+            }
+            let surface = |members: Vec<u32>| ClassSurface {
+                bvh: Bvh::new(members.iter().map(|&t| corners(t))),
+                triangles: members,
+            };
+            members.into_iter().map(surface).collect()
+        };
+        let few = triangles.len() < LARGE || classes.len() < 2;
+        let (by_class, (samples, all)) = both(if few { 1 } else { threads }, sort_out, sample);
         Some(Self {
             origin: middle + half * centre,
             scale,
