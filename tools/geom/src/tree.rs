@@ -319,6 +319,7 @@ impl<'a> Tree<'a> {
         if self.triangles.is_empty() {
             return;
         }
+        let boxes = self.boxes();
         let mut stack = vec![(0_u32, 0_u32)];
         while let Some((i, j)) = stack.pop() {
             let (m, n) = (&self.nodes[i as usize], &self.nodes[j as usize]);
@@ -338,12 +339,14 @@ impl<'a> Tree<'a> {
             } else if n.children != 0 {
                 stack.extend([(i, n.children + 1), (i, n.children)]);
             } else {
-                for (at, &s) in self.items[m.begin as usize..m.end as usize]
-                    .iter()
-                    .enumerate()
-                {
-                    let skip = if i == j { at + 1 } else { 0 };
-                    for &t in &self.items[n.begin as usize..n.end as usize][skip..] {
+                for at in m.begin..m.end {
+                    let from = if i == j { at + 1 } else { n.begin };
+                    let s = self.items[at as usize];
+                    let mut near = boxes.near(at as usize, n.begin as usize);
+                    near &= (1 << (n.end - n.begin)) - (1 << (from - n.begin));
+                    while near != 0 {
+                        let t = self.items[(n.begin + near.trailing_zeros()) as usize];
+                        near &= near - 1;
                         if group(s) != group(t) && self.boxes_meet(s, t) && !visit(s, t) {
                             return;
                         }
@@ -353,10 +356,63 @@ impl<'a> Tree<'a> {
         }
     }
 
+    /// The boxes of all triangles.
+    fn boxes(&self) -> Boxes {
+        let mut boxes = Boxes::new(self.items.len());
+        for (at, &t) in self.items.iter().enumerate() {
+            let [a, b, c] = self.corners(t);
+            boxes.set(at, a.min(b).min(c), a.max(b).max(c) + self.margin);
+        }
+        boxes
+    }
+
     fn boxes_meet(&self, s: u32, t: u32) -> bool {
         let bounds = |[a, b, c]: [DVec3; 3]| (a.min(b).min(c), a.max(b).max(c));
         let ((a, b), (c, d)) = (bounds(self.corners(s)), bounds(self.corners(t)));
         !(a.cmpgt(d + self.margin).any() || c.cmpgt(b + self.margin).any())
+    }
+}
+
+/// Boxes in the order of a tree's items, in single precision and no smaller than they are: those of a leaf
+/// are compared with a box all at once. The margin is part of their upper ends.
+struct Boxes {
+    low: [Vec<f32>; 3],
+    high: [Vec<f32>; 3],
+}
+
+impl Boxes {
+    /// So many, and what the last leaf lacks.
+    fn new(count: usize) -> Self {
+        let blank = || vec![0.0; count + LEAF];
+        Self {
+            low: std::array::from_fn(|_| blank()),
+            high: std::array::from_fn(|_| blank()),
+        }
+    }
+
+    fn set(&mut self, at: usize, low: DVec3, high: DVec3) {
+        for k in 0..3 {
+            let (a, b) = (low[k] as f32, high[k] as f32);
+            let (below, above) = (f64::from(a) > low[k], f64::from(b) < high[k]);
+            self.low[k][at] = if below { a.next_down() } else { a };
+            self.high[k][at] = if above { b.next_up() } else { b };
+        }
+    }
+
+    /// Which of the boxes in the leaf that begins at `leaf` may meet the one at `at`, a bit each.
+    fn near(&self, at: usize, leaf: usize) -> u32 {
+        let mut apart = [false; LEAF];
+        for k in 0..3 {
+            let (low, high) = (self.low[k][at], self.high[k][at]);
+            let (lows, highs) = (
+                &self.low[k][leaf..leaf + LEAF],
+                &self.high[k][leaf..leaf + LEAF],
+            );
+            for i in 0..LEAF {
+                apart[i] |= (lows[i] > high) | (low > highs[i]);
+            }
+        }
+        (0..LEAF).fold(0, |bits, i| bits | u32::from(!apart[i]) << i)
     }
 }
 
