@@ -83,18 +83,34 @@ pub fn contact(vertices: &[DVec3], s: &[u32; 3], t: &[u32; 3]) -> Option<DVec3> 
             count += 1;
         }
     }
-    // Most pairs are settled by one triangle lying on one side of the other.
+    let shared = &shared[..count];
+    if count == 3 || clearly_apart(p, q, shared) || apart_in_projection(p, q, shared) {
+        return None;
+    }
+    let separated = match *shared {
+        [] => separated(p, q),
+        [(i, j)] => separated_at(p[i], others(p, i), others(q, j)),
+        _ => false,
+    };
+    if separated {
+        return None;
+    }
+    meeting(p, q, shared)
+}
+
+/// The corners other than one.
+fn others(v: [DVec3; 3], i: usize) -> [DVec3; 2] {
+    [v[(i + 1) % 3], v[(i + 2) % 3]]
+}
+
+/// What [`contact`] finds, exactly and without short cuts.
+fn meeting(p: [DVec3; 3], q: [DVec3; 3], shared: &[(usize, usize)]) -> Option<DVec3> {
     let one_side = |[a, b, c]: [DVec3; 3], v: &[DVec3]| {
         let mut signs = v.iter().map(|&x| orientation(a, b, c, x));
         let first = signs.next().unwrap_or(0.0);
         first != 0.0 && signs.all(|x| x * first.signum() > 0.0)
     };
-    let others = |v: [DVec3; 3], i: usize| [v[(i + 1) % 3], v[(i + 2) % 3]];
-    // Of two nearly in one plane, as in a fan, that is hard to tell, but seen from above they are apart.
-    if apart_in_projection(p, q, &shared[..count]) {
-        return None;
-    }
-    match shared[..count] {
+    match *shared {
         [] => {
             if one_side(q, &p) || one_side(p, &q) || is_flat(p) || is_flat(q) {
                 return None;
@@ -122,6 +138,95 @@ pub fn contact(vertices: &[DVec3], s: &[u32; 3], t: &[u32; 3]) -> Option<DVec3> 
         }
         _ => None,
     }
+}
+
+/// Bound on the error of a determinant of three differences of points, relative to the sum of the sizes of
+/// its terms; Shewchuk's is 7.8e-16.
+const FILTER: f64 = 1e-15;
+
+/// The determinant of two vectors with a third, which is rounded.
+struct Determinant {
+    normal: DVec3,
+    /// Sizes of the terms of `normal`.
+    size: DVec3,
+}
+
+impl Determinant {
+    /// Of differences of points.
+    #[inline]
+    fn of(u: DVec3, v: DVec3) -> Self {
+        let (x, y) = (u.abs(), v.abs());
+        Self {
+            normal: u.cross(v),
+            size: DVec3::new(
+                x.y * y.z + x.z * y.y,
+                x.z * y.x + x.x * y.z,
+                x.x * y.y + x.y * y.x,
+            ),
+        }
+    }
+
+    /// The value with a third difference of points, and a bound on its error.
+    #[inline]
+    fn with(&self, w: DVec3) -> (f64, f64) {
+        (self.normal.dot(w), FILTER * self.size.dot(w.abs()))
+    }
+
+    /// The sign of the value, or 0 where it is too close to zero to tell.
+    #[inline]
+    fn sign(&self, w: DVec3) -> i32 {
+        let (value, error) = self.with(w);
+        i32::from(value > error) - i32::from(value < -error)
+    }
+}
+
+/// Whether all of one triangle but for common vertices lies on one side of the other's plane, and not near
+/// to it: that settles most pairs.
+fn clearly_apart(p: [DVec3; 3], q: [DVec3; 3], shared: &[(usize, usize)]) -> bool {
+    let beside = |[a, b, c]: [DVec3; 3], x: [DVec3; 3], on: [bool; 3]| {
+        let plane = Determinant::of(b - a, c - a);
+        let (mut above, mut below) = (true, true);
+        for (x, on) in x.into_iter().zip(on) {
+            let sign = plane.sign(x - a);
+            above &= on || sign > 0;
+            below &= on || sign < 0;
+        }
+        above || below
+    };
+    let mut on = [[false; 3]; 2];
+    for &(i, j) in shared {
+        on[0][i] = true;
+        on[1][j] = true;
+    }
+    beside(p, q, on[1]) || beside(q, p, on[0])
+}
+
+/// Whether a plane along an edge of each of two triangles separates them, and not closely.
+fn separated(p: [DVec3; 3], q: [DVec3; 3]) -> bool {
+    (0..3).any(|i| {
+        let [a, b, c] = [p[i], p[(i + 1) % 3], p[(i + 2) % 3]];
+        (0..3).any(|j| {
+            let [u, v, w] = [q[j], q[(j + 1) % 3], q[(j + 2) % 3]];
+            // Heights above the plane through the second edge: both ends of the first edge have one.
+            let height = Determinant::of(b - a, v - u);
+            let (edge, corner, own) = (height.with(a - u), height.with(c - u), height.with(w - u));
+            let error = 2.0 * (edge.1 + corner.1 + own.1);
+            edge.0.min(corner.0) > own.0.max(0.0) + error
+                || edge.0.max(corner.0) < own.0.min(0.0) - error
+        })
+    })
+}
+
+/// Whether a plane along an edge of each of two triangles separates them but for their common vertex, and
+/// not closely; given that and the other corners of both.
+fn separated_at(common: DVec3, p: [DVec3; 2], q: [DVec3; 2]) -> bool {
+    let (p, q) = (p.map(|x| x - common), q.map(|x| x - common));
+    (0..2).any(|i| {
+        (0..2).any(|j| {
+            let plane = Determinant::of(p[i], q[j]);
+            plane.sign(p[1 - i]) * plane.sign(q[1 - j]) < 0
+        })
+    })
 }
 
 /// Height of one triangle above the plane of another, relative to its distance, up to which they are looked
@@ -200,9 +305,14 @@ fn segment_meets(p: DVec3, q: DVec3, t: [DVec3; 3]) -> Option<DVec3> {
     if sp == 0.0 && sq == 0.0 {
         return coplanar_segment_meets(p, q, t);
     }
-    let d = [(a, b), (b, c), (c, a)].map(|(u, v)| orientation(p, q, u, v));
-    if d.iter().any(|&x| x > 0.0) && d.iter().any(|&x| x < 0.0) {
-        return None;
+    let (mut above, mut below) = (false, false);
+    for (u, v) in [(a, b), (b, c), (c, a)] {
+        let side = orientation(p, q, u, v);
+        above |= side > 0.0;
+        below |= side < 0.0;
+        if above && below {
+            return None;
+        }
     }
     let f = sp / (sp - sq);
     Some(p + (q - p) * if f.is_finite() { f } else { 0.5 })
@@ -306,5 +416,35 @@ mod tests {
         assert!(met([0, 1, 2], [0, 3, 9]));
         assert!(met([0, 1, 2], [0, 5, 8]));
         assert!(!met([0, 1, 2], [0, 6, 5]));
+    }
+
+    #[test]
+    fn short_cuts_change_nothing() {
+        let mut state = 1_u64;
+        let mut random = |below: u64| {
+            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
+            (state >> 33) % below
+        };
+        // Corners on a coarse grid, which is turned in space in every other round: many are nearly in one
+        // plane, on one line or the same.
+        let turn = glam::DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
+        let mut met = [[0; 2]; 3];
+        for round in 0..60_000 {
+            let flat = if random(2) == 0 { 1 } else { 4 };
+            let mut point = || DVec3::from([4, 4, flat].map(|n| random(n) as f64));
+            let corners: [DVec3; 6] = std::array::from_fn(|_| point());
+            let v = corners.map(|p| if round % 2 == 0 { p } else { turn * p });
+            let count = random(3) as usize;
+            let (s, mut t) = ([0, 1, 2], [3, 4, 5]);
+            let shared = [(0, 1), (2, 0)];
+            for &(i, j) in &shared[..count] {
+                t[j] = s[i];
+            }
+            let at = |v_of: [u32; 3]| v_of.map(|i| v[i as usize]);
+            let exact = meeting(at(s), at(t), &shared[..count]);
+            assert_eq!(contact(&v, &s, &t), exact, "{s:?} {t:?} {v:?}");
+            met[count][usize::from(exact.is_some())] += 1;
+        }
+        assert!(met.as_flattened().iter().all(|&n| n > 1000), "{met:?}");
     }
 }
