@@ -2,6 +2,7 @@
 
 mod closure;
 mod coincident;
+mod decimal;
 mod document;
 mod error;
 mod facet;

@@ -1,6 +1,7 @@
 //! Words of a text file, with line numbers, and what its numbers show about their precision.
 
 use crate::ReadError;
+use crate::decimal::{Decimal, decimal};
 use crate::soup::{DOUBLE, SINGLE};
 use glam::DVec3;
 
@@ -78,13 +79,11 @@ impl<'a> Tokens<'a> {
 
     /// The next word on the current line, or `None` at the line's end.
     pub fn word_on_line(&mut self) -> Option<&'a [u8]> {
+        let on_line = |b: u8| b != b'\n' && is_blank(b);
+        while self.bytes.get(self.at).is_some_and(|&b| on_line(b)) {
+            self.at += 1;
+        }
         let rest = &self.bytes[self.at..];
-        let blank = rest
-            .iter()
-            .position(|&b| b == b'\n' || !b.is_ascii_whitespace())
-            .unwrap_or(rest.len());
-        self.at += blank;
-        let rest = &rest[blank..];
         match rest.first() {
             None | Some(b'\n') => return None,
             Some(_) if rest.first().copied() == self.comment => {
@@ -93,12 +92,33 @@ impl<'a> Tokens<'a> {
             }
             Some(_) => {}
         }
-        let length = rest
-            .iter()
-            .position(|&b| b.is_ascii_whitespace() || Some(b) == self.comment)
-            .unwrap_or(rest.len());
+        let inside = |b: u8| !is_blank(b) && Some(b) != self.comment;
+        let mut length = 1;
+        while rest.get(length).is_some_and(|&b| inside(b)) {
+            length += 1;
+        }
         self.at += length;
         Some(&rest[..length])
+    }
+
+    /// Where white space and ends of lines are over, and the line that is.
+    fn after_blanks(&self) -> (usize, usize) {
+        let (mut at, mut line) = (self.at, self.line);
+        while let Some(&b) = self.bytes.get(at)
+            && is_blank(b)
+        {
+            line += usize::from(b == b'\n');
+            at += 1;
+        }
+        (at, line)
+    }
+
+    /// The next word as a number, if it is one of the ordinary kind. Otherwise nothing is read.
+    fn decimal(&mut self) -> Option<Decimal> {
+        let (at, line) = self.after_blanks();
+        let number = decimal(&self.bytes[at..])?;
+        (self.at, self.line) = (at + number.length, line);
+        Some(number)
     }
 
     /// The rest of the line, trimmed; the line's end is left to be read.
@@ -114,6 +134,14 @@ impl<'a> Tokens<'a> {
     /// # Errors
     /// Another word, or the end.
     pub fn expect(&mut self, word: &str) -> Result<(), ReadError> {
+        // Most are written like that.
+        let (at, line) = self.after_blanks();
+        if let Some(rest) = self.bytes[at..].strip_prefix(word.as_bytes())
+            && rest.first().is_some_and(|&b| is_blank(b))
+        {
+            (self.at, self.line) = (at + word.len(), line);
+            return Ok(());
+        }
         match self.next_word() {
             Some(w) if w.eq_ignore_ascii_case(word.as_bytes()) => Ok(()),
             Some(w) => Err(self.error(format!("'{word}' expected, found '{}'", shown(w)))),
@@ -186,6 +214,9 @@ impl<'a> Tokens<'a> {
     /// # Errors
     /// Not a number, or the end.
     pub fn number(&mut self) -> Result<f64, ReadError> {
+        if let Some(number) = self.decimal() {
+            return Ok(number.value);
+        }
         match self.next_word() {
             Some(word) => {
                 number(word).ok_or_else(|| self.error(format!("'{}' is not a number", shown(word))))
@@ -216,6 +247,10 @@ impl<'a> Tokens<'a> {
     /// # Errors
     /// Not a number, not finite, or the end.
     pub fn coordinate(&mut self) -> Result<f64, ReadError> {
+        if let Some(number) = self.decimal() {
+            self.precision.note_digits(number.digits, number.value);
+            return Ok(number.value);
+        }
         let Some(word) = self.next_word() else {
             return Err(self.error("a coordinate expected, but the file ends here"));
         };
@@ -227,6 +262,12 @@ impl<'a> Tokens<'a> {
         self.precision.note(word, value);
         Ok(value)
     }
+}
+
+/// Whether a byte is white space; most are not, and above all of it.
+#[inline]
+fn is_blank(b: u8) -> bool {
+    b <= b' ' && b.is_ascii_whitespace()
 }
 
 /// A word as text for a message, shortened.
@@ -266,7 +307,11 @@ impl Default for TextPrecision {
 impl TextPrecision {
     /// Takes a coordinate into account.
     pub fn note(&mut self, word: &[u8], value: f64) {
-        let digits = significant_digits(word);
+        self.note_digits(significant_digits(word), value);
+    }
+
+    /// Takes a coordinate into account that has so many significant digits.
+    fn note_digits(&mut self, digits: u32, value: f64) {
         self.digits = self.digits.max(digits);
         if self.single && digits > 9 {
             // A single printed with more digits than it has lies within the printed rounding of
