@@ -21,31 +21,30 @@ pub struct Merged {
 /// # Errors
 /// More than two solids at one triangle.
 pub fn merge(surface: &mut Surface, edges: &Edges, across: bool) -> Result<Merged, ReadError> {
-    let mut candidates = candidates(surface, edges);
+    let mut candidates = candidates(surface, edges, across);
     let mut merged = Merged::default();
     if candidates.is_empty() {
         return Ok(merged);
     }
-    let key = |&t: &u32| {
-        let mut key = surface.triangles[t as usize];
-        key.sort_unstable();
-        key
-    };
-    candidates.sort_unstable_by_key(|t| (key(t), surface.solid[*t as usize], *t));
+    candidates.sort_unstable();
     let mut drop = vec![false; surface.triangles.len()];
     let mut partners = Vec::new();
-    for run in candidates.chunk_by(|s, t| key(s) == key(t)) {
+    for run in candidates.chunk_by(|s, t| s.corners == t.corners) {
         if run.len() == 1 {
             continue;
         }
         let mut kept = Vec::new();
-        for same in run.chunk_by(|&s, &t| surface.solid[s as usize] == surface.solid[t as usize]) {
+        for same in run.chunk_by(|s, t| s.solid == t.solid) {
             let turn = |t: u32| is_even(surface.triangles[t as usize]);
-            let balance: i64 = same.iter().map(|&t| if turn(t) { 1 } else { -1 }).sum();
-            same.iter().for_each(|&t| drop[t as usize] = true);
-            if let Some(&keep) = same
+            let balance: i64 = same
                 .iter()
-                .find(|&&t| balance != 0 && turn(t) == (balance > 0))
+                .map(|c| if turn(c.triangle) { 1 } else { -1 })
+                .sum();
+            same.iter().for_each(|c| drop[c.triangle as usize] = true);
+            if let Some(keep) = same
+                .iter()
+                .map(|c| c.triangle)
+                .find(|&t| balance != 0 && turn(t) == (balance > 0))
             {
                 drop[keep as usize] = false;
                 kept.push(keep);
@@ -82,22 +81,48 @@ pub fn merge(surface: &mut Surface, edges: &Edges, across: bool) -> Result<Merge
     Ok(merged)
 }
 
-/// Triangles with an edge that has another triangle with the same apex. Coincident triangles have
-/// three of those.
-fn candidates(surface: &Surface, edges: &Edges) -> Vec<u32> {
-    let mut list = Vec::new();
+/// A triangle that another may coincide with; in the order of corners, solids and triangles.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Candidate {
+    /// Vertex ids, increasing.
+    corners: [u32; 3],
+    solid: u32,
+    triangle: u32,
+}
+
+/// Around edges with more triangles than this, all count as candidates.
+const CROWD: usize = 16;
+
+/// Triangles with an edge that has another triangle with the same apex, of the same solid unless
+/// `across`. Coincident triangles have three of those.
+fn candidates(surface: &Surface, edges: &Edges, across: bool) -> Vec<Candidate> {
+    let mut is_one = vec![false; surface.triangles.len()];
     for edge in 0..edges.len() {
         let fan = edges.around(edge);
         let apex = |i: usize| apex_of(&surface.triangles[fan[i].triangle as usize], fan[i].corner);
-        match fan.len() {
-            0 | 1 => {}
-            2 if apex(0) != apex(1) => {}
-            _ => list.extend(fan.iter().map(|u| u.triangle)),
+        let solid = |i: usize| surface.solid[fan[i].triangle as usize];
+        let same = |i: usize, j: usize| apex(i) == apex(j) && (across || solid(i) == solid(j));
+        if fan.len() < 2 || (fan.len() == 2 && apex(0) != apex(1)) {
+            continue;
+        }
+        for i in 0..fan.len() {
+            if fan.len() > CROWD || (0..fan.len()).any(|j| j != i && same(i, j)) {
+                is_one[fan[i].triangle as usize] = true;
+            }
         }
     }
-    list.sort_unstable();
-    list.dedup();
-    list
+    (0..surface.triangles.len())
+        .filter(|&t| is_one[t])
+        .map(|t| {
+            let mut corners = surface.triangles[t];
+            corners.sort_unstable();
+            Candidate {
+                corners,
+                solid: surface.solid[t],
+                triangle: t as u32,
+            }
+        })
+        .collect()
 }
 
 /// Whether the vertex ids are an even permutation of their increasing order.
