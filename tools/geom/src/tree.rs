@@ -319,7 +319,7 @@ impl<'a> Tree<'a> {
         if self.triangles.is_empty() {
             return;
         }
-        let boxes = self.boxes();
+        let boxes = self.leaf_boxes();
         let mut stack = vec![(0_u32, 0_u32)];
         while let Some((i, j)) = stack.pop() {
             let (m, n) = (&self.nodes[i as usize], &self.nodes[j as usize]);
@@ -339,11 +339,16 @@ impl<'a> Tree<'a> {
             } else if n.children != 0 {
                 stack.extend([(i, n.children + 1), (i, n.children)]);
             } else {
-                for at in m.begin..m.end {
-                    let from = if i == j { at + 1 } else { n.begin };
-                    let s = self.items[at as usize];
-                    let mut near = boxes.near(at as usize, n.begin as usize);
-                    near &= (1 << (n.end - n.begin)) - (1 << (from - n.begin));
+                let (mine, theirs) = (boxes.of(i), boxes.of(j));
+                let mut some = mine.near(&self.span(n.low, n.high));
+                while some != 0 {
+                    let at = some.trailing_zeros();
+                    some &= some - 1;
+                    let s = self.items[(m.begin + at) as usize];
+                    let mut near = theirs.near(&mine.span(at as usize));
+                    if i == j {
+                        near &= !1 << at;
+                    }
                     while near != 0 {
                         let t = self.items[(n.begin + near.trailing_zeros()) as usize];
                         near &= near - 1;
@@ -356,14 +361,41 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// The boxes of all triangles.
-    fn boxes(&self) -> Boxes {
-        let mut boxes = Boxes::new(self.items.len());
-        for (at, &t) in self.items.iter().enumerate() {
-            let [a, b, c] = self.corners(t);
-            boxes.set(at, a.min(b).min(c), a.max(b).max(c) + self.margin);
+    /// The boxes of the triangles in each leaf.
+    fn leaf_boxes(&self) -> LeafBoxes {
+        let mut boxes = LeafBoxes {
+            of_node: vec![0; self.nodes.len()],
+            blocks: Vec::with_capacity(self.nodes.len() / 2 + 1),
+        };
+        for (i, node) in self.nodes.iter().enumerate() {
+            if node.children != 0 {
+                continue;
+            }
+            boxes.of_node[i] = boxes.blocks.len() as u32;
+            let mut block = Block::default();
+            for at in node.begin..node.end {
+                let [a, b, c] = self.corners(self.items[at as usize]);
+                let span = self.span(a.min(b).min(c), a.max(b).max(c));
+                block.set((at - node.begin) as usize, &span);
+            }
+            boxes.blocks.push(block);
         }
         boxes
+    }
+
+    /// A box in single precision, no smaller than it is, with the margin.
+    fn span(&self, low: DVec3, high: DVec3) -> Span {
+        let high = high + self.margin;
+        Span {
+            low: low.to_array().map(|x| {
+                let y = x as f32;
+                if f64::from(y) > x { y.next_down() } else { y }
+            }),
+            high: high.to_array().map(|x| {
+                let y = x as f32;
+                if f64::from(y) < x { y.next_up() } else { y }
+            }),
+        }
     }
 
     fn boxes_meet(&self, s: u32, t: u32) -> bool {
@@ -373,46 +405,66 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Boxes in the order of a tree's items, in single precision and no smaller than they are: those of a leaf
-/// are compared with a box all at once. The margin is part of their upper ends.
-struct Boxes {
-    low: [Vec<f32>; 3],
-    high: [Vec<f32>; 3],
+/// A box in single precision; its upper end has the margin in it.
+struct Span {
+    low: [f32; 3],
+    high: [f32; 3],
 }
 
-impl Boxes {
-    /// So many, and what the last leaf lacks.
-    fn new(count: usize) -> Self {
-        let blank = || vec![0.0; count + LEAF];
+/// The boxes of a leaf's triangles, to be compared with another box all at once.
+struct Block {
+    low: [[f32; LEAF]; 3],
+    high: [[f32; LEAF]; 3],
+}
+
+impl Default for Block {
+    /// No boxes: what is no number is near to nothing.
+    fn default() -> Self {
         Self {
-            low: std::array::from_fn(|_| blank()),
-            high: std::array::from_fn(|_| blank()),
+            low: [[f32::NAN; LEAF]; 3],
+            high: [[f32::NAN; LEAF]; 3],
+        }
+    }
+}
+
+impl Block {
+    fn set(&mut self, at: usize, span: &Span) {
+        for k in 0..3 {
+            self.low[k][at] = span.low[k];
+            self.high[k][at] = span.high[k];
         }
     }
 
-    fn set(&mut self, at: usize, low: DVec3, high: DVec3) {
-        for k in 0..3 {
-            let (a, b) = (low[k] as f32, high[k] as f32);
-            let (below, above) = (f64::from(a) > low[k], f64::from(b) < high[k]);
-            self.low[k][at] = if below { a.next_down() } else { a };
-            self.high[k][at] = if above { b.next_up() } else { b };
+    fn span(&self, at: usize) -> Span {
+        Span {
+            low: self.low.map(|x| x[at]),
+            high: self.high.map(|x| x[at]),
         }
     }
 
-    /// Which of the boxes in the leaf that begins at `leaf` may meet the one at `at`, a bit each.
-    fn near(&self, at: usize, leaf: usize) -> u32 {
-        let mut apart = [false; LEAF];
+    /// Which of the boxes may meet this one, a bit each.
+    fn near(&self, span: &Span) -> u32 {
+        let mut near = [u32::MAX; LEAF];
         for k in 0..3 {
-            let (low, high) = (self.low[k][at], self.high[k][at]);
-            let (lows, highs) = (
-                &self.low[k][leaf..leaf + LEAF],
-                &self.high[k][leaf..leaf + LEAF],
-            );
-            for i in 0..LEAF {
-                apart[i] |= (lows[i] > high) | (low > highs[i]);
+            for (i, near) in near.iter_mut().enumerate() {
+                let meets = (self.low[k][i] <= span.high[k]) & (self.high[k][i] >= span.low[k]);
+                *near &= u32::from(meets).wrapping_neg();
             }
         }
-        (0..LEAF).fold(0, |bits, i| bits | u32::from(!apart[i]) << i)
+        (near.iter().enumerate()).fold(0, |bits, (i, near)| bits | (near & (1 << i)))
+    }
+}
+
+/// The blocks of a tree's leaves.
+struct LeafBoxes {
+    /// Block of each node; 0 where it is no leaf.
+    of_node: Vec<u32>,
+    blocks: Vec<Block>,
+}
+
+impl LeafBoxes {
+    fn of(&self, node: u32) -> &Block {
+        &self.blocks[self.of_node[node as usize] as usize]
     }
 }
 
