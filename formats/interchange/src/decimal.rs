@@ -204,6 +204,20 @@ mod tests {
     }
 
     #[test]
+    fn eight_digits_are_eight_digits() {
+        assert_eq!(eight_digits(b"123456789"), Some(12_345_678));
+        assert_eq!(eight_digits(b"1234567"), None);
+        for at in 0..8 {
+            for byte in 0..=u8::MAX {
+                let mut text = *b"00000009";
+                text[at] = byte;
+                let known = std::str::from_utf8(&text).ok().filter(|_| byte != b'+');
+                assert_eq!(eight_digits(&text), known.and_then(|t| t.parse().ok()));
+            }
+        }
+    }
+
+    #[test]
     fn what_is_read_ends_with_the_word() {
         let all = |text: &str| read(text).map(|d| (d.value, d.length, d.digits));
         assert_eq!(all("-1.50e1\t2"), Some((-15.0, 7, 3)));
