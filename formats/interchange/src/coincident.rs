@@ -96,7 +96,7 @@ const CROWD: usize = 16;
 /// Triangles with an edge that has another triangle with the same apex, of the same solid unless
 /// `across`. Coincident triangles have three of those.
 fn candidates(surface: &Surface, edges: &Edges, across: bool) -> Vec<Candidate> {
-    let mut is_one = vec![false; surface.triangles.len()];
+    let mut list = Vec::new();
     for edge in 0..edges.len() {
         let fan = edges.around(edge);
         let apex = |i: usize| apex_of(&surface.triangles[fan[i].triangle as usize], fan[i].corner);
@@ -107,19 +107,20 @@ fn candidates(surface: &Surface, edges: &Edges, across: bool) -> Vec<Candidate> 
         }
         for i in 0..fan.len() {
             if fan.len() > CROWD || (0..fan.len()).any(|j| j != i && same(i, j)) {
-                is_one[fan[i].triangle as usize] = true;
+                list.push(fan[i].triangle);
             }
         }
     }
-    (0..surface.triangles.len())
-        .filter(|&t| is_one[t])
-        .map(|t| {
-            let mut corners = surface.triangles[t];
+    list.sort_unstable();
+    list.dedup();
+    list.into_iter()
+        .map(|triangle| {
+            let mut corners = surface.triangles[triangle as usize];
             corners.sort_unstable();
             Candidate {
                 corners,
-                solid: surface.solid[t],
-                triangle: t as u32,
+                solid: surface.solid[triangle as usize],
+                triangle,
             }
         })
         .collect()
