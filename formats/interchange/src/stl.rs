@@ -5,6 +5,7 @@ use crate::soup::{Group, SINGLE, Soup};
 use crate::tokens::{Tokens, shown};
 use crate::weld::Welder;
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 
 const HEADER: usize = 84;
 const FACET: usize = 50;
@@ -131,7 +132,11 @@ fn read_ascii(bytes: &[u8]) -> Result<Soup, ReadError> {
         group_word: "solid",
         ..Soup::default()
     };
-    let mut welder = Welder::new(bytes.len() / 512);
+    let mut corners = Corners {
+        welder: Welder::new(bytes.len() / 512),
+        known: FxHashMap::default(),
+    };
+    corners.known.reserve(bytes.len() / 512);
     let mut open = false;
     while let Some(word) = tokens.next_word() {
         if word.eq_ignore_ascii_case(b"solid") {
@@ -142,7 +147,7 @@ fn read_ascii(bytes: &[u8]) -> Result<Soup, ReadError> {
             tokens.rest_of_line();
             open = false;
         } else if word.eq_ignore_ascii_case(b"facet") && open {
-            soup.triangles.push(facet(&mut tokens, &mut welder)?);
+            soup.triangles.push(facet(&mut tokens, &mut corners)?);
             soup.group_of.push(soup.groups.len() as u32 - 1);
         } else {
             let wanted = if open {
@@ -157,13 +162,40 @@ fn read_ascii(bytes: &[u8]) -> Result<Soup, ReadError> {
         soup.notices
             .push("the last solid has no 'endsolid'; is the file complete?".to_owned());
     }
-    soup.points = welder.into_points();
+    soup.points = corners.welder.into_points();
     soup.relative_precision = tokens.precision().relative();
     Ok(soup)
 }
 
+/// The distinct corners of an ASCII file.
+struct Corners<'a> {
+    welder: Welder,
+    /// By what stands on their lines: most are written several times, and alike.
+    known: FxHashMap<&'a [u8], u32>,
+}
+
+impl<'a> Corners<'a> {
+    /// The corner that comes next.
+    fn read(&mut self, tokens: &mut Tokens<'a>) -> Result<u32, ReadError> {
+        let Some(line) = tokens.line_ahead() else {
+            return Ok(self.welder.id(tokens.point()?));
+        };
+        if let Some(&id) = self.known.get(line) {
+            tokens.skip(line.len());
+            return Ok(id);
+        }
+        let before = tokens.left();
+        let id = self.welder.id(tokens.point()?);
+        let rest = line.get(before - tokens.left()..);
+        if rest.is_some_and(|r| r.trim_ascii().is_empty()) {
+            self.known.insert(line, id);
+        }
+        Ok(id)
+    }
+}
+
 /// A facet after its first word.
-fn facet(tokens: &mut Tokens<'_>, welder: &mut Welder) -> Result<[u32; 3], ReadError> {
+fn facet<'a>(tokens: &mut Tokens<'a>, all: &mut Corners<'a>) -> Result<[u32; 3], ReadError> {
     tokens.expect("normal")?;
     // Normals are often not numbers at all (`nan`); they are not used.
     for _ in 0..3 {
@@ -176,7 +208,7 @@ fn facet(tokens: &mut Tokens<'_>, welder: &mut Welder) -> Result<[u32; 3], ReadE
     let mut corners = [0; 3];
     for corner in &mut corners {
         tokens.expect("vertex")?;
-        *corner = welder.id(tokens.point()?);
+        *corner = all.read(tokens)?;
     }
     tokens.expect("endloop")?;
     tokens.expect("endfacet")?;

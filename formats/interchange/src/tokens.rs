@@ -4,6 +4,10 @@ use crate::ReadError;
 use crate::decimal::{Decimal, decimal};
 use crate::soup::{DOUBLE, SINGLE};
 use glam::DVec3;
+use std::io::BufRead;
+
+/// Bytes that a short line has at most.
+const SHORT: usize = 256;
 
 /// Words of a text, separated by white space.
 pub struct Tokens<'a> {
@@ -127,6 +131,14 @@ impl<'a> Tokens<'a> {
         let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
         self.at += length;
         rest[..length].trim_ascii()
+    }
+
+    /// The rest of the line, which is left to be read; `None` for a long one, or the file's last.
+    pub fn line_ahead(&self) -> Option<&'a [u8]> {
+        let rest = &self.bytes[self.at..];
+        let rest = &rest[..rest.len().min(SHORT)];
+        let length = (&mut { rest }).skip_until(b'\n').ok()?;
+        rest[..length].strip_suffix(b"\n")
     }
 
     /// The next word, which must be this one, in any case.
