@@ -1,7 +1,7 @@
 //! Words of a text file, with line numbers, and what its numbers show about their precision.
 
 use crate::ReadError;
-use crate::decimal::{Decimal, decimal};
+use crate::decimal::{Decimal, decimal, significant_digits};
 use crate::soup::{DOUBLE, SINGLE};
 use glam::DVec3;
 use std::io::BufRead;
@@ -342,18 +342,4 @@ impl TextPrecision {
             (0.5 * 10.0_f64.powi(1 - self.digits as i32)).max(DOUBLE)
         }
     }
-}
-
-/// Digits of a printed number without leading zeros and exponent.
-fn significant_digits(word: &[u8]) -> u32 {
-    let mut digits = 0;
-    for &b in word {
-        match b {
-            b'0' if digits == 0 => {}
-            b'0'..=b'9' => digits += 1,
-            b'e' | b'E' | b'd' | b'D' => break,
-            _ => {}
-        }
-    }
-    digits
 }
