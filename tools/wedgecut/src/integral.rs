@@ -22,6 +22,14 @@ const WITHIN_OCTAVE: [f64; PER_OCTAVE - 1] = [
 ];
 /// Smallest pieces of the section, relative to its extent.
 const FINEST: f64 = 1.0 / 256.0;
+/// Size of pieces near the axis, where wedges get narrow quickly: relative to the radius, and the least one,
+/// relative to the extent, some one and a half classes of radius.
+const NEAR_AXIS: f64 = 0.3;
+const LEAST_NEAR_AXIS: f64 = 1.0 / 64.0;
+/// A triangle whose second longest side is so many times the shortest is narrow.
+const NARROW: f64 = 3.0;
+/// Samples, the smallest sizes first, that are tried for whether they make others useless.
+const COMPARED: usize = 256;
 /// Groups of triangles that are summed on their own, so that sums do not depend on the number of threads.
 const GROUPS: usize = 8;
 
@@ -105,9 +113,10 @@ impl Integral {
     /// threads.
     pub fn over(parts: &[Part], samples: &[Sample], classes: Classes, threads: usize) -> Self {
         let groups: Vec<usize> = (0..GROUPS.min(parts.len())).collect();
+        let samples = useful(samples);
         let of_group = |&group: &usize| {
             let mut sums = Self::zero();
-            let mut near = Near::new(samples, classes.extent);
+            let mut near = Near::new(&samples, classes.extent);
             for part in parts.iter().skip(group).step_by(GROUPS) {
                 sums.add_part(part, &mut near, classes);
             }
@@ -130,7 +139,7 @@ impl Integral {
     }
 
     fn add_part(&mut self, part: &Part, near: &mut Near, classes: Classes) {
-        let finest = classes.extent * FINEST;
+        let [finest, least] = [FINEST, LEAST_NEAR_AXIS].map(|part| part * classes.extent);
         // The samples that matter in a triangle on the stack are a run of `near`; runs of those above it on
         // the stack lie behind it.
         let mut stack = vec![(part.corners, 0..near.all)];
@@ -139,11 +148,9 @@ impl Integral {
             let middle = (t[0] + t[1] + t[2]) / 3.0;
             let size = near.ask(run.clone(), middle).min(part.cap);
             let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| t[i].distance_squared(t[j]));
-            let longest = (0..3)
-                .max_by(|&i, &j| sides[i].total_cmp(&sides[j]))
-                .unwrap_or(0);
-            // Near the axis wedges get narrow quickly.
-            let wanted = size.min(0.3 * middle.x).max(finest);
+            let longest = (0..3).max_by(|&i, &j| sides[i].total_cmp(&sides[j]));
+            let longest = longest.unwrap_or(0);
+            let wanted = size.min((NEAR_AXIS * middle.x).max(least)).max(finest);
             if sides[longest] <= wanted * wanted {
                 let area = 0.5 * (t[1] - t[0]).perp_dot(t[2] - t[0]).abs() * part.weight;
                 let radius = classes.of_radius(middle.x);
@@ -160,12 +167,46 @@ impl Integral {
             let reach = t.iter().map(|p| p.distance_squared(middle));
             let reach = reach.fold(0.0_f64, f64::max).sqrt();
             let kept = near.keep(run, size + 2.0 * GROWTH * reach);
-            let (a, b, c) = (t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]);
+            // The sides that meet at the corner opposite of the longest one.
+            let (next, last) = ((longest + 1) % 3, (longest + 2) % 3);
+            let (shortest, second) = match sides[next] < sides[last] {
+                true => (next, last),
+                false => (last, next),
+            };
+            if sides[second] > NARROW * NARROW * sides[shortest] {
+                // Halves of the longest side alone would be narrower still.
+                let (a, b, tip) = (t[shortest], t[(shortest + 1) % 3], t[(shortest + 2) % 3]);
+                let (near_a, near_b) = (0.5 * (a + tip), 0.5 * (b + tip));
+                stack.push(([near_a, near_b, tip], kept.clone()));
+                stack.push(([a, b, near_b], kept.clone()));
+                stack.push(([a, near_b, near_a], kept));
+                continue;
+            }
+            let (a, b, c) = (t[longest], t[next], t[last]);
             let half = 0.5 * (a + b);
             stack.push(([a, half, c], kept.clone()));
             stack.push(([half, b, c], kept));
         }
     }
+}
+
+/// The samples without those that another one makes useless: it asks for no more at their place, and so
+/// anywhere.
+fn useful(samples: &[Sample]) -> Vec<Sample> {
+    let mut sorted = samples.to_vec();
+    sorted.sort_by(|a, b| a.size.total_cmp(&b.size));
+    let mut kept: Vec<Sample> = Vec::new();
+    for s in sorted {
+        // Squares, to do without a root.
+        let is_below = |k: &Sample| {
+            let spare = s.size - k.size;
+            GROWTH * GROWTH * k.at.distance_squared(s.at) <= spare * spare
+        };
+        if !kept.iter().take(COMPARED).any(is_below) {
+            kept.push(s);
+        }
+    }
+    kept
 }
 
 /// Samples, coordinate by coordinate, and further copies of some of them behind; in single precision, which is
