@@ -3,6 +3,7 @@
 //! The section's triangles are halved until they are no larger than the elements wanted there, each piece
 //! with the samples of sizes that matter in it.
 
+use crate::piece::Piece;
 use glam::DVec2;
 use kit::in_parallel;
 use std::ops::Range;
@@ -26,8 +27,6 @@ const FINEST: f64 = 1.0 / 256.0;
 /// relative to the extent, some one and a half classes of radius.
 const NEAR_AXIS: f64 = 0.3;
 const LEAST_NEAR_AXIS: f64 = 1.0 / 64.0;
-/// A triangle whose second longest side is so many times the shortest is narrow.
-const NARROW: f64 = 3.0;
 /// Samples, the smallest sizes first, that are tried for whether they make others useless.
 const COMPARED: usize = 256;
 /// Groups of triangles that are summed on their own, so that sums do not depend on the number of threads.
@@ -140,52 +139,34 @@ impl Integral {
 
     fn add_part(&mut self, part: &Part, near: &mut Near, classes: Classes) {
         let [finest, least] = [FINEST, LEAST_NEAR_AXIS].map(|part| part * classes.extent);
-        // The samples that matter in a triangle on the stack are a run of `near`; runs of those above it on
+        // The samples that matter in a piece on the stack are a run of `near`; runs of those above it on
         // the stack lie behind it.
-        let mut stack = vec![(part.corners, 0..near.all)];
-        while let Some((t, run)) = stack.pop() {
+        let mut stack = vec![(Piece::Triangle(part.corners), 0..near.all)];
+        while let Some((piece, run)) = stack.pop() {
             near.len = run.end;
-            let middle = (t[0] + t[1] + t[2]) / 3.0;
+            let middle = piece.middle();
             let size = near.ask(run.clone(), middle).min(part.cap);
-            let sides = [(0, 1), (1, 2), (2, 0)].map(|(i, j)| t[i].distance_squared(t[j]));
-            let longest = (0..3).max_by(|&i, &j| sides[i].total_cmp(&sides[j]));
-            let longest = longest.unwrap_or(0);
             let wanted = size.min((NEAR_AXIS * middle.x).max(least)).max(finest);
-            if sides[longest] <= wanted * wanted {
-                let area = 0.5 * (t[1] - t[0]).perp_dot(t[2] - t[0]).abs() * part.weight;
+            let corners = piece.corners().iter();
+            if piece.longest() <= wanted * wanted {
+                let area = piece.area() * part.weight;
                 let radius = classes.of_radius(middle.x);
                 let volume = std::f64::consts::TAU * middle.x * area;
                 self.volume[radius][classes.of_size(size)] += volume;
-                let top = t.iter().fold(0.0_f64, |m, p| m.max(p.y.abs()));
+                let top = corners.fold(0.0_f64, |m, p| m.max(p.y.abs()));
                 self.heights[radius] = self.heights[radius].max(top);
                 if size == part.cap {
                     self.walls[radius] += area / (size * size);
                 }
                 continue;
             }
-            // Samples that can matter somewhere in the triangle.
-            let reach = t.iter().map(|p| p.distance_squared(middle));
+            // Samples that can matter somewhere in the piece.
+            let reach = corners.map(|p| p.distance_squared(middle));
             let reach = reach.fold(0.0_f64, f64::max).sqrt();
             let kept = near.keep(run, size + 2.0 * GROWTH * reach);
-            // The sides that meet at the corner opposite of the longest one.
-            let (next, last) = ((longest + 1) % 3, (longest + 2) % 3);
-            let (shortest, second) = match sides[next] < sides[last] {
-                true => (next, last),
-                false => (last, next),
-            };
-            if sides[second] > NARROW * NARROW * sides[shortest] {
-                // Halves of the longest side alone would be narrower still.
-                let (a, b, tip) = (t[shortest], t[(shortest + 1) % 3], t[(shortest + 2) % 3]);
-                let (near_a, near_b) = (0.5 * (a + tip), 0.5 * (b + tip));
-                stack.push(([near_a, near_b, tip], kept.clone()));
-                stack.push(([a, b, near_b], kept.clone()));
-                stack.push(([a, near_b, near_a], kept));
-                continue;
-            }
-            let (a, b, c) = (t[longest], t[next], t[last]);
-            let half = 0.5 * (a + b);
-            stack.push(([a, half, c], kept.clone()));
-            stack.push(([half, b, c], kept));
+            let [first, second] = piece.halves();
+            stack.push((first, kept.clone()));
+            stack.push((second, kept));
         }
     }
 }

@@ -22,6 +22,7 @@ mod integral;
 mod names;
 mod needles;
 mod opening;
+mod piece;
 mod plan;
 mod planar;
 mod reconcile;
