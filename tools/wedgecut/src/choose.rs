@@ -58,6 +58,8 @@ const PAIRS: usize = 20_000_000;
 pub struct Estimate {
     classes: Classes,
     sums: Integral,
+    /// The classes that have any volume.
+    filled: Vec<Filled>,
     /// The body's boundary over the square of the size, where the size is one that was asked for.
     skin: f64,
     /// Whether there is material on the axis.
@@ -66,6 +68,17 @@ pub struct Estimate {
     steep: Vec<[f64; 2]>,
     /// What thin triangles cost, see [`crate::needles::needles`].
     needles: f64,
+}
+
+/// Body volume of a class of radius and size.
+#[derive(Clone, Copy)]
+struct Filled {
+    /// The class of radius, and its middle.
+    class: usize,
+    radius: f64,
+    /// Middle of the class of size.
+    size: f64,
+    volume: f64,
 }
 
 /// A way to mesh.
@@ -140,9 +153,11 @@ impl Estimate {
             weight,
         };
         let parts: Vec<Part> = sections.iter().flatten().map(part).collect();
+        let sums = Integral::over(&parts, &samples, classes, threads);
         let mut estimate = Self {
             classes,
-            sums: Integral::over(&parts, &samples, classes, threads),
+            filled: filled(&sums, classes),
+            sums,
             skin: 0.0,
             solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
             steep: steep(wedge),
@@ -156,10 +171,8 @@ impl Estimate {
     /// that was asked for.
     fn boundary(&self, wedge: &Template, copies: usize) -> f64 {
         let squares: f64 = self.sums.walls.iter().sum();
-        let section: f64 = self
-            .classes()
-            .map(|(r, _, v)| v / (std::f64::consts::TAU * r))
-            .sum();
+        let area = |f: &Filled| f.volume / (std::f64::consts::TAU * f.radius);
+        let section: f64 = self.filled.iter().map(area).sum();
         let outer = wedge
             .triangles
             .iter()
@@ -177,21 +190,10 @@ impl Estimate {
         }
     }
 
-    /// Volume and size of a class, and the middle of its radii.
-    fn classes(&self) -> impl Iterator<Item = (f64, f64, f64)> {
-        let rows = self.sums.volume.iter().enumerate();
-        rows.flat_map(move |(i, row)| {
-            let radius = self.classes.radius(i);
-            row.iter()
-                .enumerate()
-                .filter(|(_, v)| **v > 0.0)
-                .map(move |(j, &v)| (radius, self.classes.size(j), v))
-        })
-    }
-
     /// Elements of the body meshed as a whole, up to a factor.
     fn whole(&self) -> f64 {
-        let inside: f64 = self.classes().map(|(_, size, v)| v / size.powi(3)).sum();
+        let elements = |f: &Filled| f.volume / f.size.powi(3);
+        let inside: f64 = self.filled.iter().map(elements).sum();
         inside + SKIN * self.skin + self.needles
     }
 
@@ -209,9 +211,11 @@ impl Estimate {
         let width = |r: f64| span * 2.0 * tangent * r;
         let radius = hub.unwrap_or(0.0);
         let (mut outer, mut inner, mut height) = (0.0, 0.0, 0.0);
-        for (r, size, v) in self.classes() {
+        let at_wall = self.classes.of_radius(radius);
+        for f in &self.filled {
+            let (r, size, v) = (f.radius, f.size, f.volume);
             // Between the plane that halves the wedge and what is above there is half as much room.
-            let room = SPAN * self.sums.heights[self.classes.of_radius(r)];
+            let room = SPAN * self.sums.heights[f.class];
             let size = if way.level { size.min(room) } else { size };
             if r >= radius {
                 outer += v / size.min(width(r)).powi(3);
@@ -219,7 +223,7 @@ impl Estimate {
                 let from_wall = width(radius) + GROWTH * (radius - r);
                 inner += v / size.min(from_wall).powi(3);
             }
-            if self.classes.of_radius(r) == self.classes.of_radius(radius) {
+            if f.class == at_wall {
                 height += v / (std::f64::consts::TAU * r * self.classes.extent / RADII as f64);
             }
         }
@@ -231,21 +235,20 @@ impl Estimate {
                 true => SKIN * circle / self.sums.heights[i] * squares,
                 false => 0.0,
             };
-            if i >= self.classes.of_radius(radius) {
+            if i >= at_wall {
                 outer += SKIN * 2.0 * copies[0] * squares + across;
             } else {
                 inner += SKIN * 2.0 * copies[1] * squares + across;
             }
         }
         if let Some(hub) = hub {
-            let squares =
-                self.sums.walls[self.classes.of_radius(hub)] / (self.classes.extent / RADII as f64);
+            let squares = self.sums.walls[at_wall] / (self.classes.extent / RADII as f64);
             outer += HUB_SKIN * std::f64::consts::TAU * hub * squares;
             inner += HUB_SKIN * std::f64::consts::TAU * hub * squares;
             // Layers between the hub's wall and steep faces.
             let corner = hub / (0.5 * angle).cos();
             let corner = if mirror { hub / angle.cos() } else { corner };
-            let at_wall = width(hub);
+            let wanted = width(hub);
             for &[low, high] in &self.steep {
                 let gap = if low > corner {
                     low - corner
@@ -254,10 +257,10 @@ impl Estimate {
                 } else {
                     0.0
                 };
-                if gap < at_wall {
-                    let gap = gap.max(0.01 * at_wall);
+                if gap < wanted {
+                    let gap = gap.max(0.01 * wanted);
                     let wall = std::f64::consts::TAU * hub * height;
-                    let extra = wall / (2.0 * GROWTH) * (gap.powi(-2) - at_wall.powi(-2));
+                    let extra = wall / (2.0 * GROWTH) * (gap.powi(-2) - wanted.powi(-2));
                     outer += extra;
                     inner += extra;
                 }
@@ -345,6 +348,21 @@ impl Estimate {
         }
         ways
     }
+}
+
+/// The classes that have any volume, by radius and size.
+fn filled(sums: &Integral, classes: Classes) -> Vec<Filled> {
+    let mut filled = Vec::new();
+    for (class, row) in sums.volume.iter().enumerate() {
+        let sizes = row.iter().enumerate().filter(|(_, v)| **v > 0.0);
+        filled.extend(sizes.map(|(j, &volume)| Filled {
+            class,
+            radius: classes.radius(class),
+            size: classes.size(j),
+            volume,
+        }));
+    }
+    filled
 }
 
 impl Options<'_> {
