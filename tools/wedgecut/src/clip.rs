@@ -26,7 +26,12 @@ pub fn clip(surface: &mut Surface, opening: &Opening, side: Side, split_at_axis:
         classes.iter().all(|c| c.of(side) >= 0)
             && ![Side::A, Side::B, Side::Level].into_iter().any(lies_in)
     };
-    divide(surface, opening, side, split_at_axis, keeps);
+    let cut = Cut {
+        side,
+        split_at_axis,
+        outer: false,
+    };
+    divide(surface, opening, cut, keeps);
 }
 
 /// Divides the surface at the hub's plane, so that no face has points on both sides of it. Faces
@@ -36,22 +41,34 @@ pub fn divide_at_hub(surface: &mut Surface, opening: &Opening) {
         (*p, *class) = opening.classify_hub(*p, *class);
     }
     let keeps = |classes: [Class; 3]| classes.iter().any(|c| c.hub != 0);
-    divide(surface, opening, Side::Hub, false, keeps);
+    let cut = Cut {
+        side: Side::Hub,
+        split_at_axis: false,
+        outer: true,
+    };
+    divide(surface, opening, cut, keeps);
+}
+
+/// Where to divide the surface.
+#[derive(Clone, Copy)]
+struct Cut {
+    /// The plane.
+    side: Side,
+    /// Whether what lies in the plane is divided where it passes the axis.
+    split_at_axis: bool,
+    /// Whether any face beyond the plane is kept.
+    outer: bool,
 }
 
 /// Divides all patches that cross a plane, and keeps the faces whose points have the right classes.
-fn divide(
-    surface: &mut Surface,
-    opening: &Opening,
-    side: Side,
-    split_at_axis: bool,
-    wanted: impl Fn([Class; 3]) -> bool,
-) {
+fn divide(surface: &mut Surface, opening: &Opening, cut: Cut, wanted: impl Fn([Class; 3]) -> bool) {
     let mut members: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+    let side = cut.side;
     let mut cutter = Cutter {
         opening,
         side,
-        split_at_axis,
+        split_at_axis: cut.split_at_axis,
+        outer: cut.outer,
         crossings: FxHashMap::default(),
     };
     let faces = std::mem::take(&mut surface.faces);
@@ -138,6 +155,7 @@ struct Cutter<'a> {
     opening: &'a Opening,
     side: Side,
     split_at_axis: bool,
+    outer: bool,
     crossings: FxHashMap<[u32; 2], u32>,
 }
 
@@ -149,6 +167,11 @@ impl Cutter<'_> {
         };
         let x = |v: u32| surface.points[v as usize].x;
         self.split_at_axis && on(v) && on(w) && (x(v) > 0.0) != (x(w) > 0.0)
+    }
+
+    /// Whether faces with a point may be kept.
+    fn keeps(&self, surface: &Surface, v: u32) -> bool {
+        self.outer || surface.classes[v as usize].of(self.side) >= 0
     }
 
     /// The point at which an edge has to be divided, if it has to.
@@ -216,7 +239,12 @@ impl Cutter<'_> {
         let mut segments = Vec::new();
         for ([v, w], [left, right]) in rim {
             let label = |inside: bool| Some(if inside { INSIDE } else { OUT });
+            let crossing = self.crossing(surface, v, w);
+            // What is beyond the plane needs no triangles: the line of the cut closes the rest.
             let mut put = |a: u32, b: u32| {
+                if ![a, b].iter().all(|&v| self.keeps(surface, v)) {
+                    return;
+                }
                 let ends = [local.id(a), local.id(b)];
                 segments.push(Segment {
                     ends,
@@ -224,7 +252,7 @@ impl Cutter<'_> {
                     right: label(right),
                 });
             };
-            match self.crossing(surface, v, w) {
+            match crossing {
                 Some(x) => {
                     put(v, x);
                     put(x, w);
@@ -234,7 +262,7 @@ impl Cutter<'_> {
         }
         for f in part {
             for v in f.vertices {
-                if shared.points.contains(&v) {
+                if shared.points.contains(&v) && self.keeps(surface, v) {
                     local.id(v);
                 }
             }
