@@ -23,12 +23,16 @@ const WITHIN_OCTAVE: [f64; PER_OCTAVE - 1] = [
 ];
 /// Smallest pieces of the section, relative to its extent.
 const FINEST: f64 = 1.0 / 256.0;
-/// Size of pieces near the axis, where wedges get narrow quickly: relative to the radius, and the least one,
-/// relative to the extent, some one and a half classes of radius.
+/// Size of pieces near the axis, where wedges get narrow quickly, relative to the radius.
 const NEAR_AXIS: f64 = 0.3;
-const LEAST_NEAR_AXIS: f64 = 1.0 / 64.0;
+/// Pieces smaller than this, relative to the extent, are so many that each matters little: they may be larger than
+/// elements, so many times, and need not be smaller for being near the axis.
+const SMALL: f64 = 1.0 / 32.0;
+const COARSE: f64 = 1.25;
 /// Samples, the smallest sizes first, that are tried for whether they make others useless.
 const COMPARED: usize = 256;
+/// Samples of a run are copied without those that do not matter if that is at least one of so many.
+const WORTH_COPYING: usize = 4;
 /// Groups of triangles that are summed on their own, so that sums do not depend on the number of threads.
 const GROUPS: usize = 8;
 
@@ -138,7 +142,7 @@ impl Integral {
     }
 
     fn add_part(&mut self, part: &Part, near: &mut Near, classes: Classes) {
-        let [finest, least] = [FINEST, LEAST_NEAR_AXIS].map(|part| part * classes.extent);
+        let [finest, small] = [FINEST, SMALL].map(|part| part * classes.extent);
         // The samples that matter in a piece on the stack are a run of `near`; runs of those above it on
         // the stack lie behind it.
         let mut stack = vec![(Piece::Triangle(part.corners), 0..near.all)];
@@ -146,7 +150,8 @@ impl Integral {
             near.len = run.end;
             let middle = piece.middle();
             let size = near.ask(run.clone(), middle).min(part.cap);
-            let wanted = size.min((NEAR_AXIS * middle.x).max(least)).max(finest);
+            let coarse = size.max(small.min(COARSE * size));
+            let wanted = coarse.min((NEAR_AXIS * middle.x).max(small)).max(finest);
             let corners = piece.corners().iter();
             if piece.longest() <= wanted * wanted {
                 let area = piece.area() * part.weight;
@@ -238,9 +243,14 @@ impl Near {
         f64::from(asked.iter().fold(f32::INFINITY, least)) * self.extent
     }
 
-    /// Copies those of a run that asked for no more than `most` behind all others, and says where.
+    /// Copies those of a run that asked for no more than `most` behind all others, and says where; leaves them
+    /// where they are if that are nearly all.
     fn keep(&mut self, run: Range<usize>, most: f64) -> Range<usize> {
         let most = (most / self.extent) as f32;
+        let kept = self.asked[..run.len()].iter().filter(|a| **a <= most);
+        if WORTH_COPYING * kept.count() > (WORTH_COPYING - 1) * run.len() {
+            return run;
+        }
         let first = self.len;
         let room = first + run.len();
         if self.x.len() < room {
