@@ -11,6 +11,8 @@ use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::Triangle;
 
+/// Sine of the angle between a patch and a plane below which it is not cut as one polygon.
+const LEAST_TILT: f64 = 1e-4;
 const INSIDE: u32 = 1;
 const OUT: u32 = 0;
 
@@ -26,10 +28,13 @@ pub fn clip(surface: &mut Surface, opening: &Opening, side: Side, split_at_axis:
         classes.iter().all(|c| c.of(side) >= 0)
             && ![Side::A, Side::B, Side::Level].into_iter().any(lies_in)
     };
+    let sides = opening.sides();
+    let next = sides.iter().skip_while(|s| **s != side).nth(1);
     let cut = Cut {
         side,
         split_at_axis,
         outer: false,
+        next: next.copied(),
     };
     divide(surface, opening, cut, keeps);
 }
@@ -45,6 +50,7 @@ pub fn divide_at_hub(surface: &mut Surface, opening: &Opening) {
         side: Side::Hub,
         split_at_axis: false,
         outer: true,
+        next: None,
     };
     divide(surface, opening, cut, keeps);
 }
@@ -58,6 +64,8 @@ struct Cut {
     split_at_axis: bool,
     /// Whether any face beyond the plane is kept.
     outer: bool,
+    /// The plane that everything is cut at right after, if any: nothing beyond it has to be right.
+    next: Option<Side>,
 }
 
 /// Divides all patches that cross a plane, and keeps the faces whose points have the right classes.
@@ -69,6 +77,7 @@ fn divide(surface: &mut Surface, opening: &Opening, cut: Cut, wanted: impl Fn([C
         side,
         split_at_axis: cut.split_at_axis,
         outer: cut.outer,
+        next: cut.next,
         crossings: FxHashMap::default(),
     };
     let faces = std::mem::take(&mut surface.faces);
@@ -151,11 +160,20 @@ impl Shared {
     }
 }
 
+/// The plane of a flat patch.
+#[derive(Clone, Copy)]
+struct Flat {
+    normal: DVec3,
+    /// Direction of the line in which it is cut.
+    along: DVec3,
+}
+
 struct Cutter<'a> {
     opening: &'a Opening,
     side: Side,
     split_at_axis: bool,
     outer: bool,
+    next: Option<Side>,
     crossings: FxHashMap<[u32; 2], u32>,
 }
 
@@ -215,7 +233,7 @@ impl Cutter<'_> {
         let inward = self.opening.inward(self.side);
         let across = inward - normal * inward.dot(normal);
         let along = across.cross(normal).try_normalize()?;
-        if across.length() < 1e-4 {
+        if across.length() < LEAST_TILT {
             return None;
         }
         let mut sides: FxHashMap<[u32; 2], [bool; 2]> = FxHashMap::default();
@@ -235,24 +253,17 @@ impl Cutter<'_> {
             .collect();
         rim.sort_unstable_by_key(|(key, _)| *key);
 
-        let mut local = Local::default();
-        let mut segments = Vec::new();
+        let mut rest: Vec<Segment> = Vec::new();
         for ([v, w], [left, right]) in rim {
             let label = |inside: bool| Some(if inside { INSIDE } else { OUT });
-            let crossing = self.crossing(surface, v, w);
-            // What is beyond the plane needs no triangles: the line of the cut closes the rest.
             let mut put = |a: u32, b: u32| {
-                if ![a, b].iter().all(|&v| self.keeps(surface, v)) {
-                    return;
-                }
-                let ends = [local.id(a), local.id(b)];
-                segments.push(Segment {
-                    ends,
+                rest.push(Segment {
+                    ends: [a, b],
                     left: label(left),
                     right: label(right),
                 });
             };
-            match crossing {
+            match self.crossing(surface, v, w) {
                 Some(x) => {
                     put(v, x);
                     put(x, w);
@@ -260,32 +271,108 @@ impl Cutter<'_> {
                 None => put(v, w),
             }
         }
-        for f in part {
-            for v in f.vertices {
-                if shared.points.contains(&v) && self.keeps(surface, v) {
-                    local.id(v);
-                }
-            }
+        // What is beyond the plane needs no triangles: the line of the cut closes the rest.
+        rest.retain(|s| s.ends.iter().all(|&v| self.keeps(surface, v)));
+        let corners = part.iter().flat_map(|f| f.vertices);
+        let corners = corners.filter(|v| shared.points.contains(v) && self.keeps(surface, *v));
+        let corners: Vec<u32> = corners.collect();
+        let plane = Flat { normal, along };
+        let near = self.near_next(surface, &rest, &corners, plane);
+        let triangles = near
+            .and_then(|(segments, corners)| self.fill(surface, &segments, &corners, plane))
+            .or_else(|| self.fill(surface, &rest, &corners, plane))?;
+        let face = |vertices| Triangle {
+            vertices,
+            ..part[0]
+        };
+        Some(triangles.into_iter().map(face).collect())
+    }
+
+    /// Of what bounds a flat patch and of its other points, what matters once the patch has been cut at the next
+    /// plane too: what does not lie beyond, what crosses that plane, closed by a line from end to end
+    /// beyond it, and the line of this cut. `None` if that is all there is, or another plane cannot be told.
+    ///
+    /// The line may cross what it closes; then this is of no use.
+    fn near_next(
+        &self,
+        surface: &Surface,
+        rim: &[Segment],
+        corners: &[u32],
+        plane: Flat,
+    ) -> Option<(Vec<Segment>, Vec<u32>)> {
+        let next = self.next?;
+        let inward = self.opening.inward(next);
+        let across = inward - plane.normal * inward.dot(plane.normal);
+        let along = across.cross(plane.normal).try_normalize()?;
+        let class = |v: u32| surface.classes[v as usize];
+        let is_beyond = |v: &u32| class(*v).of(next) < 0;
+        let all = || {
+            rim.iter()
+                .flat_map(|s| s.ends)
+                .chain(corners.iter().copied())
+        };
+        if across.length() < LEAST_TILT || !all().any(|v| is_beyond(&v)) {
+            return None;
         }
-        self.add_cut_line(surface, &mut local, &mut segments, along);
+        let stays = |s: &&Segment| !s.ends.iter().all(is_beyond);
+        let mut kept: Vec<Segment> = rim.iter().filter(stays).copied().collect();
+        let others = all().filter(|&v| !is_beyond(&v) || class(v).of(self.side) == 0);
+        let others: Vec<u32> = others.collect();
+        let ends = kept
+            .iter()
+            .flat_map(|s| s.ends)
+            .chain(others.iter().copied());
+        let mut beyond: Vec<(f64, u32)> = ends
+            .filter(is_beyond)
+            .map(|v| (along.dot(surface.points[v as usize]), v))
+            .collect();
+        beyond.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        beyond.dedup();
+        // Two points of this cut are joined by its own line.
+        let is_cut = |v: u32| class(v).of(self.side) == 0;
+        let pairs = beyond.windows(2).map(|pair| [pair[0].1, pair[1].1]);
+        let pairs = pairs.filter(|[v, w]| !(is_cut(*v) && is_cut(*w)));
+        kept.extend(pairs.map(|ends| Segment {
+            ends,
+            left: None,
+            right: Some(OUT),
+        }));
+        Some((kept, others))
+    }
+
+    /// Triangles between segments, whose ends are points of the surface, and further points; `None` when that is
+    /// not a clean figure.
+    fn fill(
+        &mut self,
+        surface: &mut Surface,
+        rim: &[Segment],
+        corners: &[u32],
+        plane: Flat,
+    ) -> Option<Vec<[u32; 3]>> {
+        let mut local = Local::default();
+        let own = |s: &Segment| Segment {
+            ends: s.ends.map(|v| local.id(v)),
+            ..*s
+        };
+        let mut segments: Vec<Segment> = rim.iter().map(own).collect();
+        for &v in corners {
+            local.id(v);
+        }
+        self.add_cut_line(surface, &mut local, &mut segments, plane.along);
         let points: Vec<[f64; 2]> = local
             .ids
             .iter()
             .map(|&v| {
                 let (p, class) = surface.at(v);
-                [along.dot(p), self.opening.distance(self.side, p, class)]
+                [
+                    plane.along.dot(p),
+                    self.opening.distance(self.side, p, class),
+                ]
             })
             .collect();
         let triangles = triangulate(&points, &segments, OUT).ok()?;
-        Some(
-            triangles
-                .into_iter()
-                .map(|(t, _)| Triangle {
-                    vertices: t.map(|v| local.ids[v as usize]),
-                    ..part[0]
-                })
-                .collect(),
-        )
+        let ids = |(t, _): ([u32; 3], u32)| t.map(|v| local.ids[v as usize]);
+        Some(triangles.into_iter().map(ids).collect())
     }
 
     /// Joins the points on the cut plane one after the other, so that no triangle straddles it.
