@@ -253,11 +253,11 @@ impl Cutter<'_> {
             .collect();
         rim.sort_unstable_by_key(|(key, _)| *key);
 
-        let mut rest: Vec<Segment> = Vec::new();
+        let mut bounds: Vec<Segment> = Vec::new();
         for ([v, w], [left, right]) in rim {
             let label = |inside: bool| Some(if inside { INSIDE } else { OUT });
             let mut put = |a: u32, b: u32| {
-                rest.push(Segment {
+                bounds.push(Segment {
                     ends: [a, b],
                     left: label(left),
                     right: label(right),
@@ -272,15 +272,15 @@ impl Cutter<'_> {
             }
         }
         // What is beyond the plane needs no triangles: the line of the cut closes the rest.
-        rest.retain(|s| s.ends.iter().all(|&v| self.keeps(surface, v)));
+        bounds.retain(|s| s.ends.iter().all(|&v| self.keeps(surface, v)));
         let corners = part.iter().flat_map(|f| f.vertices);
         let corners = corners.filter(|v| shared.points.contains(v) && self.keeps(surface, *v));
         let corners: Vec<u32> = corners.collect();
         let plane = Flat { normal, along };
-        let near = self.near_next(surface, &rest, &corners, plane);
+        let near = self.near_next(surface, &bounds, &corners, plane);
         let triangles = near
             .and_then(|(segments, corners)| self.fill(surface, &segments, &corners, plane))
-            .or_else(|| self.fill(surface, &rest, &corners, plane))?;
+            .or_else(|| self.fill(surface, &bounds, &corners, plane))?;
         let face = |vertices| Triangle {
             vertices,
             ..part[0]
@@ -289,10 +289,11 @@ impl Cutter<'_> {
     }
 
     /// Of what bounds a flat patch and of its other points, what matters once the patch has been cut at the next
-    /// plane too: what does not lie beyond, what crosses that plane, closed by a line from end to end
-    /// beyond it, and the line of this cut. `None` if that is all there is, or another plane cannot be told.
+    /// plane too: what does not lie beyond that plane, what crosses it, a line that joins the ends of that
+    /// beyond it, and the points of this cut. `None` if nothing lies beyond, or the patch is parallel to the
+    /// next plane.
     ///
-    /// The line may cross what it closes; then this is of no use.
+    /// The line may cross what it should close. That is no clean figure then, and the whole has to be taken.
     fn near_next(
         &self,
         surface: &Surface,

@@ -292,6 +292,26 @@ mod tests {
     }
 
     #[test]
+    fn samples_that_ask_for_less_make_others_useless() {
+        let sample = |x: f64, size: f64| Sample {
+            at: DVec2::new(x, 0.0),
+            size,
+        };
+        let far = sample(1.0, 0.3);
+        // Beside the smallest, and where it asks for no more at all.
+        let useless = [sample(0.1, 0.1 + 0.2 * GROWTH), sample(0.9, 1.0)];
+        let all = [far, useless[0], sample(0.0, 0.1), useless[1], far];
+        let kept: Vec<f64> = useful(&all).iter().map(|s| s.size).collect();
+        assert_eq!(kept, [0.1, 0.3]);
+        let mut near = Near::new(&all, 1.0);
+        let mut less = Near::new(&useful(&all), 1.0);
+        for x in [0.0, 0.3, 0.7, 1.0, 2.0] {
+            let at = DVec2::new(x, 0.5);
+            assert_eq!(near.ask(0..5, at), less.ask(0..2, at));
+        }
+    }
+
+    #[test]
     fn models_of_any_size_are_alike() {
         let sums = |unit: f64| {
             let at = |x, y| DVec2::new(x, y) * unit;
