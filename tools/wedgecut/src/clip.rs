@@ -108,7 +108,7 @@ fn divide(surface: &mut Surface, opening: &Opening, cut: Cut, wanted: impl Fn([C
             _ => {}
         }
     }
-    let shared = Shared::new(&faces, &patches);
+    let shared = Shared::new(&faces, &patches, surface.points.len());
     let mut crossed: Vec<_> = members.into_iter().collect();
     crossed.sort_unstable_by_key(|(patch, _)| *patch);
     for (patch, members) in crossed {
@@ -127,21 +127,22 @@ fn divide(surface: &mut Surface, opening: &Opening, cut: Cut, wanted: impl Fn([C
 
 /// What patches have in common.
 struct Shared {
-    /// Points of more than one patch.
-    points: FxHashSet<u32>,
+    /// For each point, whether it is one of more than one patch.
+    points: Vec<bool>,
     /// Edges of more than one patch, lower point first.
     edges: FxHashSet<[u32; 2]>,
 }
 
 impl Shared {
-    fn new(faces: &[Triangle], patches: &[u32]) -> Self {
-        let mut first: FxHashMap<u32, u32> = FxHashMap::default();
-        let mut points = FxHashSet::default();
+    fn new(faces: &[Triangle], patches: &[u32], count: usize) -> Self {
+        let mut first = vec![u32::MAX; count];
+        let mut points = vec![false; count];
         for (face, &patch) in faces.iter().zip(patches) {
-            for v in face.vertices {
-                if *first.entry(v).or_insert(patch) != patch {
-                    points.insert(v);
+            for v in face.vertices.map(|v| v as usize) {
+                if first[v] == u32::MAX {
+                    first[v] = patch;
                 }
+                points[v] |= first[v] != patch;
             }
         }
         let mut first: FxHashMap<[u32; 2], u32> = FxHashMap::default();
@@ -150,7 +151,7 @@ impl Shared {
             for k in 0..3 {
                 let (v, w) = (face.vertices[k], face.vertices[(k + 1) % 3]);
                 let key = if v < w { [v, w] } else { [w, v] };
-                let both = points.contains(&v) && points.contains(&w);
+                let both = points[v as usize] && points[w as usize];
                 if both && *first.entry(key).or_insert(patch) != patch {
                     edges.insert(key);
                 }
@@ -274,7 +275,7 @@ impl Cutter<'_> {
         // What is beyond the plane needs no triangles: the line of the cut closes the rest.
         bounds.retain(|s| s.ends.iter().all(|&v| self.keeps(surface, v)));
         let corners = part.iter().flat_map(|f| f.vertices);
-        let corners = corners.filter(|v| shared.points.contains(v) && self.keeps(surface, *v));
+        let corners = corners.filter(|v| shared.points[*v as usize] && self.keeps(surface, *v));
         let corners: Vec<u32> = corners.collect();
         let plane = Flat { normal, along };
         let near = self.near_next(surface, &bounds, &corners, plane);
