@@ -97,4 +97,7 @@ class Hxt:
         return run.ok
 
     def run(self, folder, limit):
+        mesh = os.path.join(folder, "hxt.msh")
+        if os.path.exists(mesh):
+            os.unlink(mesh)
         return measure.run(self.commands, folder, limit, sink="hxt.log")

@@ -74,17 +74,20 @@ def footprint(pid):
 def run(commands, folder, limit, source=None, sink=os.devnull, sample=False):
     """Runs `commands` as a pipe in `folder`, from the file `source` to the file `sink`.
 
-    The clock runs from before the first process starts until the last has ended. What the system
-    says of a process's peak memory when it has ended is never less than that of this program, which
-    is why files are not processed here; with `sample`, memory is looked at every two milliseconds
-    instead, for runs whose time does not matter.
+    The clock runs from before the first process starts until the last has ended; what an earlier run
+    left in the sink is removed before. What the system says of a process's peak memory when it has
+    ended is never less than that of this program, which is why files are not processed here; with
+    `sample`, memory is looked at every two milliseconds instead, for runs whose time does not matter.
     """
     files = [open(os.path.join(folder, f".stderr-{i}"), "w+b") for i in range(len(commands))]
+    sink = os.path.join(folder, sink)
+    if os.path.isfile(sink):
+        os.unlink(sink)
     start = time.perf_counter()
     processes, upstream = [], open(source or os.devnull, "rb")
     for i, command in enumerate(commands):
         last = i + 1 == len(commands)
-        out = open(os.path.join(folder, sink), "wb") if last else subprocess.PIPE
+        out = open(sink, "wb") if last else subprocess.PIPE
         process = subprocess.Popen(command, cwd=folder, stdin=upstream, stdout=out, stderr=files[i])
         upstream.close()
         upstream = process.stdout
