@@ -102,8 +102,8 @@ impl Surface<'_> {
         front > back
     }
 
-    /// Whether two triangles around an edge continue each other, and are in one plane as far as that can be told
-    /// from them alone.
+    /// Whether two triangles around an edge continue each other, not folded over, and are in one plane as far as that
+    /// can be told from them alone.
     fn continues(&self, s: &EdgeUse, t: &EdgeUse, normals: &[DVec3], flat: f64) -> bool {
         let forward = |u: &EdgeUse| u.forward != self.is_turned(u.triangle);
         if self.class[s.triangle as usize] != self.class[t.triangle as usize]
@@ -116,10 +116,13 @@ impl Surface<'_> {
             self.vertices[geom::edges::apex_of(corners, u.corner) as usize]
         };
         let on = self.vertices[self.triangles[s.triangle as usize][s.corner as usize] as usize];
-        let [m, n] = [s, t].map(|u| normals[u.triangle as usize]);
+        let [m, n] = [s, t].map(|u| match self.is_turned(u.triangle) {
+            true => -normals[u.triangle as usize],
+            false => normals[u.triangle as usize],
+        });
         // The better one of the two planes tells.
         let height = (m.dot(apex(t) - on)).abs().min((n.dot(apex(s) - on)).abs());
-        height <= flat && m.dot(n) != 0.0
+        height <= flat && m.dot(n) > 0.0
     }
 }
 
@@ -531,7 +534,7 @@ mod tests {
             (6, 12, 8)
         );
         // A point in the middle of a side, and one on an edge: nothing that a quarter turn would know of.
-        vertices.extend([DVec3::new(0.5, 0.1, 0.2), DVec3::new(-0.5, -0.5, 0.3)]);
+        vertices.extend([DVec3::new(0.5, 0.2, 0.1), DVec3::new(-0.5, -0.5, 0.3)]);
         let [a, b, c] = triangles[2];
         triangles[2] = [a, b, 8];
         triangles.extend([[b, c, 8], [c, a, 8]]);
@@ -603,6 +606,20 @@ mod tests {
         let class: Vec<u32> = (0..12).map(|t| u32::from(t == 0)).collect();
         let split = faces_of_class(&vertices, &triangles, &class).unwrap();
         assert_eq!((split.class.len(), split.edges.len()), (7, 13));
+    }
+
+    #[test]
+    fn what_is_folded_over_is_not_one_face() {
+        let (mut vertices, mut triangles) = cuboid(DVec3::splat(0.5));
+        // A fin of two triangles back to back at an edge: with both in one face nothing would be left of it.
+        vertices.push(DVec3::new(0.7, 0.7, 0.0));
+        triangles.extend([[3, 7, 8], [7, 3, 8]]);
+        let plain = faces(&vertices[..8], &triangles[..12]);
+        let half = about_z(2.0 * FRAC_PI_2);
+        assert!(off(&plain, &half).is_some());
+        let finned = faces(&vertices, &triangles);
+        assert!(off(&finned, &about_z(0.0)).is_some());
+        assert!(off(&finned, &half).is_none());
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::mirror::{HALF_TURN, HORIZONTAL, VERTICAL};
 use crate::permutation::Permutation;
 use crate::shape::{Motion, Shape};
-use crate::verify::{Bound, Depth, Deviation, Operation, implies};
+use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DMat3;
 use tmesh::{Frame, Isometry};
 
@@ -120,7 +120,7 @@ impl Group {
         depth: Depth,
     ) -> Result<(Deviation, Permutation), Deviation> {
         let (first, permutation) = shape.verify_one(Motion::new(frame, matrix), bound, depth)?;
-        if self.order == 1 || implies(self.order, *turning, first, bound) {
+        if self.order == 1 || shape.implies(self.order, *turning, first, bound) {
             return Ok((first, permutation));
         }
         let powers = rotation.powers(self.order);

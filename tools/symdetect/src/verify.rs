@@ -414,7 +414,7 @@ impl Shape {
         bound: Bound,
     ) -> Option<Deviation> {
         let mut worst = self.deviation_of_faces(&power(1), bound)?;
-        if !implies(n, worst, Deviation::NONE, bound) {
+        if !self.implies(n, worst, Deviation::NONE, bound) {
             return None;
         }
         for k in [n / 2, n / 3, 2 * n / 5, n - 1] {
@@ -426,6 +426,15 @@ impl Shape {
             }
         }
         Some(worst)
+    }
+
+    /// Whether a rotation by a turn over `n` and an operation beside it, which both hold everywhere, leave no doubt that
+    /// all products with its powers do: those deviate by at most so many times what the rotation does, and by what
+    /// the other one does.
+    pub fn implies(&self, n: u32, rotation: Deviation, other: Deviation, bound: Bound) -> bool {
+        let most = rotation.value * f64::from(n - 1) + other.value;
+        let enough = self.same_corner().max(IMPLIED * bound.limit);
+        rotation.everywhere && other.everywhere && most <= enough
     }
 
     /// Distance up to which corners may be images of each other.
@@ -518,14 +527,6 @@ impl Shape {
     pub fn target_in_place(&self) -> Target {
         self.target(&Permutation::identity(self.regions.len()))
     }
-}
-
-/// Whether a rotation by a turn over `n` and an operation beside it, which both hold everywhere, leave no doubt that
-/// all products with its powers do: those deviate by at most so many times what the rotation does, and by what the
-/// other one does.
-pub fn implies(n: u32, rotation: Deviation, other: Deviation, bound: Bound) -> bool {
-    let most = rotation.value * f64::from(n - 1) + other.value;
-    rotation.everywhere && other.everywhere && most <= IMPLIED * bound.limit
 }
 
 /// The `i`-th of points spread evenly over a triangle, as multiples of two of its sides: the R2 sequence
