@@ -117,25 +117,22 @@ def average(values):
 
 
 def stages(groups, rows):
-    head = ["category", "order", *(f"{s}, ms" for s in STAGES), "TetGen in tetwedge, ms", "all but TetGen", "pipe, ms", "all but TetGen in the pipe", "direct, ms", "memory: pipe, direct, MiB"]
+    head = ["category", "order", *(f"{s}, ms" for s in STAGES), "TetGen in tetwedge, ms", "all but TetGen", "pipe, ms", "direct, ms", "memory: pipe, direct, MiB"]
     body = []
     for g in groups:
         mine = [r for r in rows if (r["category"], r["order"]) == (g["category"], g["order"])]
         mean = lambda name: average([r[name] for r in mine])
         ms = lambda name: number(None if mean(name) is None else 1e3 * mean(name))
         parts = [mean(f"stage_{s}") for s in STAGES]
-        without = lambda seconds: None if mean("stage_mesher") is None else 1 - mean("stage_mesher") / seconds
-        rest = None if None in parts else without(sum(parts))
-        in_pipe = None if mean("seconds_pipe") is None else without(mean("seconds_pipe"))
+        rest = None if None in parts or mean("stage_mesher") is None else 1 - mean("stage_mesher") / sum(parts)
         memory = [number(None if mean(f"memory_{n}") is None else mean(f"memory_{n}") / 2**20, ".0f") for n in ("pipe", "direct")]
         body.append([
             TITLES[g["category"]], g["order"], *(ms(f"stage_{s}") for s in STAGES), ms("stage_mesher"),
-            number(percent(rest), ".0f") + " %", ms("seconds_pipe"), number(percent(in_pipe), ".0f") + " %",
-            ms("seconds_direct"), ", ".join(memory),
+            number(percent(rest), ".0f") + " %", ms("seconds_pipe"), ms("seconds_direct"), ", ".join(memory),
         ])
     return [
         "## Stages", "",
-        "Each alone, from file to file, means over the sets. In the pipe, their starts overlap. Memory of the pipe: sum of the "
+        "Each alone, from file to file, means over the sets. In the pipe, stages overlap. Memory of the pipe: sum of the "
         "peaks of its four processes.", "", *table(head, body),
     ]
 
@@ -189,17 +186,15 @@ def shares(found):
         return []
     head = [
         "order of the body", "tetrahedra", *(f"{s}, s" for s in STAGES), "TetGen in tetwedge, s", "all but TetGen",
-        "pipe to /dev/null, s", "pipe to file, s", "all but TetGen in the pipe to file",
+        "pipe to /dev/null, s", "pipe to file, s",
     ]
     rows = []
     for f in found:
         parts = [f["stages"][s] for s in STAGES]
         rest = 100 * (1 - f["mesher"] / sum(parts))
-        in_pipe = 100 * (1 - f["mesher"] / f["pipe_file"]) if f["pipe_file"] else None
         rows.append([
             f["order"], f"{f['tetrahedra']:,}", *(number(t, ".3f") for t in parts), number(f["mesher"], ".3f"),
             f"{rest:.0f} %", number(f["pipe"], ".3f"), number(f["pipe_file"], ".3f"),
-            number(in_pipe, ".0f") + " %",
         ])
     text = (
         "A coated ring, stages alone, from file to file. TetGen meshes one wedge, everything that is written comes out "
