@@ -1,6 +1,6 @@
 //! Geometry shared by the tools: measures of triangles and tetrahedra, edge adjacency, the order of
 //! triangles around an edge, the cells a triangle complex divides space into, and where triangles
-//! meet that should not.
+//! meet that should not; and parts of what is joined two at a time.
 
 pub mod alignment;
 pub mod bvh;
@@ -10,6 +10,8 @@ pub mod edges;
 pub mod eigen;
 pub mod fan;
 pub mod measure;
+pub mod parts;
+
 pub mod sides;
 pub mod tet;
 pub mod tree;

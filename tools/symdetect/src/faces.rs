@@ -8,6 +8,7 @@
 
 use crate::shape::{Motion, Target};
 use geom::edges::{EdgeUse, Edges};
+use geom::parts::Parts;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -424,50 +425,6 @@ fn are_flat(surface: &Surface<'_>, face_of: &[u32], count: usize, flat: f64) -> 
         n != DVec3::ZERO
             && (t.iter()).all(|&v| n.dot(surface.vertices[v as usize] - on).abs() <= 2.0 * flat)
     })
-}
-
-/// Disjoint sets of triangles.
-struct Parts {
-    parent: Vec<u32>,
-}
-
-impl Parts {
-    fn new(count: usize) -> Self {
-        Self {
-            parent: (0..count as u32).collect(),
-        }
-    }
-
-    fn root(&mut self, mut i: u32) -> u32 {
-        while self.parent[i as usize] != i {
-            let above = self.parent[self.parent[i as usize] as usize];
-            self.parent[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    fn unite(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        // The lower number stays, so that parts are numbered in the order of their first members.
-        self.parent[a.max(b) as usize] = a.min(b);
-    }
-
-    /// Number of the part of each member, and how many there are.
-    fn numbered(mut self) -> (Vec<u32>, usize) {
-        let mut number = vec![0; self.parent.len()];
-        let mut count = 0;
-        for i in 0..self.parent.len() as u32 {
-            let root = self.root(i);
-            if root == i {
-                number[i as usize] = count;
-                count += 1;
-            } else {
-                number[i as usize] = number[root as usize];
-            }
-        }
-        (number, count as usize)
-    }
 }
 
 #[cfg(test)]

@@ -91,6 +91,9 @@ const LARGE: usize = 500;
 
 /// Triangles up to which flat faces are looked for: where there are more, samples tell sooner.
 const FACES_LOOKED_FOR: usize = 100_000;
+/// Rounding, in the units of the shape, up to which they are: of coarser coordinates, as far away from the origin,
+/// corners that are no images of each other may be as near.
+const FACES_TOLD: f64 = 1e-4;
 
 /// No interface separates the two regions.
 pub const NO_CLASS: u32 = u32::MAX;
@@ -281,7 +284,8 @@ impl Shape {
                 class: &self.class,
             };
             let few = self.triangles.len() <= FACES_LOOKED_FOR;
-            few.then(|| Faces::new(&surface, &self.normals, self.rounding()))?
+            let told = few && self.rounding() <= FACES_TOLD;
+            told.then(|| Faces::new(&surface, &self.normals, self.rounding()))?
         };
         self.faces.get_or_init(make).as_ref()
     }
@@ -351,4 +355,22 @@ fn dense_regions(template: &Template) -> (Vec<u32>, Vec<[u32; 2]>) {
         .map(|t| [index(t.front), index(t.back)])
         .collect();
     (regions, sides)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies::prism;
+
+    #[test]
+    fn corners_are_told_by_coordinates_that_are_good_enough() {
+        let document = prism(12, 1.0, 1.0);
+        let has_faces = |precision| {
+            let shape = Shape::new(&document.templates[0], Some(precision), 1).unwrap();
+            shape.faces().is_some()
+        };
+        assert!(has_faces(1e-15) && has_faces(1e-7));
+        // A grid would be searched far and wide.
+        assert!(!has_faces(1e-3) && !has_faces(1.0));
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::plc::Plc;
 use geom::edges::orientation;
+use geom::parts::Parts;
 use glam::DVec3;
 use tetgen_sys::Mesh;
 use tmesh::{OUTSIDE, Triangle};
@@ -163,48 +164,16 @@ fn apex(tet: [i32; 4], face: [i32; 3]) -> i32 {
 
 /// Cell of each tetrahedron, and their number; bit `c` of `walled` closes the face opposite to
 /// corner `c`. Cells are numbered by their first tetrahedra.
-///
-/// Disjoint sets whose roots are their first members: one pass in the order of the numbers, where a flood goes
-/// through memory at random.
 fn connected(mesh: &Mesh, walled: &[u8]) -> (Vec<u32>, usize) {
-    let mut first: Vec<u32> = (0..walled.len() as u32).collect();
+    let mut cells = Parts::new(walled.len());
     for (tet, around) in mesh.neighbors().iter().enumerate().take(walled.len()) {
-        let mut root = root_of(&mut first, tet as u32);
         for (corner, &next) in around.iter().enumerate() {
             // Each face is seen from both sides; one of them is enough.
             let earlier = u32::try_from(next).is_ok_and(|next| next < tet as u32);
             if earlier && walled[tet] & (1 << corner) == 0 {
-                let other = root_of(&mut first, next as u32);
-                let joined = root.min(other);
-                first[root.max(other) as usize] = joined;
-                root = joined;
+                cells.unite(tet as u32, next as u32);
             }
         }
     }
-    let mut cells = 0;
-    for tet in 0..first.len() {
-        // What is earlier has its cell already.
-        let earlier = first[tet] as usize;
-        if earlier == tet {
-            first[tet] = cells;
-            cells += 1;
-        } else {
-            first[tet] = first[earlier];
-        }
-    }
-    (first, cells as usize)
-}
-
-/// The first member of a set; ways to it are shortened.
-fn root_of(first: &mut [u32], tet: u32) -> u32 {
-    let mut here = tet;
-    loop {
-        let next = first[here as usize];
-        if next == here {
-            return here;
-        }
-        let further = first[next as usize];
-        first[here as usize] = further;
-        here = further;
-    }
+    cells.numbered()
 }

@@ -53,14 +53,8 @@ pub fn tetrahedralize(
     };
     let mesh = |&index: &usize| {
         let followers = (0..count).filter(|&i| leaders[i] == Some(index));
-        template(
-            &document,
-            index,
-            &followers.collect::<Vec<_>>(),
-            &each,
-            &sizes,
-            log,
-        )
+        let followers: Vec<usize> = followers.collect();
+        template(&document, index, &followers, &each, &sizes, log)
     };
     let meshed = in_parallel(&first, params.threads, mesh);
     let mut followed: Vec<Followed> = Vec::new();

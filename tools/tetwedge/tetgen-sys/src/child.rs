@@ -8,9 +8,7 @@ use std::io::{ErrorKind, PipeReader, Read};
 use std::os::fd::{AsRawFd, FromRawFd};
 use std::time::{Duration, Instant};
 
-/// How long the end of a child that has closed its output, which is near, is waited for without a pause, and between
-/// two looks after that.
-const REAP_SOON: Duration = Duration::from_micros(500);
+/// How long the end of a child that has closed its output is waited for between two looks.
 const REAP_PAUSE: Duration = Duration::from_micros(200);
 
 /// Signals that a process gets for what it does itself.
@@ -124,7 +122,6 @@ impl Child {
                 }
             }
         }
-        let closed = Instant::now();
         let status = loop {
             if let Some(status) = self.try_wait()? {
                 break status;
@@ -132,10 +129,7 @@ impl Child {
             if deadline.is_some_and(|d| Instant::now() >= d) {
                 return Err(timed_out());
             }
-            match closed.elapsed() < REAP_SOON {
-                true => std::thread::yield_now(),
-                false => std::thread::sleep(REAP_PAUSE),
-            }
+            std::thread::sleep(REAP_PAUSE);
         };
         self.outcome(status)
     }
