@@ -123,6 +123,64 @@ impl Edges {
     }
 }
 
+/// The triangles next to each triangle.
+pub struct Across {
+    /// Of each corner, the triangle beyond the edge from it to the next corner, or [`NONE`].
+    beyond: Vec<[u32; 3]>,
+}
+
+/// No triangle beyond an edge.
+const NONE: u32 = u32::MAX;
+
+impl Across {
+    /// Number of triangles.
+    pub fn len(&self) -> usize {
+        self.beyond.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.beyond.is_empty()
+    }
+
+    /// The triangles next to a triangle, at most three.
+    pub fn of(&self, triangle: u32) -> impl Iterator<Item = u32> + use<> {
+        let beyond = self.beyond[triangle as usize];
+        beyond.into_iter().filter(|&t| t != NONE)
+    }
+
+    /// The triangle beyond the edge from a corner (0, 1, 2) to the next.
+    pub fn beyond(&self, triangle: u32, corner: usize) -> Option<u32> {
+        Some(self.beyond[triangle as usize][corner]).filter(|&t| t != NONE)
+    }
+}
+
+impl Edges {
+    /// Neighbours over edges with exactly two triangles.
+    fn neighbours(&self, accept: impl Fn(&EdgeUse, &EdgeUse) -> bool) -> Across {
+        let mut beyond = vec![[NONE; 3]; self.uses.len() / 3];
+        for edge in 0..self.len() {
+            if let [u, v] = self.around(edge)
+                && accept(u, v)
+            {
+                beyond[u.triangle as usize][u.corner as usize] = v.triangle;
+                beyond[v.triangle as usize][v.corner as usize] = u.triangle;
+            }
+        }
+        Across { beyond }
+    }
+
+    /// Neighbours over edges with exactly two triangles that are wound alike.
+    pub fn across(&self) -> Across {
+        self.neighbours(|u, v| u.forward != v.forward)
+    }
+
+    /// Neighbours over edges with exactly two triangles, however these are wound.
+    pub fn across_any(&self) -> Across {
+        self.neighbours(|_, _| true)
+    }
+}
+
 /// The vertex of a triangle opposite to the edge that begins at `corner`.
 pub fn apex_of(triangle: &[u32; 3], corner: u8) -> u32 {
     triangle[(corner as usize + 2) % 3]

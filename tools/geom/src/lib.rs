@@ -4,14 +4,19 @@
 
 pub mod alignment;
 pub mod bvh;
+pub mod cdt;
 pub mod cells;
 pub mod contacts;
 pub mod edges;
 pub mod eigen;
 pub mod fan;
+pub mod flat;
+pub mod grid;
 pub mod measure;
 pub mod parts;
-
+pub mod sets;
 pub mod sides;
 pub mod tet;
+pub mod tolerance;
 pub mod tree;
+pub mod weld;
