@@ -1,22 +1,9 @@
 //! Edges of a triangle complex and the triangles around them, in angular order.
 
+pub use crate::predicate::orientation;
 use glam::DVec3;
-use robust::{Coord3D, orient3d};
 use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
-
-/// Exact sign of the orientation of four points: positive when `d` lies on the side of the plane
-/// `a b c` that the normal `(b - a) x (c - a)` points to.
-///
-/// Shewchuk's adaptive predicate (crate `robust`), with the sign of [`crate::measure::tet_volume`].
-pub fn orientation(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
-    let p = |v: DVec3| Coord3D {
-        x: v.x,
-        y: v.y,
-        z: v.z,
-    };
-    -orient3d(p(a), p(b), p(c), p(d))
-}
 
 /// Undirected edges of a triangle list, each with the triangles around it.
 pub struct Edges {
@@ -231,12 +218,5 @@ mod tests {
             .map(|u| angles[u.triangle as usize])
             .collect();
         assert_eq!(order, [0.0, 10.0, 89.9999999, 90.0, 180.0, 200.0, 300.0]);
-    }
-
-    #[test]
-    fn orientation_has_the_sign_of_the_volume() {
-        let (a, b, c, d) = (DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z);
-        assert!(orientation(a, b, c, d) > 0.0);
-        assert!(crate::measure::tet_volume(a, b, c, d) > 0.0);
     }
 }
