@@ -1,12 +1,12 @@
 //! The report as text: tables and histograms for a terminal.
 
-use crate::beyond;
-use crate::instances::Realized;
-use crate::statistics::Histogram;
-use crate::{Checks, Metric, Report, Statistic, Summary};
+use super::words::{STATISTICS, beyond, check_table, symmetry_words};
+use crate::measure::{Histogram, Metric, Statistic, Summary};
+use crate::report::Report;
+use kit::{grouped, number, point};
 use std::fmt::Write;
 
-/// Cells of the longest histogram bar.
+/// Character cells of the longest histogram bar: what is left of a line of 90 beside the figures.
 const BAR: usize = 40;
 /// Eighths of a cell.
 const BLOCKS: [char; 8] = [' ', '▏', '▎', '▍', '▌', '▋', '▊', '▉'];
@@ -35,30 +35,6 @@ pub fn text(report: &Report, promises: bool) -> String {
         let _ = writeln!(out, "note: {note}");
     }
     out
-}
-
-/// The order of a symmetry, with mirrors and with what holds outside of a hub.
-pub fn symmetry_words(symmetry: &Realized) -> String {
-    let mut of = format!("order {}", symmetry.order);
-    if symmetry.mirror {
-        of.push_str(" with mirrors");
-    }
-    if symmetry.horizontal_mirror {
-        of.push_str(" and a horizontal mirror");
-    }
-    if let Some(outside) = &symmetry.outside {
-        let mirrors = match outside.mirror && !symmetry.mirror {
-            true => " with mirrors",
-            false => "",
-        };
-        let radius = number(outside.radius);
-        let _ = write!(
-            of,
-            ", of order {}{mirrors} outside of the radius {radius}",
-            outside.order
-        );
-    }
-    of
 }
 
 fn sizes(out: &mut String, s: &Summary) {
@@ -125,7 +101,6 @@ fn worst(out: &mut String, report: &Report) {
         out.push_str("\nworst elements\n");
     }
     for w in &report.worst {
-        let [x, y, z] = w.place.map(number);
         let copies = if w.copies > 1 {
             format!(", {} copies", grouped(w.copies))
         } else {
@@ -133,10 +108,11 @@ fn worst(out: &mut String, report: &Report) {
         };
         let _ = writeln!(
             out,
-            "{:<20} {:>11}  {} near ({x}, {y}, {z}); tetrahedron {} of template {}{copies}",
+            "{:<20} {:>11}  {} near {}; tetrahedron {} of template {}{copies}",
             w.metric.name(),
             number(w.value),
-            report.region_name(w.region),
+            report.summary.region_name(w.region),
+            point(w.place),
             w.tetrahedron,
             w.template,
         );
@@ -148,21 +124,13 @@ fn metrics(out: &mut String, report: &Report) {
         return;
     }
     let _ = write!(out, "\n{:<20}", "metric");
-    let order = [
-        Statistic::Min,
-        Statistic::P01,
-        Statistic::P50,
-        Statistic::Mean,
-        Statistic::P99,
-        Statistic::Max,
-    ];
-    for statistic in order {
+    for statistic in STATISTICS {
         let _ = write!(out, " {:>11}", statistic.name());
     }
     out.push('\n');
     let mut row = |name: &str, summary: &Summary, metric| {
         let _ = write!(out, "{name:<20}");
-        for statistic in order {
+        for statistic in STATISTICS {
             let value = summary.metrics.get(metric).map(|m| m.get(statistic));
             let _ = write!(out, " {:>11}", value.map_or("-".to_owned(), number));
         }
@@ -174,11 +142,11 @@ fn metrics(out: &mut String, report: &Report) {
             row("  compared", &other.summary, metric);
         }
     }
-    for line in beyond::sentences(&report.summary) {
+    for line in beyond(&report.summary) {
         let _ = writeln!(out, "{line}");
     }
     let other = report.compare.as_ref().map(|c| &c.summary);
-    for line in other.into_iter().flat_map(beyond::sentences) {
+    for line in other.into_iter().flat_map(beyond) {
         let _ = writeln!(out, "  compared: {line}");
     }
 }
@@ -233,7 +201,7 @@ fn bar(share: f64) -> String {
 fn checks(out: &mut String, report: &Report, promises: bool) {
     let c = &report.checks;
     out.push('\n');
-    for (name, value) in c.table() {
+    for (name, value) in check_table(c) {
         let value = value.unwrap_or_else(|| "-".to_owned());
         let _ = writeln!(out, "{name:<24} {value:>11}");
     }
@@ -245,83 +213,9 @@ fn checks(out: &mut String, report: &Report, promises: bool) {
     }
 }
 
-impl Checks {
-    /// Names and results, where there are any, as tables show them.
-    pub fn table(&self) -> [(&'static str, Option<String>); 8] {
-        let answer = |b: bool| if b { "yes" } else { "NO" }.to_owned();
-        let count = |n: u64| grouped(n);
-        let error = |e: f64| format!("{e:.2e}");
-        [
-            ("conforming", self.conforming.map(answer)),
-            ("inverted", self.inverted.map(count)),
-            ("coincident vertices", self.coincident_vertices.map(count)),
-            ("symmetry residual", self.symmetry_residual.map(error)),
-            (
-                "connectivity symmetric",
-                self.connectivity_symmetric.map(answer),
-            ),
-            ("volume error", self.volume_error.map(error)),
-            ("region volume error", self.region_volume_error.map(error)),
-            ("boundary area error", self.boundary_area_error.map(error)),
-        ]
-    }
-}
-
-/// Six significant digits, shortest of plain and scientific notation.
-pub fn number(x: f64) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    if !x.is_finite() {
-        return if x > 0.0 { "inf" } else { "-inf" }.to_owned();
-    }
-    let scientific = format!("{x:.5e}");
-    let exponent = scientific.split_once('e').and_then(|s| s.1.parse().ok());
-    let exponent: i32 = exponent.unwrap_or(0);
-    if (-4..7).contains(&exponent) {
-        let text = format!("{x:.*}", (5 - exponent).max(0) as usize);
-        if text.contains('.') {
-            return text.trim_end_matches('0').trim_end_matches('.').to_owned();
-        }
-        return text;
-    }
-    format!("{x:.4e}")
-}
-
-/// A count with its digits in groups of three.
-pub fn grouped(n: u64) -> String {
-    let digits = n.to_string();
-    let mut out = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            out.push(' ');
-        }
-        out.push(digit);
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        for (x, expected) in [
-            (0.0, "0"),
-            (1.0, "1"),
-            (70.528779, "70.5288"),
-            (-0.25, "-0.25"),
-            (123456.7, "123457"),
-            (1e-7, "1.0000e-7"),
-            (1.5e9, "1.5000e9"),
-            (f64::INFINITY, "inf"),
-        ] {
-            assert_eq!(number(x), expected);
-        }
-        assert_eq!(grouped(1_234_567), "1 234 567");
-        assert_eq!(grouped(12), "12");
-    }
 
     #[test]
     fn bars_show_what_is_there() {

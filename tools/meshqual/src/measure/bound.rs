@@ -1,8 +1,8 @@
 //! How many values of a metric are beyond a bound, as `--count-above` and `--count-below` ask.
 
-use crate::limit::metric_and_value;
-use crate::statistics::Sample;
-use crate::{Metric, Summary};
+use super::assignment::metric_and_value;
+use super::metric::Metric;
+use super::statistics::Sample;
 use serde::Serialize;
 
 /// A bound to count beyond.
@@ -57,20 +57,6 @@ impl Bound {
             share: count as f64 / all.max(1) as f64,
         }
     }
-}
-
-/// What is beyond the bounds, a sentence each.
-pub fn sentences(summary: &Summary) -> impl Iterator<Item = String> + use<'_> {
-    summary.beyond.iter().map(|b| {
-        let side = if b.bound.above { "above" } else { "below" };
-        format!(
-            "{} {side} {}: {} ({:.4} %)",
-            b.bound.metric.name(),
-            b.bound.value,
-            crate::text::grouped(b.count),
-            100.0 * b.share
-        )
-    })
 }
 
 #[cfg(test)]

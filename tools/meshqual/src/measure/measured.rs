@@ -1,10 +1,10 @@
 //! Measures the tetrahedra of the templates and adds them up over the instances.
 
-use crate::instances::{Copies, is_sector, wall_triangles};
-use crate::statistics::{Sample, sum};
-use crate::worst::Ranking;
-use crate::{Error, Metric, Surface, Worst};
-use geom::measure::{corners, tet_volume, triangle_area};
+use super::metric::Metric;
+use super::statistics::{Sample, sum};
+use super::worst::{Ranking, Worst};
+use crate::instances::Copies;
+use geom::measure::{corners, tet_volume};
 use geom::tet::TetMeasures;
 use std::collections::BTreeMap;
 use tmesh::{Document, OUTSIDE, Template};
@@ -50,7 +50,7 @@ const BY_REGION: [Metric; 5] = [
 
 /// Measures a document as it would be assembled, and finds so many worst elements per metric. Linear
 /// in the templates.
-pub fn measure(document: &Document, worst: usize) -> Result<Measured, Error> {
+pub fn measure(document: &Document, worst: usize) -> Measured {
     let copies = Copies::of(document);
     let mut samples = vec![Sample::default(); Metric::ALL.len()];
     let mut regions: BTreeMap<u32, Amount> = BTreeMap::new();
@@ -94,13 +94,13 @@ pub fn measure(document: &Document, worst: usize) -> Result<Measured, Error> {
     }
     let mut total = Amount::default();
     regions.values().for_each(|r| total.add(*r, 1));
-    Ok(Measured {
+    Measured {
         regions,
         total,
         samples,
         by_region,
         worst: ranking.finish(document, &copies.of_template),
-    })
+    }
 }
 
 fn first_of_each_map(document: &Document, template: u32) -> impl Iterator<Item = &tmesh::Instance> {
@@ -186,34 +186,4 @@ fn enclosed(template: &Template) -> BTreeMap<u32, Amount> {
         }
     }
     amounts
-}
-
-/// Counts and measures the surface triangles that are on no wall, over all instances.
-pub fn surface(document: &Document) -> Surface {
-    let copies = Copies::of(document).of_template;
-    let walls = wall_triangles(document);
-    let sector = is_sector(document);
-    let mut surface = Surface {
-        triangles: 0,
-        boundary_area: 0.0,
-    };
-    for ((template, on_wall), &copies) in document.templates.iter().zip(&walls).zip(&copies) {
-        let mut count = 0;
-        let mut area = 0.0;
-        for (t, _) in template
-            .triangles
-            .iter()
-            .zip(on_wall)
-            .filter(|(_, wall)| sector || !**wall)
-        {
-            count += 1;
-            if (t.front == OUTSIDE) != (t.back == OUTSIDE) {
-                let [a, b, c] = corners(&template.vertices, t);
-                area += triangle_area(a, b, c);
-            }
-        }
-        surface.triangles += count * copies;
-        surface.boundary_area += area * copies as f64;
-    }
-    surface
 }

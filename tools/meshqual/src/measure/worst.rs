@@ -1,6 +1,6 @@
 //! The worst elements by each metric, with their places.
 
-use crate::Metric;
+use super::metric::Metric;
 use glam::DVec3;
 use serde::Serialize;
 use tmesh::{Document, Template};

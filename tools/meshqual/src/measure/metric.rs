@@ -20,6 +20,12 @@ pub enum Metric {
     Volume,
 }
 
+/// Where histograms of smallest and of largest dihedral angles begin and end, degrees. Both angles of
+/// the regular tetrahedron are 70.53: no smallest one is above, no largest one below. The ends are
+/// multiples of 20 beside it.
+const SMALLEST_ANGLES: (f64, f64) = (0.0, 80.0);
+const LARGEST_ANGLES: (f64, f64) = (60.0, 180.0);
+
 impl Metric {
     /// All metrics, in the order of reports.
     pub const ALL: [Self; 6] = [
@@ -57,16 +63,16 @@ impl Metric {
 
     /// Boundaries of `bins` bins for values between `low` and `high`, increasing.
     ///
-    /// Angles have the same bins for every mesh: 0 to 80 and 60 to 180 degrees (70.53 is the largest
-    /// smallest angle and the smallest largest one). Positive values that span more than a factor of
-    /// 20 get bins of equal ratio, others bins of equal width.
+    /// Angles have the same bins for every mesh, [`SMALLEST_ANGLES`] and [`LARGEST_ANGLES`]. Other
+    /// values get bins of equal width, unless they are positive and the first of those would span
+    /// more than a factor of two: then bins of equal ratio, which show what small values there are.
     pub fn bins(self, low: f64, high: f64, bins: usize) -> Vec<f64> {
         let (low, high) = match self {
-            Self::MinDihedral => (0.0, 80.0),
-            Self::MaxDihedral => (60.0, 180.0),
+            Self::MinDihedral => SMALLEST_ANGLES,
+            Self::MaxDihedral => LARGEST_ANGLES,
             _ => (low, high),
         };
-        let ratio = low > 0.0 && high / low > 20.0;
+        let ratio = low > 0.0 && (high - low) / bins as f64 > low;
         let mut edges: Vec<f64> = (0..=bins)
             .map(|i| {
                 let t = i as f64 / bins as f64;
@@ -92,52 +98,6 @@ impl Serialize for Metric {
     }
 }
 
-/// A statistic over all values of a metric.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Statistic {
-    /// Smallest value.
-    Min,
-    /// Largest value.
-    Max,
-    /// Arithmetic mean.
-    Mean,
-    /// First percentile.
-    P01,
-    /// Median.
-    P50,
-    /// 99th percentile.
-    P99,
-}
-
-impl Statistic {
-    /// All statistics, in the order of reports.
-    pub const ALL: [Self; 6] = [
-        Self::Min,
-        Self::Max,
-        Self::Mean,
-        Self::P01,
-        Self::P50,
-        Self::P99,
-    ];
-
-    /// Name on the command line and in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Min => "min",
-            Self::Max => "max",
-            Self::Mean => "mean",
-            Self::P01 => "p01",
-            Self::P50 => "p50",
-            Self::P99 => "p99",
-        }
-    }
-
-    /// The statistic with this name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|s| s.name() == name)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,9 +119,6 @@ mod tests {
     fn names_lead_back() {
         for metric in Metric::ALL {
             assert_eq!(Metric::parse(metric.name()), Ok(metric));
-        }
-        for statistic in Statistic::ALL {
-            assert_eq!(Statistic::from_name(statistic.name()), Some(statistic));
         }
     }
 }

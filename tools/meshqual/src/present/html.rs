@@ -1,9 +1,15 @@
 //! The report as a page: tables, histograms and pictures in one file that needs no other.
 
-use crate::beyond;
-use crate::svg::escaped;
-use crate::text::{grouped, number, symmetry_words};
-use crate::{Metric, Report, Statistic, Summary, picture, png, svg};
+use super::palette::{quality_colour, quality_legend, region_colour};
+use super::picture;
+use super::svg::{escaped, svg};
+use super::words::{STATISTICS, beyond, check_table, symmetry_words};
+use crate::error::Error;
+use crate::measure::{Metric, Statistic, Summary};
+use crate::report::Report;
+use base64::display::Base64Display;
+use base64::engine::general_purpose::STANDARD;
+use kit::{grouped, number, point};
 use std::fmt::Write;
 use tmesh::Document;
 
@@ -15,28 +21,25 @@ pub struct Pictures {
 
 impl Pictures {
     /// Draws a mesh.
-    pub fn of(document: &Document) -> Self {
-        Self {
-            outside: picture::outside(document),
-            inside: picture::inside(document),
-        }
+    ///
+    /// # Errors
+    /// Pictures that cannot be encoded.
+    pub fn of(document: &Document) -> Result<Self, Error> {
+        Ok(Self {
+            outside: picture::outside(document)?,
+            inside: picture::inside(document)?,
+        })
     }
 }
+
+/// Regions named below a picture; the table of regions has them all.
+const NAMED_REGIONS: usize = 16;
 
 const STYLE: &str = "body{font:14px/1.5 sans-serif;color:#222;max-width:1280px;margin:2em auto;padding:0 1em}\
 table{border-collapse:collapse;margin:.5em 0 1.5em}td,th{padding:.15em .9em;text-align:right;border-bottom:1px solid #ddd}\
 td:first-child,th:first-child{text-align:left;padding-left:0}figure{display:inline-block;margin:0 1em 1em 0;vertical-align:top}\
 figcaption{max-width:600px;color:#555}img{max-width:100%;border:1px solid #ddd}.broken{color:#b2182b;font-weight:bold}\
 .key{display:inline-block;width:.9em;height:.9em;margin:0 .3em 0 .8em;vertical-align:-.1em}svg{max-width:100%;height:auto}";
-
-const ORDER: [Statistic; 6] = [
-    Statistic::Min,
-    Statistic::P01,
-    Statistic::P50,
-    Statistic::Mean,
-    Statistic::P99,
-    Statistic::Max,
-];
 
 /// The page.
 pub fn html(report: &Report, title: &str, pictures: &Pictures) -> String {
@@ -94,23 +97,29 @@ fn images(out: &mut String, report: &Report, pictures: &Pictures) {
         let _ = write!(
             out,
             "<figure><img width=\"600\" alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>",
-            png::base64(bytes)
+            Base64Display::new(bytes, &STANDARD)
         );
         caption(out);
         out.push_str("</figcaption></figure>\n");
     };
     figure(&pictures.outside, &|out| {
         out.push_str("Surface, by region:");
-        for (i, region) in report.summary.regions.iter().enumerate().take(16) {
-            key(out, picture::region_colour(i), &region.name);
+        for (i, region) in report
+            .summary
+            .regions
+            .iter()
+            .enumerate()
+            .take(NAMED_REGIONS)
+        {
+            key(out, region_colour(i), &region.name);
         }
     });
     if let Some(inside) = &pictures.inside {
         figure(inside, &|out| {
             out.push_str("Elements behind a plane through the middle, by smallest dihedral angle:");
-            for degrees in [0.0, 10.0, 20.0, 30.0, 40.0] {
+            for degrees in quality_legend() {
                 let text = format!("{degrees}°");
-                key(out, picture::quality_colour(degrees), &text);
+                key(out, quality_colour(degrees), &text);
             }
         });
     }
@@ -145,7 +154,7 @@ fn regions(out: &mut String, s: &Summary) {
 
 fn metrics(out: &mut String, report: &Report) {
     out.push_str("<h2>Quality</h2>\n<table><tr><th>metric</th>");
-    for statistic in ORDER {
+    for statistic in STATISTICS {
         let _ = write!(out, "<th>{}</th>", statistic.name());
     }
     out.push_str("</tr>\n");
@@ -161,7 +170,7 @@ fn metrics(out: &mut String, report: &Report) {
                 name => format!("compared: {}", escaped(name)),
             };
             let _ = write!(out, "<tr><td>{name}</td>");
-            for statistic in ORDER {
+            for statistic in STATISTICS {
                 let value = summary.metrics.get(metric).map(|m| m.get(statistic));
                 let _ = write!(out, "<td>{}</td>", value.map_or("-".to_owned(), number));
             }
@@ -170,7 +179,7 @@ fn metrics(out: &mut String, report: &Report) {
     }
     out.push_str("</table>\n");
     for (name, summary) in all {
-        for line in beyond::sentences(summary) {
+        for line in beyond(summary) {
             let of = if name.is_empty() { "" } else { "compared: " };
             let _ = writeln!(out, "<p>{of}{}</p>", escaped(&line));
         }
@@ -186,14 +195,14 @@ fn worst(out: &mut String, report: &Report) {
          <th>place</th><th>template</th><th>tetrahedron</th><th>copies</th></tr>\n",
     );
     for w in &report.worst {
-        let [x, y, z] = w.place.map(number);
         let _ = writeln!(
             out,
-            "<tr><td>{}</td><td>{}</td><td>{}</td><td>({x}, {y}, {z})</td><td>{}</td><td>{}</td>\
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
              <td>{}</td></tr>",
             w.metric.name(),
             number(w.value),
-            escaped(&report.region_name(w.region)),
+            escaped(&report.summary.region_name(w.region)),
+            point(w.place),
             w.template,
             w.tetrahedron,
             w.copies
@@ -212,7 +221,7 @@ fn checks(out: &mut String, report: &Report) {
         out.push_str("<p>All promises and limits hold.</p>\n");
     }
     out.push_str("<table>\n");
-    for (name, value) in report.checks.table() {
+    for (name, value) in check_table(&report.checks) {
         let value = value.unwrap_or_else(|| "-".to_owned());
         let _ = writeln!(out, "<tr><td>{name}</td><td>{value}</td></tr>");
     }

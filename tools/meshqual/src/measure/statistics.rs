@@ -1,10 +1,58 @@
 //! Exact statistics of a metric over weighted parts.
 
-use crate::{Metric, Statistic};
+use super::metric::Metric;
 use serde::Serialize;
 
-/// Share of a bin's width that is taken for rounding.
+/// Share of a bin's width that is taken for rounding: well above the rounding of angles computed in
+/// double precision (1e-14 of a degree), so that all right angles fall into one bin, and too little
+/// to be seen in a histogram.
 const ROUNDING: f64 = 1e-9;
+
+/// A statistic over all values of a metric.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Statistic {
+    /// Smallest value.
+    Min,
+    /// Largest value.
+    Max,
+    /// Arithmetic mean.
+    Mean,
+    /// First percentile.
+    P01,
+    /// Median.
+    P50,
+    /// 99th percentile.
+    P99,
+}
+
+impl Statistic {
+    /// All statistics, in the order of reports.
+    pub const ALL: [Self; 6] = [
+        Self::Min,
+        Self::Max,
+        Self::Mean,
+        Self::P01,
+        Self::P50,
+        Self::P99,
+    ];
+
+    /// Name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Min => "min",
+            Self::Max => "max",
+            Self::Mean => "mean",
+            Self::P01 => "p01",
+            Self::P50 => "p50",
+            Self::P99 => "p99",
+        }
+    }
+
+    /// The statistic with this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|s| s.name() == name)
+    }
+}
 
 /// Values of one metric: parts of equal weight, one per template, weighted by its instances.
 #[derive(Clone, Debug, Default)]
@@ -177,10 +225,13 @@ impl Sample {
     }
 }
 
-/// Sum in blocks, so that the rounding error does not grow with the number of values.
+/// Values that are summed one after another; any small number does.
+const BLOCK: usize = 256;
+
+/// Sum in blocks, so that the rounding error grows with the logarithm of the number of values only.
 pub fn sum(values: &[f64]) -> f64 {
     match values.len() {
-        0..=256 => values.iter().sum(),
+        0..=BLOCK => values.iter().sum(),
         n => {
             let (a, b) = values.split_at(n / 2);
             sum(a) + sum(b)
@@ -244,6 +295,13 @@ mod tests {
         let s = sample(&[(&[60.0, 89.9, below, 90.0, below.next_down()], 1)]);
         let s = s.statistics(vec![60.0, 90.0, 120.0]).unwrap();
         assert_eq!(s.histogram.counts, [2, 3]);
+    }
+
+    #[test]
+    fn names_lead_back() {
+        for statistic in Statistic::ALL {
+            assert_eq!(Statistic::from_name(statistic.name()), Some(statistic));
+        }
     }
 
     #[test]

@@ -1,6 +1,9 @@
 //! Limits a mesh has to meet, as `--fail-below` and `--fail-above` give them.
 
-use crate::{Metric, Statistic, Summary};
+use super::assignment::metric_and_value;
+use super::metric::Metric;
+use super::statistics::Statistic;
+use super::summary::Summary;
 
 /// A limit on a statistic of a metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,19 +59,6 @@ impl Limit {
             (found < self.value, "below")
         };
         fails.then(|| format!("{name} is {found:.6}, {word} {}", self.value))
-    }
-}
-
-/// The two sides of `NAME=VALUE`, the value finite; `form` is what an error says was expected.
-pub fn metric_and_value<'t>(text: &'t str, form: &str) -> Result<(&'t str, f64), String> {
-    let (name, value) = text
-        .split_once('=')
-        .ok_or_else(|| format!("expected {form}"))?;
-    let number = value.trim().parse().ok();
-    let number = number.filter(|v: &f64| v.is_finite());
-    match number {
-        Some(number) => Ok((name.trim(), number)),
-        None => Err(format!("'{value}' is not a number")),
     }
 }
 
