@@ -3,47 +3,26 @@
 //! The section's triangles are halved until they are no larger than the elements wanted there, each piece
 //! with the samples of sizes that matter in it.
 
+use crate::classes::{Classes, RADII, SIZES};
 use crate::piece::Piece;
+use crate::samples::{Sample, useful};
 use glam::DVec2;
-use kit::in_parallel;
+use rayon::prelude::*;
 use std::ops::Range;
 
-/// How fast element sizes grow with the distance from a feature.
-pub const GROWTH: f64 = 0.35;
-/// Classes of radius.
-pub const RADII: usize = 96;
-/// Classes of size, and how many there are per factor of two.
-pub const SIZES: usize = 80;
-pub const PER_OCTAVE: usize = 4;
-/// Bounds of the classes within a factor of two: two to the power of a quarter, a half, three quarters.
-const WITHIN_OCTAVE: [f64; PER_OCTAVE - 1] = [
-    1.189_207_115_002_721,
-    std::f64::consts::SQRT_2,
-    1.681_792_830_507_429,
-];
-/// Smallest pieces of the section, relative to its extent.
-const FINEST: f64 = 1.0 / 256.0;
-/// Size of pieces near the axis, where wedges get narrow quickly, relative to the radius.
+/// Smallest pieces of the section, relative to its extent; smaller features are seen by the pieces around them.
+pub const FINEST: f64 = 1.0 / 256.0;
+/// Size of pieces near the axis, where wedges get narrow quickly, relative to the radius: the width of a wedge
+/// varies by as much within one.
 const NEAR_AXIS: f64 = 0.3;
-/// Pieces smaller than this, relative to the extent, are so many that each matters little: they may be larger than
-/// elements, so many times, and need not be smaller for being near the axis.
+/// Pieces smaller than this, relative to the extent, are so many (a thousand would fill the section) that each
+/// matters little: they may be larger than elements, by a quarter, one class of size, and need not be smaller for
+/// being near the axis. Without it the integral takes twice as long.
 const SMALL: f64 = 1.0 / 32.0;
 const COARSE: f64 = 1.25;
-/// Samples, the smallest sizes first, that are tried for whether they make others useless.
-const COMPARED: usize = 256;
-/// Samples of a run are copied without those that do not matter if that is at least one of so many.
-const WORTH_COPYING: usize = 4;
-/// Groups of triangles that are summed on their own, so that sums do not depend on the number of threads.
+/// Groups of triangles that are summed on their own, so that sums do not depend on the number of threads: as many
+/// threads have something to do.
 const GROUPS: usize = 8;
-
-/// A size that a feature asks for, at a place of the section.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    /// Radius and height, model units.
-    pub at: DVec2,
-    /// Size, model units.
-    pub size: f64,
-}
 
 /// A triangle of the section.
 pub struct Part {
@@ -53,43 +32,6 @@ pub struct Part {
     pub cap: f64,
     /// Share of the section, where there are several of the same body.
     pub weight: f64,
-}
-
-/// Classes of radius and size.
-#[derive(Clone, Copy, Debug)]
-pub struct Classes {
-    /// Largest coordinate of the section.
-    pub extent: f64,
-    /// Smallest size there is.
-    pub least: f64,
-}
-
-impl Classes {
-    pub fn of_radius(&self, r: f64) -> usize {
-        ((r / self.extent * RADII as f64) as usize).min(RADII - 1)
-    }
-
-    pub fn of_size(&self, size: f64) -> usize {
-        let ratio = size / self.least;
-        if ratio < 1.0 {
-            return 0;
-        }
-        let bits = ratio.to_bits();
-        let octave = (bits >> 52) as usize - 1023;
-        let mantissa = f64::from_bits(bits & (u64::MAX >> 12) | 1.0_f64.to_bits());
-        let within = WITHIN_OCTAVE.iter().filter(|&&b| mantissa >= b).count();
-        (PER_OCTAVE * octave + within).min(SIZES - 1)
-    }
-
-    /// Middle of a class of radius.
-    pub fn radius(&self, class: usize) -> f64 {
-        (class as f64 + 0.5) / RADII as f64 * self.extent
-    }
-
-    /// Middle of a class of size.
-    pub fn size(&self, class: usize) -> f64 {
-        self.least * ((class as f64 + 0.5) / PER_OCTAVE as f64).exp2()
-    }
 }
 
 /// What is summed over the section.
@@ -112,20 +54,34 @@ impl Integral {
         }
     }
 
-    /// Over all parts of a section, with the sizes that samples ask for. Does not depend on the number of
-    /// threads.
-    pub fn over(parts: &[Part], samples: &[Sample], classes: Classes, threads: usize) -> Self {
-        let groups: Vec<usize> = (0..GROUPS.min(parts.len())).collect();
-        let samples = useful(samples);
-        let of_group = |&group: &usize| {
+    /// Over all parts of a section, with the sizes that samples ask for, which grow with the distance from them by
+    /// `growth`. Does not depend on the number of threads.
+    pub fn over(
+        parts: &[Part],
+        samples: &[Sample],
+        growth: f64,
+        classes: Classes,
+        threads: usize,
+    ) -> Self {
+        let samples = useful(samples, growth);
+        let of_group = |group: usize| {
             let mut sums = Self::zero();
-            let mut near = Near::new(&samples, classes.extent);
+            let mut near = Near::new(&samples, growth, classes.extent);
             for part in parts.iter().skip(group).step_by(GROUPS) {
                 sums.add_part(part, &mut near, classes);
             }
             sums
         };
-        let mut sums = in_parallel(&groups, threads, of_group).into_iter();
+        let groups = 0..GROUPS.min(parts.len());
+        // Where no thread is to be had, it goes without.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.min(groups.len()));
+        let sums: Vec<Self> = match pool.build() {
+            Ok(pool) if threads > 1 => {
+                pool.install(|| groups.into_par_iter().map(of_group).collect())
+            }
+            _ => groups.map(of_group).collect(),
+        };
+        let mut sums = sums.into_iter();
         let mut all = sums.next().unwrap_or_else(Self::zero);
         sums.for_each(|s| all.add(&s));
         all
@@ -168,31 +124,12 @@ impl Integral {
             // Samples that can matter somewhere in the piece.
             let reach = corners.map(|p| p.distance_squared(middle));
             let reach = reach.fold(0.0_f64, f64::max).sqrt();
-            let kept = near.keep(run, size + 2.0 * GROWTH * reach);
+            let kept = near.keep(run, size + 2.0 * near.growth * reach);
             let [first, second] = piece.halves();
             stack.push((first, kept.clone()));
             stack.push((second, kept));
         }
     }
-}
-
-/// The samples without those that another one makes useless: it asks for no more at their place, and so
-/// anywhere.
-fn useful(samples: &[Sample]) -> Vec<Sample> {
-    let mut sorted = samples.to_vec();
-    sorted.sort_by(|a, b| a.size.total_cmp(&b.size));
-    let mut kept: Vec<Sample> = Vec::new();
-    for s in sorted {
-        // Squares, to do without a root.
-        let is_below = |k: &Sample| {
-            let spare = s.size - k.size;
-            GROWTH * GROWTH * k.at.distance_squared(s.at) <= spare * spare
-        };
-        if !kept.iter().take(COMPARED).any(is_below) {
-            kept.push(s);
-        }
-    }
-    kept
 }
 
 /// Samples, coordinate by coordinate, and further copies of some of them behind; in single precision, which is
@@ -203,6 +140,7 @@ struct Near {
     len: usize,
     /// Model units.
     extent: f64,
+    growth: f64,
     /// Radius and height.
     x: Vec<f32>,
     y: Vec<f32>,
@@ -212,7 +150,7 @@ struct Near {
 }
 
 impl Near {
-    fn new(samples: &[Sample], extent: f64) -> Self {
+    fn new(samples: &[Sample], growth: f64, extent: f64) -> Self {
         let all = |value: fn(&Sample) -> f64| {
             let relative = samples.iter().map(|s| (value(s) / extent) as f32);
             relative.collect()
@@ -221,6 +159,7 @@ impl Near {
             all: samples.len(),
             len: samples.len(),
             extent,
+            growth,
             x: all(|s| s.at.x),
             y: all(|s| s.at.y),
             size: all(|s| s.size),
@@ -231,12 +170,13 @@ impl Near {
     /// The smallest size that a run of samples asks for at a place, model units.
     fn ask(&mut self, run: Range<usize>, at: DVec2) -> f64 {
         let at = (at / self.extent).as_vec2();
+        let growth = self.growth as f32;
         let asked = &mut self.asked[..run.len()];
         let (x, y) = (&self.x[run.clone()], &self.y[run.clone()]);
         let size = &self.size[run];
         for (((asked, x), y), size) in asked.iter_mut().zip(x).zip(y).zip(size) {
             let (dx, dy) = (x - at.x, y - at.y);
-            *asked = size + GROWTH as f32 * (dx * dx + dy * dy).sqrt();
+            *asked = size + growth * (dx * dx + dy * dy).sqrt();
         }
         // Plain comparisons become single instructions; nothing here is NaN.
         let least = |m: f32, a: &f32| if *a < m { *a } else { m };
@@ -244,11 +184,11 @@ impl Near {
     }
 
     /// Copies those of a run that asked for no more than `most` behind all others, and says where; leaves them
-    /// where they are if that are nearly all.
+    /// where they are if that are three quarters or more, which is less work than to copy them.
     fn keep(&mut self, run: Range<usize>, most: f64) -> Range<usize> {
         let most = (most / self.extent) as f32;
         let kept = self.asked[..run.len()].iter().filter(|a| **a <= most);
-        if WORTH_COPYING * kept.count() > (WORTH_COPYING - 1) * run.len() {
+        if 4 * kept.count() > 3 * run.len() {
             return run;
         }
         let first = self.len;
@@ -275,36 +215,23 @@ impl Near {
 mod tests {
     use super::*;
 
+    const GROWTH: f64 = 0.35;
     const CLASSES: Classes = Classes {
         extent: 2.0,
         least: 0.01,
     };
 
     #[test]
-    fn sizes_are_in_the_class_whose_middle_is_nearest() {
-        for class in 0..SIZES - 1 {
-            assert_eq!(CLASSES.of_size(CLASSES.size(class)), class);
-        }
-        assert_eq!(CLASSES.of_size(0.0), 0);
-        assert_eq!(CLASSES.of_size(0.009), 0);
-        assert_eq!(CLASSES.of_size(1e300), SIZES - 1);
-        assert_eq!(CLASSES.of_size(f64::INFINITY), SIZES - 1);
-    }
-
-    #[test]
-    fn samples_that_ask_for_less_make_others_useless() {
+    fn samples_that_others_make_useless_change_nothing() {
         let sample = |x: f64, size: f64| Sample {
             at: DVec2::new(x, 0.0),
             size,
         };
         let far = sample(1.0, 0.3);
-        // Beside the smallest, and where it asks for no more at all.
         let useless = [sample(0.1, 0.1 + 0.2 * GROWTH), sample(0.9, 1.0)];
         let all = [far, useless[0], sample(0.0, 0.1), useless[1], far];
-        let kept: Vec<f64> = useful(&all).iter().map(|s| s.size).collect();
-        assert_eq!(kept, [0.1, 0.3]);
-        let mut near = Near::new(&all, 1.0);
-        let mut less = Near::new(&useful(&all), 1.0);
+        let mut near = Near::new(&all, GROWTH, 1.0);
+        let mut less = Near::new(&useful(&all, GROWTH), GROWTH, 1.0);
         for x in [0.0, 0.3, 0.7, 1.0, 2.0] {
             let at = DVec2::new(x, 0.5);
             assert_eq!(near.ask(0..5, at), less.ask(0..2, at));
@@ -328,7 +255,7 @@ mod tests {
                 extent: 2.0 * unit,
                 least: 0.01 * unit,
             };
-            Integral::over(&[part], &[feature], classes, 1)
+            Integral::over(&[part], &[feature], GROWTH, classes, 1)
         };
         let usual = sums(1.0);
         // Powers of two, so that nothing is rounded differently.
@@ -357,7 +284,7 @@ mod tests {
             size: 0.02,
         };
         for samples in [&[][..], &[feature][..]] {
-            let sums = |threads| Integral::over(&parts, samples, CLASSES, threads);
+            let sums = |threads| Integral::over(&parts, samples, GROWTH, CLASSES, threads);
             let one = sums(1);
             let volume: f64 = one.volume.iter().flatten().sum();
             let exact = std::f64::consts::PI * 3.0;
