@@ -4,7 +4,6 @@ mod description;
 mod facets;
 mod flat;
 mod plc;
-mod raycast;
 mod seeds;
 
 pub use description::{Description, Order};
