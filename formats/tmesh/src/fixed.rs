@@ -48,6 +48,16 @@ impl FixedSet {
         }
     }
 
+    /// The plane that contains the master face of a gluing with this step, where that is flat: by convention at angle 0 for
+    /// steps that turn about the z axis, through the axis of a half turn, and the mirror plane itself.
+    pub fn of_master(step: Isometry) -> Self {
+        match Self::of(step) {
+            Self::Radial { cos, sin } => Self::Vertical { cos, sin },
+            Self::Axis | Self::Origin => Self::Vertical { cos: 1.0, sin: 0.0 },
+            other => other,
+        }
+    }
+
     /// The nearest point of the set. Coordinates that are zero on it are exactly zero, none of them negative.
     pub fn nearest(self, p: DVec3) -> DVec3 {
         let along = |cos: f64, sin: f64| {

@@ -3,22 +3,30 @@
 //! one has them.
 //!
 //! 1. A free pass of the mesher gives the guide (`guide.rs`): where the surface must be fine.
-//! 2. Edges of the seam's low face and their images get one division (`outline.rs`); edges of faces
-//!    that another template shares stay undivided.
-//! 3. The low face is triangulated between these edges, with the guide's inner points (`planar.rs`);
-//!    the high face is its image.
+//! 2. Feature edges (`features.rs`) that are images of each other form orbits (`orbits.rs`), under the steps of all
+//!    pairs of faces that are glued to each other (`pairing.rs`). Each orbit gets one division (`outline.rs`,
+//!    `divide.rs`); edges of faces that another template shares stay undivided.
+//! 3. Of two faces glued to each other, the master is triangulated between these edges (`fill.rs`, `planar.rs`), with the
+//!    guide's inner points; the other one is its image.
 //! 4. Flat facets whose outline differs from the guide's are triangulated anew; all others are as in
-//!    the guide (`make.rs`).
+//!    the guide.
 //!
 //! `impose.rs` gives a template the refined face that another one shares with it.
 
 mod check;
+mod divide;
 mod features;
+mod fill;
 mod guide;
 mod impose;
 mod make;
+mod maker;
+mod orbits;
 mod outline;
+mod pairing;
 mod planar;
+mod plane;
+mod walls;
 
 pub use guide::EASED as GUIDE_EASED;
 pub use impose::{Other, impose};

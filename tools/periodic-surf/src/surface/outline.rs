@@ -42,6 +42,18 @@ pub fn same(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME)
 }
 
+/// The same division, seen from the other end.
+pub fn reversed(division: &[f64]) -> Vec<f64> {
+    division.iter().rev().map(|t| 1.0 - t).collect()
+}
+
+/// A division that is the same from both ends, with as many points as the given one.
+pub fn symmetric(division: &[f64]) -> Vec<f64> {
+    let back = reversed(division);
+    let both = division.iter().zip(back);
+    both.map(|(a, b)| 0.5 * (a + b)).collect()
+}
+
 /// Length of the interval around `t`.
 fn interval(division: &[f64], t: f64) -> f64 {
     let after = division.partition_point(|&x| x <= t);
@@ -61,6 +73,16 @@ mod tests {
         assert_eq!(merged(&low, &low), low);
         assert!(merged(&[], &[]).is_empty());
         assert_eq!(merged(&[], &[0.5]), [0.5]);
+    }
+
+    #[test]
+    fn divisions_of_edges_that_are_their_own_images_are_symmetric() {
+        let division = [0.125, 0.25, 0.5];
+        assert_eq!(reversed(&division), [0.5, 0.75, 0.875]);
+        let both = symmetric(&merged(&division, &reversed(&division)));
+        assert!(both.len() >= 4, "{both:?}");
+        assert!(same(&both, &reversed(&both)), "{both:?}");
+        assert!(both.windows(2).all(|w| w[0] < w[1]));
     }
 
     #[test]
