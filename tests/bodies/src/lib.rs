@@ -2,12 +2,14 @@
 //!
 //! A [`Body`] is a list of vertices and of triangles with the material on either side. [`swept`] builds
 //! bodies from rings around an axis, so that neighbouring materials share their triangles. [`random_solid`]
-//! makes bodies from random numbers, [`adversarial`] the shapes that make programs slow, [`facets`] triangle
-//! soups for the readers of files, and [`structured`] documents of meshed wedges without any of the tools.
+//! makes bodies from random numbers, [`adversarial`] the shapes that make programs slow, [`facets`] and
+//! [`files`] what the readers of files are given, and [`structured`] documents of meshed wedges without any of the tools.
 
 pub mod adversarial;
 mod body;
 mod chance;
+pub mod facets;
+pub mod files;
 mod output;
 mod placement;
 pub mod random_solid;
