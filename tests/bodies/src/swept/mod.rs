@@ -4,8 +4,10 @@ mod prisms;
 mod rotors;
 mod screw;
 mod sweep;
+mod twisted;
 
 pub use prisms::{Coating, PracticalTsv, Prism, Tsv, cube};
 pub use rotors::{Gear, Impeller, Ratchet};
 pub use screw::Screw;
 pub use sweep::Tessellation;
+pub use twisted::{HelicalGear, TwistedBar};
