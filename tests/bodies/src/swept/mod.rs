@@ -5,6 +5,7 @@ mod rotors;
 mod screw;
 mod sweep;
 mod twisted;
+mod usual;
 
 pub use prisms::{Coating, PracticalTsv, Prism, Tsv, cube};
 pub use rotors::{Gear, Impeller, Ratchet};
