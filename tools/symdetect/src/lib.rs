@@ -12,7 +12,6 @@ mod cli;
 mod detect;
 mod error;
 mod group;
-mod numbers;
 mod params;
 mod point_group;
 mod report;
@@ -30,7 +29,6 @@ mod tests;
 pub use cli::Cli;
 pub use detect::detect;
 pub use error::{Closest, Error};
-pub use numbers::At;
 pub use params::Params;
 pub use report::{Defects, Detection, OrderResidual, Places, Report, svg};
 

@@ -3,12 +3,12 @@
 use crate::allowance::model::COARSE;
 use crate::allowance::{displaces, is_of_facets};
 use crate::group::found::Found;
-use crate::numbers::At;
 use crate::point_group::{Group, Kind};
 use crate::rotation::{Limits, Query, Rotation};
-use crate::tolerance::{compare_along_axes, same_axis};
+use crate::tolerance::compare_along_axes;
 use crate::verify::{Check, Depth, Operation, Verified};
 use glam::DVec3;
+use kit::point;
 use tmesh::{Frame, Isometry};
 
 impl Query<'_> {
@@ -22,7 +22,7 @@ impl Query<'_> {
             log(&format!(
                 "order {} about {} by a quick test",
                 best.order,
-                At(best.frame.rotation.z_axis)
+                point(best.frame.rotation.z_axis.to_array())
             ));
             let mut found = self.complete(best.clone());
             // Among half-turn axes the main one is that with the most operations beside it.
@@ -40,7 +40,7 @@ impl Query<'_> {
                 return Some(found);
             }
             let z = found.frame.rotation.z_axis;
-            candidates.retain(|c| !same_axis(c.frame.rotation.z_axis, z));
+            candidates.retain(|c| !self.same_axis(c.frame.rotation.z_axis, z));
             let mut search = self.search(self.orders(), self.limits);
             search.depth = Depth::Full;
             let lower = search.find(found.frame.origin, z, false);

@@ -1,9 +1,9 @@
 //! What to say of the symmetry found.
 
 use crate::group::Found;
-use crate::numbers::{At, short};
 use crate::report::detection::Detection;
 use crate::rotation::{Query, Rotation};
+use kit::{number, point};
 use tmesh::{Axis, OtherAxis, Symmetry};
 
 impl Query<'_> {
@@ -70,9 +70,9 @@ impl Query<'_> {
         let (residual, tolerance) = (symmetry.residual, self.params.tolerance);
         let mut notes = vec![format!(
             "{group} about {} through {}, residual {residual:.1e} of the radius {}",
-            At(found.frame.rotation.z_axis),
-            At(self.shape.to_world(found.frame.origin)),
-            short(symmetry.radius)
+            point(found.frame.rotation.z_axis.to_array()),
+            point(self.shape.to_world(found.frame.origin).to_array()),
+            number(symmetry.radius)
         )];
         if residual > tolerance {
             notes.push(format!(

@@ -4,7 +4,6 @@ use crate::group::{Found, forward};
 use crate::point_group::Kind;
 use crate::rotation::{Query, Rotation};
 use crate::shape::Motion;
-use crate::tolerance::same_axis;
 use crate::verify::Depth;
 use glam::{DMat3, DVec3};
 use tmesh::{Isometry, OtherAxis};
@@ -18,8 +17,8 @@ impl Query<'_> {
         let z = found.frame.rotation.z_axis;
         let mut axes: Vec<OtherAxis> = Vec::new();
         let mut add = |d: DVec3, order: u32, residual: f64| {
-            let same = |a: &OtherAxis| same_axis(DVec3::from_array(a.direction), d);
-            if !axes.iter().any(same) && !same_axis(d, z) && axes.len() < MOST_OTHER_AXES {
+            let same = |a: &OtherAxis| self.same_axis(DVec3::from_array(a.direction), d);
+            if !axes.iter().any(same) && !self.same_axis(d, z) && axes.len() < MOST_OTHER_AXES {
                 axes.push(OtherAxis {
                     direction: forward(d).to_array(),
                     order,

@@ -3,7 +3,6 @@
 use crate::budget::{FIT, QUICK, REPORTED};
 use crate::error::{Closest, Error};
 use crate::group::reference;
-use crate::numbers::At;
 use crate::point_group::{Group, Kind};
 use crate::report::detection::Detection;
 use crate::rotation::{Canonical, FIRST_DIRECTIONS, Query, powers, refine};
@@ -55,8 +54,8 @@ impl Query<'_> {
         Some(Closest {
             order,
             residual: deviation.value / radius,
-            direction: At(frame.rotation.z_axis),
-            place: At(shape.to_world(deviation.at)),
+            direction: frame.rotation.z_axis,
+            place: shape.to_world(deviation.at),
         })
     }
 
@@ -105,9 +104,9 @@ impl Query<'_> {
             order,
             tolerance: self.params.tolerance,
             residual,
-            axis: At(frame.rotation.z_axis),
-            centre: At(shape.to_world(frame.origin)),
-            place: At(shape.to_world(deviation.at)),
+            axis: frame.rotation.z_axis,
+            centre: shape.to_world(frame.origin),
+            place: shape.to_world(deviation.at),
         }
     }
 

@@ -1,8 +1,7 @@
 //! What was found, in words and as a table of residuals.
 
-use crate::numbers::At;
 use crate::report::detection::Detection;
-use glam::DVec3;
+use kit::point;
 use std::fmt::Write;
 
 /// Width of the longest bar of the table, characters.
@@ -14,17 +13,16 @@ impl Detection {
     /// A few sentences: mirror planes, further axes, the orders nearest to holding.
     pub fn summary(&self) -> Vec<String> {
         let s = &self.symmetry;
-        let vector = |v: [f64; 3]| At(DVec3::from_array(v)).to_string();
         let mut lines = Vec::new();
         let along = match (s.mirror, s.order) {
             (false, _) => "no mirror plane contains the axis".to_owned(),
             (true, 1) => format!(
                 "a mirror plane contains the axis and {}",
-                vector(s.mirror_direction)
+                point(s.mirror_direction)
             ),
             (true, n) => format!(
                 "{n} mirror planes contain the axis, one of them {}",
-                vector(s.mirror_direction)
+                point(s.mirror_direction)
             ),
         };
         let across = if s.horizontal_mirror {

@@ -1,10 +1,9 @@
 //! What was found, as an image: the body along its axis with its mirror planes, from the side, and
 //! how far it is off under every order tried.
 
-use crate::numbers::{At, short};
 use crate::report::detection::Detection;
 use crate::report::drawing::{Segment, Views, views};
-use glam::DVec3;
+use kit::{number, point};
 use std::f64::consts::PI;
 use std::fmt::Write;
 use tmesh::{Document, Symmetry};
@@ -168,12 +167,11 @@ fn from_side(out: &mut String, views: &Views, symmetry: &Symmetry) {
 /// Axis, centre and the other axes in figures.
 fn facts(out: &mut String, symmetry: &Symmetry) {
     heading(out, "in figures");
-    let vector = |v: [f64; 3]| At(DVec3::from_array(v)).to_string();
     let mut lines = vec![
         format!("group {}, order {}", symmetry.group, symmetry.order),
-        format!("axis {}", vector(symmetry.axis.direction)),
-        format!("centre {}", vector(symmetry.axis.point)),
-        format!("radius {}", short(symmetry.radius)),
+        format!("axis {}", point(symmetry.axis.direction)),
+        format!("centre {}", point(symmetry.axis.point)),
+        format!("radius {}", number(symmetry.radius)),
         format!("residual {:.2e} of the radius", symmetry.residual),
         format!("tolerance {:.0e} of the radius", symmetry.tolerance),
     ];
@@ -181,7 +179,7 @@ fn facts(out: &mut String, symmetry: &Symmetry) {
         lines.push(format!(
             "mirror planes contain the axis: {}, one along {}",
             symmetry.order,
-            vector(symmetry.mirror_direction)
+            point(symmetry.mirror_direction)
         ));
     }
     if symmetry.horizontal_mirror {
@@ -197,7 +195,7 @@ fn facts(out: &mut String, symmetry: &Symmetry) {
         lines.push(format!(
             "  order {} about {}",
             axis.order,
-            vector(axis.direction)
+            point(axis.direction)
         ));
     }
     for (i, line) in lines.iter().enumerate() {
