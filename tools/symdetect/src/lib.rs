@@ -13,7 +13,6 @@ mod detect;
 mod error;
 mod group;
 mod params;
-mod point_group;
 mod report;
 mod rotation;
 mod shape;
@@ -38,5 +37,6 @@ use tmesh::Document;
 pub fn run(mut document: Document, params: &Params) -> Result<Document, Error> {
     let detection = detect(&document, params, &mut |_| ())?;
     document.symmetry = Some(detection.symmetry);
+    document.search = Some(detection.search);
     Ok(document)
 }

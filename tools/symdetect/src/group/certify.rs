@@ -3,13 +3,12 @@
 use crate::allowance::model::COARSE;
 use crate::allowance::{displaces, is_of_facets};
 use crate::group::found::Found;
-use crate::point_group::{Group, Kind};
 use crate::rotation::{Limits, Query, Rotation};
 use crate::tolerance::compare_along_axes;
 use crate::verify::{Check, Depth, Operation, Verified};
 use glam::DVec3;
 use kit::point;
-use tmesh::{Frame, Isometry};
+use tmesh::{Frame, Group, Isometry, Kind};
 
 impl Query<'_> {
     /// The best of the rotations that holds everywhere, with all that holds beside it.
@@ -66,10 +65,7 @@ impl Query<'_> {
         // What holds without the allowance is not widened by it.
         for bound in bounds {
             for kind in parts(found.group.kind) {
-                let group = Group {
-                    kind: *kind,
-                    order: found.group.order,
-                };
+                let group = Group::new(*kind, found.group.order);
                 for frame in [found.frame, found.rough] {
                     let check = Check {
                         shape: self.shape,
@@ -103,8 +99,8 @@ impl Query<'_> {
             return true;
         }
         let mirror = group.has_vertical_mirrors();
-        let mirror = mirror.then(|| (Isometry::reflection(0, 1), &found.mirror));
-        let turning = group.turns_axis_over().map(|o| (o, &found.turning));
+        let mirror = mirror.then(|| (Isometry::MIRROR, &found.mirror));
+        let turning = group.turning_over().map(|o| (o, &found.turning));
         (group.order < 2 || is_of_facets(shape, frame, group.order, value, limit))
             && mirror
                 .into_iter()
@@ -140,7 +136,7 @@ impl Query<'_> {
 
 /// How much there is beside the rotation: mirrors that contain the axis count most.
 fn rank(group: &Group) -> u32 {
-    2 * u32::from(group.has_vertical_mirrors()) + u32::from(group.turns_axis_over().is_some())
+    2 * u32::from(group.has_vertical_mirrors()) + u32::from(group.turning_over().is_some())
 }
 
 /// Kinds that may be left of one when some of its operations do not hold, the largest first.

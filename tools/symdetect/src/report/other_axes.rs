@@ -1,7 +1,6 @@
 //! Axes beside the main one.
 
 use crate::group::{Found, forward};
-use crate::point_group::Kind;
 use crate::rotation::{Query, Rotation};
 use crate::shape::Motion;
 use crate::verify::Depth;
@@ -32,16 +31,13 @@ impl Query<'_> {
             let residual = r.deviation.value / found.radius;
             add(r.frame.rotation.z_axis, r.order, residual);
         }
-        // Half turns lie along the mirrors, or between them.
-        let phase = match found.group.kind {
-            Kind::Dh | Kind::D => 0,
-            Kind::Dd => 1,
-            _ => return axes,
+        let Some(first) = found.group.half_turn_axis() else {
+            return axes;
         };
         let n = found.group.order;
         let residual = found.verified.deviation.value / found.radius;
         for k in 0..n {
-            let turn = Isometry::rotation(i64::from(2 * k + phase), 4 * n);
+            let turn = Isometry::rotation(i64::from(k), 2 * n).compose(first);
             add(found.frame.rotation * turn.apply(DVec3::X), 2, residual);
         }
         axes

@@ -1,6 +1,6 @@
 //! Moments of high degree in every direction, whose critical points are where symmetry axes can lie.
 
-use crate::tolerance::{ARITHMETIC, VANISHING};
+use crate::tolerance::VANISHING;
 use geom::eigen;
 use glam::{DMat3, DVec3};
 
@@ -9,6 +9,10 @@ use glam::{DMat3, DVec3};
 const STARTS: usize = 400;
 /// Newton steps after which a start is given up: within its basin, half a dozen suffice.
 const STEPS: usize = 40;
+/// Length of a step, in radians, after which there is nothing to gain: what double precision leaves of the gradient of
+/// a polynomial of degree eight. With ten times as much, points along curves of nearly critical points pass as well,
+/// each of which costs a search about it.
+const CONVERGED: f64 = 1e-13;
 /// Largest step, in radians: a fraction of the distance between neighbouring critical points.
 const LONGEST_STEP: f64 = 0.15;
 
@@ -142,7 +146,7 @@ impl DirectionalMoment {
             }
             let length = step.length();
             w = (w + step * (LONGEST_STEP / length).min(1.0)).normalize();
-            if length < ARITHMETIC {
+            if length < CONVERGED {
                 return Some(w);
             }
         }
