@@ -534,12 +534,14 @@ impl Side<'_> {
     /// Checks that first members are images of second ones.
     fn check_images(&self, other: &Template, found: &mut Collector) {
         let template = &self.document.templates[self.index];
-        let allowed = match self.gluing.is_seam(self.index) {
-            true => 0.0,
-            false => ROUNDING * self.extent,
-        };
+        let is_seam = self.gluing.is_seam(self.index);
         let placed = self.gluing.step.placed();
         for &[here, there] in &self.gluing.vertex_pairs {
+            // A vertex on the axis of the step is its own image only within rounding.
+            let allowed = match is_seam && here != there {
+                true => 0.0,
+                false => ROUNDING * self.extent,
+            };
             let image = placed.apply(other.vertices[there as usize]);
             let off = image - template.vertices[here as usize];
             if off.abs().max_element() > allowed {
