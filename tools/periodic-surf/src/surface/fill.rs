@@ -2,6 +2,7 @@
 
 use super::features::NONE;
 use super::maker::Maker;
+use super::pairing::facing;
 use super::planar::Patch;
 use super::plane::Plane;
 use crate::SurfaceError;
@@ -136,7 +137,7 @@ impl Maker<'_> {
             self.face_of
                 .push(face_key(self.pairings[pairing].wall, true));
             self.made.triangles.push(Triangle {
-                vertices: self.pairings[pairing].turned(corners),
+                vertices: facing(self.pairings[pairing].step, corners),
                 ..like
             });
         }
