@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use tmesh::Document;
 
 /// Most tetrahedra that may be asked for in a template: TetGen counts their corners in 32 bits.
-const MOST: f64 = 4e8;
+const MOST: f64 = i32::MAX as f64 / 4.0;
 
 /// How long finding the place of a failure may take at most. It is for the message only, and is worth about as much
 /// patience as reading it.

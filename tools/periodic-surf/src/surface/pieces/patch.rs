@@ -7,15 +7,19 @@ use spade::{
 };
 
 /// Triangles with smaller angles are improved where the outline allows it, degrees. Insertion of
-/// circumcentres ends for any bound below 30.
+/// circumcentres ends for any bound below 30, and takes many more points close to it.
 const MIN_ANGLE: f64 = 27.0;
 
-/// Sine of the turn up to which an outline counts as straight, and by how much it is bowed there, relative
-/// to its length.
-const STRAIGHT: f64 = 1e-10;
+/// Sine of the turn up to which three points count as on one line: that of points which the mesher has put on a straight
+/// edge, each off by [`mesher::ROUNDING`], at a tenth of the size.
+pub const STRAIGHT: f64 = 1e-10;
+
+/// How far a straight outline is bowed, relative to its length: the geometric mean of the size and of what rounding makes of
+/// it, so that the bow is seen by the triangulation and by nobody else.
 const BOW: f64 = 1e-8;
 
-/// Rounds of removing and inserting points at most.
+/// Rounds of removing and inserting points at most. Each inserts one point for every few triangles that are bad, so that
+/// their number halves about every round; what is left after these is outlines that allow nothing better.
 const ROUNDS: usize = 40;
 
 /// A flat facet in its own plane.
