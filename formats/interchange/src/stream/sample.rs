@@ -1,0 +1,54 @@
+//! A document that tests of writers write.
+
+use tmesh::Document;
+
+/// A tetrahedron with its surface, in a frame that is not the identity.
+pub fn test_document() -> Document {
+    use glam::DVec3;
+    use tmesh::{
+        Isometry, Marker, MirrorWall, OUTSIDE, Plane, Region, Template, Tet, Triangle, Wall,
+    };
+    let triangle = |vertices, marker| Triangle {
+        vertices,
+        marker,
+        front: OUTSIDE,
+        back: 7,
+    };
+    let mut document = Document::single(Template {
+        vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+        triangles: vec![
+            triangle([0, 2, 1], 0),
+            triangle([0, 1, 3], 2),
+            triangle([1, 2, 3], 2),
+            triangle([0, 3, 2], 2),
+        ],
+        tets: vec![Tet {
+            vertices: [0, 1, 2, 3],
+            region: 7,
+        }],
+        walls: vec![Wall::Mirror(MirrorWall {
+            name: "floor".to_owned(),
+            plane: Plane {
+                normal: -DVec3::Z,
+                offset: 0.0,
+            },
+            reflection: Isometry::new(0, 1, false, true),
+            vertices: vec![0, 1, 2],
+            triangles: vec![0],
+        })],
+        axis: vec![0, 3],
+    });
+    document.frame.origin = DVec3::X;
+    document.regions.push(Region {
+        id: 7,
+        name: "copper".to_owned(),
+        max_volume: None,
+        volume: None,
+    });
+    document.markers.push(Marker {
+        id: 2,
+        name: "top".to_owned(),
+        area: None,
+    });
+    document
+}
