@@ -25,18 +25,22 @@ help: ## list the targets
 setup: ## install what is missing: TetGen, a C++ compiler
 	@.ci/setup
 
+# All that is built in the release profile is built beside the tools, and no test with it: every library then has
+# the same features in each of these targets, and none of them compiles again what another has compiled.
+BUILD := $(CARGO) build --release --bins -p symtet
+
 build: setup ## build the tools, release profile, into target/release
-	$(CARGO) build --release --bins
+	$(BUILD)
 
 demo: setup ## mesh a through-silicon via of three materials, stage by stage, and report its quality
-	$(CARGO) build --release --bins --example body
+	$(BUILD) -p body
 	mkdir -p $(TARGET)/demo
 	$(MAKE) --no-print-directory -C $(TARGET)/demo -f $(CURDIR)/examples/flows/tsv.mk --always-make BIN=$(TARGET)/release/
 	@echo "The mesh is in $(TARGET)/demo/tsv.vtk, the stages beside it."
 
 test: setup ## run every test
 	@.ci/referee $(REFEREE)
-	$(CARGO) build --workspace --bins --examples
+	$(CARGO) build --workspace --bins --tests
 	REFEREE=$(REFEREE) $(CARGO) test --workspace
 
 fmt: ## check the formatting
@@ -70,8 +74,8 @@ JOBS ?= 1
 SOAK_OPTIONS ?=
 
 soak: setup ## send N=1000 random bodies through the whole pipe; goes on where it was interrupted
-	$(CARGO) build --release --bins --example soak
-	$(TARGET)/release/examples/soak run --count $(N) --seed $(SEED) --jobs $(JOBS) --binaries $(TARGET)/release --out $(TARGET)/soak $(SOAK_OPTIONS)
+	$(BUILD) -p soak
+	$(TARGET)/release/soak run --count $(N) --seed $(SEED) --jobs $(JOBS) --binaries $(TARGET)/release --out $(TARGET)/soak $(SOAK_OPTIONS)
 
 # How often each fault is injected, in units of what `make test` does.
 FAULTS ?= 20
@@ -84,7 +88,7 @@ BENCH := python3 examples/benchmark/bench.py
 BENCH_OPTIONS ?=
 
 bench-programs: setup
-	$(CARGO) build --release --bins --example body
+	$(BUILD) -p body
 
 bench: bench-programs ## measure pipe against direct mesh, every cell: hours; goes on where it was interrupted
 	$(BENCH) run --binaries $(TARGET)/release --out $(TARGET)/bench/full $(BENCH_OPTIONS)
@@ -101,7 +105,8 @@ bench-publish: ## copy the report of the full benchmark to examples/benchmark/re
 MANUAL := $(TARGET)/manual
 
 manual: setup ## write man pages and shell completions into target/manual
-	$(CARGO) run --quiet --release --example manual -- $(MANUAL)
+	$(BUILD) -p manual
+	$(TARGET)/release/manual $(MANUAL)
 
 install: build manual ## install the tools, their man pages and completions under PREFIX (default /usr/local)
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1

@@ -1,19 +1,12 @@
 //! The command line of `rotassemble`, over the real binary.
 
-#[allow(dead_code, unused_imports)]
-#[path = "../examples/body/generator/mod.rs"]
-mod generator;
-#[allow(dead_code)]
-#[path = "../tools/rotassemble/tests/common/structured.rs"]
-mod structured;
-
-use generator::{Encoding, Placement, Tessellation, Tsv};
+use bodies::structured::Structured;
+use bodies::{Encoding, Placement, Tessellation, Tsv};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
-use structured::Structured;
 use tmesh::{Document, Outside};
 
 fn wedge() -> Structured {
@@ -133,7 +126,7 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
     place.apply(&mut body);
     let mut meshed = Vec::new();
     let exact = Encoding::StlAscii { digits: None };
-    generator::write(&body, exact, &mut meshed).unwrap();
+    bodies::write(&body, exact, &mut meshed).unwrap();
     let (tools, cut) = (
         [
             env!("CARGO_BIN_EXE_symdetect"),

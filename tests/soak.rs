@@ -1,20 +1,8 @@
 //! A few random bodies of the soak test through the whole pipe; `make soak` takes many more.
 
-#[path = "../examples/soak/dice.rs"]
-mod dice;
-#[path = "../examples/body/generator/mod.rs"]
-#[allow(dead_code, unused_imports)]
-mod generator;
-#[path = "../examples/soak/solid/mod.rs"]
-#[allow(dead_code)]
-mod solid;
-#[path = "../examples/soak/trial/mod.rs"]
-#[allow(dead_code)]
-mod trial;
-
+use soak::{Laboratory, Verdict};
 use std::path::Path;
 use std::time::Duration;
-use trial::{Laboratory, Verdict};
 
 /// Bodies for which something was mended.
 const MENDED: [u64; 12] = [

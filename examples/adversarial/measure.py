@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Time and memory of the tools on the bodies of this folder, at sizes that double, with growth exponents.
 
-    cargo build --release --bins --example adversarial
+    cargo build --release --bins -p symtet -p adversarial
     python3 examples/adversarial/measure.py target/release [--sizes 50000,100000,200000] [--shape circle]
 
 Time is processor time of the tool and its children, memory the peak of the tool alone. An exponent of 1 is
@@ -54,7 +54,7 @@ def main():
             with tempfile.TemporaryDirectory() as folder:
                 at = lambda name: os.path.join(folder, name)
                 with open(at("body.off"), "wb") as out:
-                    subprocess.run([os.path.join(options.binaries, "examples/adversarial"), shape, str(n)],
+                    subprocess.run([os.path.join(options.binaries, "adversarial"), shape, str(n)],
                                    stdout=out, check=True)
                 for tool, source, arguments, target in STAGES:
                     if tool not in options.stages or not os.path.exists(at(source)):

@@ -84,7 +84,7 @@ def make_body(options, arguments, folder):
     """Writes body.stl, somewhere in space, and body.poly, its axis on z, into a clean folder."""
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    program = os.path.join(options.binaries, "examples", "body")
+    program = os.path.join(options.binaries, "body")
     for extra in (PLACEMENT + ["--to", "ascii", "-o", "body.stl"], ["-o", "body.poly"]):
         subprocess.run([program, *arguments, *extra], cwd=folder, check=True)
 
@@ -260,7 +260,7 @@ def open_results(options):
 def open_direct(options):
     """Direct runs made ahead; they do not depend on the tools, only on the bodies."""
     os.makedirs(options.out, exist_ok=True)
-    bodies = machine.fingerprint(os.path.join(options.binaries, "examples"), ("body",))
+    bodies = machine.fingerprint(options.binaries, ("body",))
     header = {"kind": "header", "machine": machine.describe(), "binaries": bodies}
     return Results(os.path.join(options.out, "direct.jsonl"), header)
 

@@ -15,8 +15,8 @@ SHELL := bash
 
 # Folder of the tools, with a slash at the end; nothing takes them from PATH.
 BIN ?=
-# Generator of the bodies: `cargo build --release --example body`.
-BODY ?= $(BIN)examples/body
+# Generator of the bodies: `cargo build --release -p body`.
+BODY ?= $(BIN)body
 
 # Options of each stage; a flow sets what its device needs.
 SYMDETECT_FLAGS ?=

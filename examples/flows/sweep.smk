@@ -17,7 +17,7 @@ import csv
 import json
 
 BIN = config.get("bin", "")
-BODY = config.get("body", BIN + "examples/body")
+BODY = config.get("body", BIN + "body")
 DEVICES = config.get("devices") or {
     **{f"gear-{n}": f"gear --order {n} --height 0.3" for n in (8, 12, 24, 30)},
     **{f"tsv-{n}": f"tsv --order {n} --thickness 5e-3" for n in (8, 16, 32)},

@@ -1,10 +1,11 @@
 //! Frequencies of one sector, by CalculiX, against those of the whole: with cyclic symmetry, and with
 //! conditions at mirror planes.
 
-use crate::generator::{Body, Encoding, Gear, Impeller, Placement, Ratchet, Tessellation};
-use crate::tools::{coarse_mesh, encode, rotassemble};
+use crate::tools::{coarse_mesh, rotassemble};
+use bodies::{Body, Encoding, Gear, Impeller, Placement, Ratchet, Tessellation};
 use std::path::Path;
 use std::process::Command;
+use support::encode;
 
 const MATERIAL: &str = "*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.8e-9\n\
                         *SOLID SECTION, ELSET=all-elements, MATERIAL=steel\n";

@@ -1,14 +1,7 @@
 //! The flow that solves for heat in a via with CalculiX.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
-
-/// The generator of bodies, which cargo builds beside the tests.
-pub fn generator() -> PathBuf {
-    let test = std::env::current_exe().expect("a test knows where it is");
-    let profile = test.parent().and_then(Path::parent);
-    profile.expect("target/profile/deps").join("examples/body")
-}
 
 #[test]
 fn a_sector_is_as_warm_as_the_whole() {
@@ -16,19 +9,12 @@ fn a_sector_is_as_warm_as_the_whole() {
         println!("skipped: CalculiX (ccx) is not installed; run make test as root");
         return;
     }
-    let flow = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/flows/heat.mk");
-    let tools = Path::new(env!("CARGO_BIN_EXE_symdetect")).parent();
     for order in ["", "--second-order"] {
         let folder = tempfile::tempdir().expect("a folder");
-        let output = Command::new("make")
-            .current_dir(folder.path())
-            .args(["-f", flow, "ORDER=6", "THICKNESS=0.05", "EDGE=0.2"])
-            .arg(format!("BIN={}/", tools.expect("a folder").display()))
-            .arg(format!("BODY={}", generator().display()))
+        let output = support::make(folder.path(), "heat.mk")
+            .args(["ORDER=6", "THICKNESS=0.05", "EDGE=0.2"])
             .arg(format!("ROTASSEMBLE_FLAGS={order}"))
             .env("OMP_NUM_THREADS", "1")
-            .env_remove("MAKEFLAGS")
-            .env_remove("MAKELEVEL")
             .output()
             .expect("make is installed");
         let text = [output.stdout, output.stderr].concat();

@@ -3,10 +3,6 @@
 //! `make test` installs meshio, VTK and Gmsh into the folder that REFEREE names, and CalculiX. Without
 //! them these tests check nothing and say so.
 
-#[allow(dead_code, unused_imports)]
-#[path = "../../examples/body/generator/mod.rs"]
-mod generator;
-
 mod boundary;
 mod calculix;
 mod heat;
@@ -15,14 +11,15 @@ mod referee;
 mod sweep;
 mod tools;
 
-use generator::{Encoding, Impeller, Placement, Tessellation, Tsv};
+use bodies::{Encoding, Impeller, Placement, Tessellation, Tsv};
 use referee::{Job, close, read};
 use serde_json::Value;
 use std::path::Path;
-use tools::{EXACT_STL, encode, mesh, rotassemble};
+use support::{EXACT_STL, encode};
+use tools::{mesh, rotassemble};
 
 /// A via of three materials, placed anyhow.
-fn via() -> generator::Body {
+fn via() -> bodies::Body {
     let mut body = Tsv {
         order: 8,
         radius: 1.0,

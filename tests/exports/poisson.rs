@@ -1,7 +1,5 @@
 //! The flow that takes a gear through Gmsh's reader into dolfinx.
 
-use crate::heat::generator;
-use std::path::Path;
 use std::process::Command;
 
 /// A Python that has dolfinx, which comes with the system and not by pip.
@@ -19,21 +17,14 @@ fn dolfinx_reads_volumes_and_names_on_several_ranks() {
         println!("skipped: no Python with dolfinx and gmsh (python3-dolfinx, python3-gmsh)");
         return;
     };
-    let flow = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/flows/poisson.mk");
-    let tools = Path::new(env!("CARGO_BIN_EXE_symdetect")).parent();
     let folder = tempfile::tempdir().expect("a folder");
-    let output = Command::new("make")
-        .current_dir(folder.path())
-        .args(["-f", flow, "TEETH=7", "VOLUME=1e-2"])
+    let output = support::make(folder.path(), "poisson.mk")
+        .args(["TEETH=7", "VOLUME=1e-2"])
         .arg(format!("PYTHON={python}"))
-        .arg(format!("BIN={}/", tools.expect("a folder").display()))
-        .arg(format!("BODY={}", generator().display()))
         // Open MPI as root.
         .env("OMPI_ALLOW_RUN_AS_ROOT", "1")
         .env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
         .env("OMP_NUM_THREADS", "1")
-        .env_remove("MAKEFLAGS")
-        .env_remove("MAKELEVEL")
         .output()
         .expect("make is installed");
     let text = [output.stdout, output.stderr].concat();

@@ -1,6 +1,5 @@
 //! Many devices by a workflow engine.
 
-use crate::heat::generator;
 use crate::referee::python;
 use std::path::Path;
 use std::process::Command;
@@ -23,7 +22,6 @@ fn devices_of_a_sweep_are_in_its_table() {
         println!("skipped: Snakemake is not installed; run make test");
         return;
     }
-    let tools = Path::new(env!("CARGO_BIN_EXE_symdetect")).parent();
     let output = snakemake(
         &[
             "--snakefile",
@@ -31,8 +29,8 @@ fn devices_of_a_sweep_are_in_its_table() {
             "--cores",
             "2",
             "--config",
-            &format!("bin={}/", tools.expect("a folder").display()),
-            &format!("body={}", generator().display()),
+            &format!("bin={}/", support::binaries().display()),
+            &format!("body={}", support::generator().display()),
             "size=--edge-length 0.3",
             "devices={\"gear-9\": \"gear --order 9\", \"solid\": \"tsv --order 16 --thickness 0.05\"}",
         ],

@@ -1,22 +1,12 @@
 //! Running the tools.
 
-use crate::generator::{self, Body, Encoding};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-
-/// ASCII STL with all digits.
-pub const EXACT_STL: Encoding = Encoding::StlAscii { digits: None };
-
-/// A body in a file format.
-pub fn encode(body: &Body, encoding: Encoding) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    generator::write(body, encoding, &mut bytes).expect("the encoding can hold the body");
-    bytes
-}
+use support::binary;
 
 #[track_caller]
-fn run(tool: &str, path: &str, arguments: &[&str], input: &Path, output: &Path) {
-    let result = Command::new(path)
+fn run(tool: &str, arguments: &[&str], input: &Path, output: &Path) {
+    let result = Command::new(binary(tool))
         .arg("-q")
         .args(arguments)
         .arg(input)
@@ -47,37 +37,17 @@ fn stages(folder: &Path, surface: &[u8], cut: &[&str], graded: bool) -> PathBuf 
     let input = path("surface");
     std::fs::write(&input, surface).expect("a file");
     let mut before = input;
-    for (tool, binary, arguments, name) in [
-        (
-            "symdetect",
-            env!("CARGO_BIN_EXE_symdetect"),
-            &[][..],
-            "detected.tmesh",
-        ),
-        (
-            "wedgecut",
-            env!("CARGO_BIN_EXE_wedgecut"),
-            cut,
-            "wedge.tmesh",
-        ),
-        (
-            "periodic-surf",
-            env!("CARGO_BIN_EXE_periodic-surf"),
-            &[],
-            "surface.tmesh",
-        ),
-        (
-            "tetwedge",
-            env!("CARGO_BIN_EXE_tetwedge"),
-            &[],
-            "mesh.tmesh",
-        ),
+    for (tool, arguments, name) in [
+        ("symdetect", &[][..], "detected.tmesh"),
+        ("wedgecut", cut, "wedge.tmesh"),
+        ("periodic-surf", &[], "surface.tmesh"),
+        ("tetwedge", &[], "mesh.tmesh"),
     ] {
         if tool == "periodic-surf" && !graded {
             continue;
         }
         let after = path(name);
-        run(tool, binary, arguments, &before, &after);
+        run(tool, arguments, &before, &after);
         before = after;
     }
     before
@@ -86,7 +56,7 @@ fn stages(folder: &Path, surface: &[u8], cut: &[&str], graded: bool) -> PathBuf 
 /// Runs `rotassemble`, which must succeed.
 #[track_caller]
 pub fn rotassemble(input: &Path, arguments: &[&str]) {
-    let result = Command::new(env!("CARGO_BIN_EXE_rotassemble"))
+    let result = Command::new(binary("rotassemble"))
         .arg("-q")
         .args(arguments)
         .arg(input)

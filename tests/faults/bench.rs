@@ -1,14 +1,14 @@
 //! Where faults are injected: an input and the right answer of each stage, folders, and the count of
 //! what went wrong.
 
-use crate::generator::random::Random;
-use crate::generator::{Gear, Tessellation};
-use crate::support::{EXACT_STL, TOOLS, binary, encode, run};
+use bodies::Random;
+use bodies::{Gear, Tessellation};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
+use support::{EXACT_STL, TOOLS, binary, encode, run};
 use tempfile::TempDir;
 
 /// A stage of the pipe, what it works on, and what it makes of it.

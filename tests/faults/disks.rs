@@ -1,8 +1,8 @@
 //! Disks that are full, at any point of an output.
 
 use crate::bench::{Place, Stage, Tally, refused, shares, stages, times};
-use crate::support::binary;
 use std::process::{Command, Output, Stdio};
+use support::binary;
 
 /// Runs a stage under a limit on the size of files, in units of 1024 bytes.
 fn limited(stage: &Stage, place: &Place, kibibytes: u64, ignored: bool) -> Output {

@@ -1,9 +1,9 @@
 //! Inputs that cannot be read to their end, and outputs that are in use.
 
 use crate::bench::{Place, Tally, refused, stages, times};
-use crate::support::binary;
 use std::fs;
 use std::process::Command;
+use support::binary;
 
 #[test]
 fn inputs_that_fail_to_be_read() {

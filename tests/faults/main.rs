@@ -5,13 +5,6 @@
 //! Every test prints a line per kind of fault and stage. `FAULTS=N` runs each fault N times as often;
 //! `make faults` does, and shows the lines.
 
-#[path = "../../examples/body/generator/mod.rs"]
-#[allow(dead_code, unused_imports)]
-mod generator;
-#[path = "../flows/support.rs"]
-#[allow(dead_code)]
-mod support;
-
 mod bench;
 mod disks;
 mod inputs;

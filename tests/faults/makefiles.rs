@@ -1,7 +1,6 @@
 //! A flow that is interrupted: what stands there is whole, and make goes on where it was.
 
 use crate::bench::{Tally, shares, times};
-use crate::support::binary;
 use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::process::CommandExt;
@@ -12,20 +11,8 @@ use std::time::{Instant, SystemTime};
 
 /// Starts make on two gears, side by side, in a process group of its own as a shell does.
 fn start(folder: &Path) -> Child {
-    let flow = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/flows/gear.mk");
-    let tools = binary("symdetect").parent().expect("a folder");
-    let test = std::env::current_exe().expect("a test knows where it is");
-    let profile = test.parent().and_then(Path::parent);
-    let body = profile.expect("target/profile/deps").join("examples/body");
-    Command::new("make")
-        .current_dir(folder)
-        .arg("-f")
-        .arg(flow)
-        .arg(format!("BIN={}/", tools.display()))
-        .arg(format!("BODY={}", body.display()))
+    support::make(folder, "gear.mk")
         .args(["-j2", "TEETH=8 10"])
-        .env_remove("MAKEFLAGS")
-        .env_remove("MAKELEVEL")
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .process_group(0)

@@ -1,11 +1,11 @@
 //! A mesher that aborts, crashes, hangs or runs out of memory: TetGen's process is found and hit.
 
 use crate::bench::{Place, Stage, Tally, refused, stages, times};
-use crate::support::binary;
 use std::fs;
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
+use support::binary;
 
 /// More elements than anybody waits for.
 const LONG: [&str; 2] = ["--max-volume", "1e-9"];

@@ -1,10 +1,10 @@
 //! Pipes whose ends break or trickle.
 
 use crate::bench::{Stage, Tally, refused, shares, stages, times};
-use crate::support::{binary, run};
 use std::io::{Read, Write};
 use std::process::{Child, Command, Stdio};
 use std::thread;
+use support::{binary, run};
 
 /// Starts a stage with pipes at all ends.
 fn piped(stage: &Stage) -> Child {
@@ -149,7 +149,7 @@ fn nobody_hears_the_messages() {
             let mut command = Command::new("bash");
             command.args(["-c", &script]).arg(binary(stage.tool));
             command.args(stage.arguments);
-            let outcome = crate::support::finish(stage.tool, command, input);
+            let outcome = support::finish(stage.tool, command, input);
             tally.add(match outcome.code == wanted {
                 true => Ok(()),
                 false => Err(format!("{redirect}: exit {}", outcome.code)),

@@ -1,10 +1,10 @@
 //! Stages that are ended by signals at random moments.
 
 use crate::bench::{Place, Tally, shares, stages, times};
-use crate::support::binary;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Stdio};
 use std::thread;
+use support::binary;
 
 fn ended_by(name: &'static str, number: i32) {
     let mut share = shares(number as u64);

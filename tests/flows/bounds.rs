@@ -1,14 +1,12 @@
 //! Hostile sizes: inputs of the kinds that make programs slow or large, and limits on memory.
 
-#[path = "../../examples/adversarial/shapes.rs"]
-mod shapes;
-
 use crate::failures::gear;
-use crate::generator::Encoding;
-use crate::support::{Outcome, binary, encode, finish, run};
+use bodies::Encoding;
+use bodies::adversarial as shapes;
 use interchange::{Format, write_document};
 use std::process::Command;
 use std::time::{Duration, Instant};
+use support::{Outcome, binary, encode, finish, run};
 
 /// Memory that reading may take, as the README says: so many bytes per byte of the file, and so many
 /// whatever its size.

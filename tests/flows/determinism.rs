@@ -1,9 +1,9 @@
 //! The same bytes from the same input: in every run, with any number of threads, and on processors with and
 //! without vector and fused instructions.
 
-use crate::generator::{Body, Gear, Placement, Ratchet, Tessellation, Tsv};
-use crate::support::{EXACT_STL, Outcome, binary, encode, finish};
+use bodies::{Body, Gear, Placement, Ratchet, Tessellation, Tsv};
 use std::process::Command;
+use support::{EXACT_STL, Outcome, binary, encode, finish};
 
 /// What glibc's functions such as `sin` are computed without: they have a version for processors with fused
 /// multiplication, which differs in the last bit.

@@ -1,8 +1,8 @@
 //! What is asked of the elements, and what comes out.
 
-use crate::generator::{Body, Coating, Prism, Tessellation};
-use crate::support::{EXACT_STL, encode, run};
+use bodies::{Body, Coating, Prism, Tessellation};
 use serde_json::Value;
+use support::{EXACT_STL, encode, run};
 
 fn bodies() -> [(&'static str, Body); 2] {
     let tessellation = Tessellation::Symmetric;

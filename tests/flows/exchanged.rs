@@ -1,9 +1,9 @@
 //! Bodies whose rotation exchanges regions: two parts that follow each other around the axis.
 
-use crate::generator::{Body, Face, Tessellation, cube};
-use crate::support::{EXACT_STL, encode, pipe, run};
+use bodies::{Body, Face, Tessellation, cube};
 use glam::DVec3;
 use serde_json::Value;
+use support::{EXACT_STL, encode, pipe, run};
 
 /// `2 n` blocks around the axis, of two parts by turns; `shift`, in steps between blocks, turns all.
 fn blocks(n: u32, shift: f64) -> Body {

@@ -1,12 +1,12 @@
 //! What goes wrong, tool by tool: exit code, one message, empty standard output, the output file
 //! untouched.
 
-use crate::generator::{Body, Encoding, Face, Gear, Placement, Prism, Tessellation, cube};
-use crate::support::{EXACT_STL, Outcome, TOOLS, binary, encode, finish, pipe, run};
+use bodies::{Body, Encoding, Face, Gear, Placement, Prism, Tessellation, cube};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
+use support::{EXACT_STL, Outcome, TOOLS, binary, encode, finish, pipe, run};
 
 const PYRAMID: &[u8] = include_bytes!("../../formats/tmesh/tests/golden/pyramid.tmesh");
 

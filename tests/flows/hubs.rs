@@ -1,10 +1,10 @@
 //! Hubs: the column around the axis as a template of its own, and the order that is chosen.
 
-use crate::generator::{Body, Gear, Impeller, Placement, Prism, Ratchet, Tessellation, Tsv};
-use crate::support::{EXACT_STL, encode, run};
+use bodies::{Body, Gear, Impeller, Placement, Prism, Ratchet, Tessellation, Tsv};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use serde_json::Value;
+use support::{EXACT_STL, encode, run};
 use tmesh::{Document, Wall};
 
 fn read(bytes: &[u8]) -> Document {

@@ -1,33 +1,11 @@
 //! The flows of `examples/flows`, run by make.
 
-use crate::support::binary;
-use std::path::{Path, PathBuf};
-use std::process::Command;
-
-/// The generator of bodies, which cargo builds beside the tests.
-fn generator() -> PathBuf {
-    let test = std::env::current_exe().expect("a test knows where it is");
-    let profile = test
-        .parent()
-        .and_then(Path::parent)
-        .expect("target/profile/deps");
-    profile.join("examples/body")
-}
+use std::path::Path;
 
 /// Runs make on a flow; returns whether it succeeded and what it said.
 fn make(folder: &Path, flow: &str, arguments: &[&str]) -> (bool, String) {
-    let flows = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/flows");
-    let tools = binary("symdetect").parent().expect("a folder");
-    let output = Command::new("make")
-        .current_dir(folder)
-        .arg("-f")
-        .arg(flows.join(flow))
-        .arg(format!("BIN={}/", tools.display()))
-        .arg(format!("BODY={}", generator().display()))
+    let output = support::make(folder, flow)
         .args(arguments)
-        // As typed by hand, whoever runs the tests.
-        .env_remove("MAKEFLAGS")
-        .env_remove("MAKELEVEL")
         .output()
         .expect("make is installed");
     let text = [output.stdout, output.stderr].concat();

@@ -1,11 +1,11 @@
 //! The whole pipe on bodies whose symmetry, regions and volumes are known.
 
-use crate::generator::{
+use bodies::{
     Body, Coating, Encoding, Gear, Impeller, Placement, PracticalTsv, Prism, Ratchet, Tessellation,
     Tsv, cube,
 };
-use crate::support::{EXACT_STL, encode, pipe, run};
 use serde_json::Value;
+use support::{EXACT_STL, encode, pipe, run};
 
 /// Stages up to the meshed wedge.
 const MESH: [&[&str]; 4] = [

@@ -3,11 +3,11 @@
 //! `make test` installs both into the folder that REFEREE names. Without them these tests check
 //! nothing and say so.
 
-use crate::generator::{Placement, Tessellation, Tsv};
-use crate::support::{EXACT_STL, binary, encode, pipe};
+use bodies::{Placement, Tessellation, Tsv};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use support::{EXACT_STL, binary, encode, pipe};
 
 /// Reads a file with both libraries and prints points, tetrahedra, and volume per region as JSON.
 const SCRIPT: &str = r#"

@@ -1,11 +1,11 @@
 //! Wedges without mirrors: their surface as `periodic-surf` makes it, and what becomes of it.
 
-use crate::generator::{Body, Impeller, Placement, Prism, Ratchet, Tessellation};
-use crate::support::{EXACT_STL, encode, run};
+use bodies::{Body, Impeller, Placement, Prism, Ratchet, Tessellation};
 use geom::measure::region_volume;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::collections::HashSet;
+use support::{EXACT_STL, encode, run};
 use tmesh::{Document, Seam, Template, Wall};
 
 fn read(bytes: &[u8]) -> Document {
@@ -223,6 +223,6 @@ fn failures_of_the_surface() {
         run(&bad).fails(2, &[bad[0]]);
     }
     let surface = run(&["-q", "--edge-length", "0.3"]).success();
-    let filled = crate::support::run("tetwedge", &["-q"], &surface).success();
-    crate::support::run("periodic-surf", &["-q"], &filled).fails(3, &["tetrahedra"]);
+    let filled = support::run("tetwedge", &["-q"], &surface).success();
+    support::run("periodic-surf", &["-q"], &filled).fails(3, &["tetrahedra"]);
 }

@@ -1,11 +1,11 @@
 //! Chiral bodies drawn with facets that do not share their symmetry: the two sections of a wedge are
 //! different drawings of one curve.
 
-use crate::generator::{Body, Face, Placement, Ratchet, Screw, Tessellation};
-use crate::support::{EXACT_STL, encode, run};
+use bodies::{Body, Face, Placement, Ratchet, Screw, Tessellation};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use support::{EXACT_STL, encode, run};
 use tmesh::{Document, Wall};
 
 fn screw(order: u32, facets: u32, drawing: u64, coating: f64) -> Body {

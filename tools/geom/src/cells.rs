@@ -8,8 +8,9 @@
 
 use crate::edges::Edges;
 use crate::measure::tet_volume;
-use crate::sides::{SideComponents, UnionFind, side_components};
-use crate::tree::{Direction, Met, Tree};
+use crate::sets::DisjointSets;
+use crate::sides::{SideComponents, side_components};
+use crate::tree::{Direction, Met, Rays};
 use glam::DVec3;
 use std::cell::OnceCell;
 
@@ -23,7 +24,7 @@ pub struct Cells<'a> {
     /// Cell of each side: front of triangle `t` at `2 t`, back at `2 t + 1`.
     side: Vec<u32>,
     count: usize,
-    tree: OnceCell<Tree<'a>>,
+    rays: OnceCell<Rays<'a>>,
 }
 
 /// Where a point lies.
@@ -47,12 +48,12 @@ impl<'a> Cells<'a> {
             triangles,
             side: Vec::new(),
             count: 0,
-            tree: OnceCell::new(),
+            rays: OnceCell::new(),
         };
         let (shell, shells) = shells(&sides);
         let outer = outer_components(vertices, triangles, &sides, &shell, shells);
         // Component i is set i + 1; set 0 is what lies beyond everything.
-        let mut sets = UnionFind::new(sides.count + 1);
+        let mut sets = DisjointSets::new(sides.count + 1);
         if shells == 1 {
             sets.join(0, outer[0] + 1);
         } else {
@@ -64,7 +65,7 @@ impl<'a> Cells<'a> {
                 sets.join(outer[s] + 1, around.map_or(0, |c| c + 1));
             }
         }
-        let (label, count) = sets.labels();
+        let (label, count) = sets.numbered();
         cells.side = sides
             .component
             .iter()
@@ -92,7 +93,7 @@ impl<'a> Cells<'a> {
     /// The cell a point lies in, by a ray to the next triangle; exact but for the order of triangles
     /// whose distances from the point agree to rounding. O(log n) where few boxes overlap.
     pub fn locate(&self, point: DVec3) -> Place {
-        match self.tree().nearest(point, Direction::ALL[0], |_| true) {
+        match self.rays().nearest(point, Direction::ALL[0], |_| true) {
             Met::Nothing => Place::Cell(Self::UNBOUNDED),
             Met::Touches(t) => Place::Triangle(t),
             Met::Hit(hit) if hit.front => Place::Cell(self.front(hit.triangle as usize)),
@@ -100,9 +101,9 @@ impl<'a> Cells<'a> {
         }
     }
 
-    fn tree(&self) -> &Tree<'a> {
-        self.tree
-            .get_or_init(|| Tree::new(self.vertices, self.triangles, |_| 0))
+    fn rays(&self) -> &Rays<'a> {
+        self.rays
+            .get_or_init(|| Rays::new(self.vertices, self.triangles))
     }
 
     /// For each shell, the component of another shell's sides that bounds the same cell as the
@@ -140,7 +141,7 @@ impl<'a> Cells<'a> {
                     }
                     let from = self.vertices[*extreme as usize];
                     let other = |t: u32| shell[t as usize] != s as u32;
-                    match self.tree().nearest(from, along, other) {
+                    match self.rays().nearest(from, along, other) {
                         Met::Nothing => return None,
                         Met::Hit(hit) => return Some(seen(hit.triangle, hit.front)),
                         Met::Touches(_) => {}
@@ -171,7 +172,7 @@ impl<'a> Cells<'a> {
         let from = (a + b + c) / 3.0;
         let other = |t: u32| shell[t as usize] != s;
         let mut passed = rustc_hash::FxHashSet::default();
-        for hit in self.tree().all(from, Direction::ALL[0], other) {
+        for hit in self.rays().all(from, Direction::ALL[0], other) {
             let component = seen(hit.triangle, hit.front);
             let around = shell[hit.triangle as usize];
             if passed.insert(around) && component != outer[around as usize] {
@@ -210,11 +211,11 @@ impl<'a> Cells<'a> {
 /// Shell of each triangle: pieces connected through edges; and their number.
 fn shells(sides: &SideComponents) -> (Vec<u32>, usize) {
     let triangles = sides.component.len() / 2;
-    let mut sets = UnionFind::new(sides.count);
+    let mut sets = DisjointSets::new(sides.count);
     for t in 0..triangles {
         sets.join(sides.front(t), sides.back(t));
     }
-    let (label, count) = sets.labels();
+    let (label, count) = sets.numbered();
     let shell = (0..triangles)
         .map(|t| label[sides.front(t) as usize])
         .collect();

@@ -1,8 +1,8 @@
 //! Where triangles meet in any other way than in common vertices and edges.
 
 use crate::alignment::alignment;
-use crate::edges::orientation;
-use crate::tree::Tree;
+use crate::predicate::orientation;
+use crate::tree::pairs;
 use glam::DVec3;
 use robust::{Coord, orient2d};
 
@@ -39,21 +39,19 @@ pub fn contacts(
     group: impl Fn(u32) -> u32,
     mut found: impl FnMut(Contact) -> bool,
 ) -> Search {
-    // Boxes only sort out pairs: they may be those of another frame, if a little larger.
     let corners = |t: usize| triangles[t].map(|v| vertices[v as usize]);
-    let turned: Vec<DVec3>;
-    let tree = match alignment(triangles.len(), corners) {
-        Some(frame) => {
-            turned = vertices.iter().map(|p| frame * *p).collect();
-            let used = triangles.iter().flatten().map(|&v| vertices[v as usize]);
-            let extent = used.fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
-            Tree::new(&turned, triangles, &group).with_margin(ROUNDING * extent)
-        }
-        None => Tree::new(vertices, triangles, &group),
-    };
+    // Boxes only sort out pairs: they may be those of another frame, if a little larger.
+    let frame = alignment(triangles.len(), corners);
+    let used = triangles.iter().flatten().map(|&v| vertices[v as usize]);
+    let extent = used.fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
+    let margin = frame.map_or(0.0, |_| ROUNDING * extent);
+    let boxes = (0..triangles.len()).map(|t| {
+        let [a, b, c] = corners(t).map(|p| frame.map_or(p, |frame| frame * p));
+        [a.min(b).min(c) - margin, a.max(b).max(c) + margin]
+    });
     let mut left = 1000 * triangles.len() as u64 + 10_000_000;
     let mut end = Search::Done;
-    tree.pairs(&group, |s, t| {
+    pairs(boxes, &group, |s, t| {
         left -= 1;
         if left == 0 {
             end = Search::GaveUp;

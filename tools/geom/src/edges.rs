@@ -1,22 +1,9 @@
 //! Edges of a triangle complex and the triangles around them, in angular order.
 
+pub use crate::predicate::orientation;
 use glam::DVec3;
-use robust::{Coord3D, orient3d};
 use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
-
-/// Exact sign of the orientation of four points: positive when `d` lies on the side of the plane
-/// `a b c` that the normal `(b - a) x (c - a)` points to.
-///
-/// Shewchuk's adaptive predicate (crate `robust`), with the sign of [`crate::measure::tet_volume`].
-pub fn orientation(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
-    let p = |v: DVec3| Coord3D {
-        x: v.x,
-        y: v.y,
-        z: v.z,
-    };
-    -orient3d(p(a), p(b), p(c), p(d))
-}
 
 /// Undirected edges of a triangle list, each with the triangles around it.
 pub struct Edges {
@@ -123,6 +110,64 @@ impl Edges {
     }
 }
 
+/// The triangles next to each triangle.
+pub struct Across {
+    /// Of each corner, the triangle beyond the edge from it to the next corner, or [`NONE`].
+    beyond: Vec<[u32; 3]>,
+}
+
+/// No triangle beyond an edge.
+const NONE: u32 = u32::MAX;
+
+impl Across {
+    /// Number of triangles.
+    pub fn len(&self) -> usize {
+        self.beyond.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.beyond.is_empty()
+    }
+
+    /// The triangles next to a triangle, at most three.
+    pub fn of(&self, triangle: u32) -> impl Iterator<Item = u32> + use<> {
+        let beyond = self.beyond[triangle as usize];
+        beyond.into_iter().filter(|&t| t != NONE)
+    }
+
+    /// The triangle beyond the edge from a corner (0, 1, 2) to the next.
+    pub fn beyond(&self, triangle: u32, corner: usize) -> Option<u32> {
+        Some(self.beyond[triangle as usize][corner]).filter(|&t| t != NONE)
+    }
+}
+
+impl Edges {
+    /// Neighbours over edges with exactly two triangles.
+    fn neighbours(&self, accept: impl Fn(&EdgeUse, &EdgeUse) -> bool) -> Across {
+        let mut beyond = vec![[NONE; 3]; self.uses.len() / 3];
+        for edge in 0..self.len() {
+            if let [u, v] = self.around(edge)
+                && accept(u, v)
+            {
+                beyond[u.triangle as usize][u.corner as usize] = v.triangle;
+                beyond[v.triangle as usize][v.corner as usize] = u.triangle;
+            }
+        }
+        Across { beyond }
+    }
+
+    /// Neighbours over edges with exactly two triangles that are wound alike.
+    pub fn across(&self) -> Across {
+        self.neighbours(|u, v| u.forward != v.forward)
+    }
+
+    /// Neighbours over edges with exactly two triangles, however these are wound.
+    pub fn across_any(&self) -> Across {
+        self.neighbours(|_, _| true)
+    }
+}
+
 /// The vertex of a triangle opposite to the edge that begins at `corner`.
 pub fn apex_of(triangle: &[u32; 3], corner: u8) -> u32 {
     triangle[(corner as usize + 2) % 3]
@@ -173,12 +218,5 @@ mod tests {
             .map(|u| angles[u.triangle as usize])
             .collect();
         assert_eq!(order, [0.0, 10.0, 89.9999999, 90.0, 180.0, 200.0, 300.0]);
-    }
-
-    #[test]
-    fn orientation_has_the_sign_of_the_volume() {
-        let (a, b, c, d) = (DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z);
-        assert!(orientation(a, b, c, d) > 0.0);
-        assert!(crate::measure::tet_volume(a, b, c, d) > 0.0);
     }
 }

@@ -5,6 +5,7 @@
 //! a cell with cavities has several components.
 
 use crate::edges::{EdgeUse, Edges};
+use crate::sets::DisjointSets;
 use glam::DVec3;
 
 /// Component of every triangle side.
@@ -44,7 +45,7 @@ pub fn side_components(
     triangles: &[[u32; 3]],
     edges: &Edges,
 ) -> SideComponents {
-    let mut sets = UnionFind::new(2 * triangles.len());
+    let mut sets = DisjointSets::new(2 * triangles.len());
     for edge in 0..edges.len() {
         let fan = edges.sorted_around(edge, triangles, vertices);
         for (i, u) in fan.iter().enumerate() {
@@ -52,52 +53,8 @@ pub fn side_components(
             sets.join(side(u, true), side(next, false));
         }
     }
-    let (component, count) = sets.labels();
+    let (component, count) = sets.numbered();
     SideComponents { component, count }
-}
-
-/// Disjoint sets with path halving; joins towards the smaller index, so labels are deterministic.
-pub struct UnionFind(Vec<u32>);
-
-impl UnionFind {
-    /// `n` singletons.
-    pub fn new(n: usize) -> Self {
-        Self((0..n as u32).collect())
-    }
-
-    /// Representative: the smallest member of the set.
-    pub fn find(&mut self, mut x: u32) -> u32 {
-        while self.0[x as usize] != x {
-            let up = self.0[self.0[x as usize] as usize];
-            self.0[x as usize] = up;
-            x = up;
-        }
-        x
-    }
-
-    /// Joins the sets of two members; returns whether they were apart.
-    pub fn join(&mut self, a: u32, b: u32) -> bool {
-        let (a, b) = (self.find(a), self.find(b));
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        self.0[high as usize] = low;
-        a != b
-    }
-
-    /// Numbers the sets 0, 1, ... in order of their smallest member: label per member, and count.
-    pub fn labels(mut self) -> (Vec<u32>, usize) {
-        let n = self.0.len();
-        let mut label = vec![u32::MAX; n];
-        let mut count = 0;
-        for x in 0..n as u32 {
-            let root = self.find(x) as usize;
-            if label[root] == u32::MAX {
-                label[root] = count;
-                count += 1;
-            }
-            label[x as usize] = label[root];
-        }
-        (label, count as usize)
-    }
 }
 
 #[cfg(test)]

@@ -8,8 +8,12 @@ use std::io::{BufReader, IsTerminal, Read};
 use std::path::Path;
 use tmesh::{DecodeError, Document};
 
-/// Bytes looked at to tell the format.
+/// Bytes looked at to tell the format: a page, which is more than the comments that precede the first telling line of
+/// the text formats, and a single read from a pipe.
 const HEAD: u64 = 4096;
+
+/// Size of the input's buffer, bytes: what a pipe holds. Reads of large arrays pass the buffer by.
+const BUFFER: usize = 1 << 16;
 
 impl Session {
     /// Reads the input named on the command line, whatever its format.
@@ -70,8 +74,7 @@ impl Session {
         path: Option<&Path>,
         from: Option<Format>,
     ) -> Result<Document, String> {
-        // Unbuffered reads of large arrays go straight through the buffer.
-        let mut input = BufReader::with_capacity(1 << 16, input);
+        let mut input = BufReader::with_capacity(BUFFER, input);
         let mut head = Vec::new();
         let read = |e: std::io::Error| format!("cannot read: {e}");
         (&mut input)

@@ -76,9 +76,9 @@ impl MessageFormat {
     }
 }
 
-/// Writes a line to standard error. Where nobody listens, nobody is told.
+/// Writes a line to standard error. A failure to write it is ignored: there is no other place to report it.
 pub(crate) fn say(line: &str) {
-    // In one piece, so that the lines of tools that run side by side do not mix.
+    // One write per line, so that the lines of the tools of a pipe do not mix.
     let _ = io::stderr().write_all(format!("{line}\n").as_bytes());
 }
 

@@ -10,6 +10,9 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 use tmesh::{ChunkInfo, HistoryEntry};
 
+/// Time between two drawings of a progress bar: often enough to be seen moving.
+const TICK: Duration = Duration::from_millis(200);
+
 /// One run of a tool.
 pub struct Session {
     name: String,
@@ -115,7 +118,7 @@ impl Session {
             ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}% {eta}")
                 .unwrap_or_else(|_| ProgressStyle::default_bar()),
         );
-        bar.enable_steady_tick(Duration::from_millis(200));
+        bar.enable_steady_tick(TICK);
         Progress(bar)
     }
 

@@ -1,11 +1,12 @@
 //! How many threads a tool may use, and work shared between them.
 
-use std::panic::resume_unwind;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Threads that pay at most.
-const MOST: usize = 16;
+/// Most threads that a tool takes unasked. The stages that share work between threads (checking orders, meshing
+/// templates, improving elements) have from a few to some hundred pieces of it: with more threads than this the
+/// longest piece decides, and each thread costs a stack. `--threads` goes beyond.
+const MOST_UNASKED: usize = 16;
 
 /// The option of tools that use threads.
 #[derive(clap::Args, Clone, Debug)]
@@ -25,64 +26,70 @@ impl ThreadArgs {
 
 /// Threads that the machine runs at once, up to 16.
 pub fn available_threads() -> usize {
-    thread::available_parallelism().map_or(1, |n| n.get().min(MOST))
+    std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_UNASKED))
 }
 
-/// What `work` makes of each item, in their order, of up to `threads` items at the same time. Where no thread is to
-/// be had, it goes without.
+/// What `work` makes of each item, in the order of the items, up to `threads` of them at the same time.
+///
+/// Work that itself calls [`in_parallel`] or [`both`] shares the threads of the outermost call, so that its
+/// `threads` bounds all of them. Where the system grants no threads, the items are worked on one after another.
 pub fn in_parallel<A: Sync, T: Send>(
     items: &[A],
     threads: usize,
     work: impl Fn(&A) -> T + Sync,
 ) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let share = || {
-        let mut done = Vec::new();
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed);
-            match items.get(place) {
-                Some(item) => done.push((place, work(item))),
-                None => return done,
-            }
-        }
-    };
-    let mut done = thread::scope(|scope| {
-        let others: Vec<_> = (1..threads.min(items.len()))
-            .map_while(|_| thread::Builder::new().spawn_scoped(scope, share).ok())
-            .collect();
-        let mut done = share();
-        for other in others {
-            done.extend(other.join().unwrap_or_else(|e| resume_unwind(e)));
-        }
-        done
-    });
-    done.sort_unstable_by_key(|(place, _)| *place);
-    done.into_iter().map(|(_, made)| made).collect()
+    // Items are few and take long: each may go to another thread.
+    let shared = || items.par_iter().with_max_len(1).map(&work).collect();
+    match Threads::for_pieces(items.len(), threads) {
+        Threads::Current => items.iter().map(&work).collect(),
+        Threads::Shared => shared(),
+        Threads::New(pool) => pool.install(shared),
+    }
 }
 
-/// What two pieces of work make, at the same time if there may be more threads than one and another one is to be had.
-pub fn both<A: Send, B>(
+/// What two pieces of work make, at the same time where `threads` allows; see [`in_parallel`].
+pub fn both<A: Send, B: Send>(
     threads: usize,
-    first: impl Fn() -> A + Sync,
-    second: impl FnOnce() -> B,
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
 ) -> (A, B) {
-    thread::scope(|scope| {
-        let other = (threads > 1)
-            .then(|| thread::Builder::new().spawn_scoped(scope, &first).ok())
-            .flatten();
-        match other {
-            Some(other) => {
-                let b = second();
-                (other.join().unwrap_or_else(|e| resume_unwind(e)), b)
-            }
-            None => (first(), second()),
+    match Threads::for_pieces(2, threads) {
+        Threads::Current => (first(), second()),
+        Threads::Shared => rayon::join(first, second),
+        Threads::New(pool) => pool.install(|| rayon::join(first, second)),
+    }
+}
+
+/// Where pieces of work are done.
+enum Threads {
+    /// One after another in the calling thread.
+    Current,
+    /// By the threads of the pool that the calling thread belongs to.
+    Shared,
+    /// By a pool of its own, which ends with the work.
+    New(ThreadPool),
+}
+
+impl Threads {
+    fn for_pieces(pieces: usize, most: usize) -> Self {
+        let count = most.min(pieces);
+        if count <= 1 {
+            return Self::Current;
         }
-    })
+        if rayon::current_thread_index().is_some() {
+            return Self::Shared;
+        }
+        let pool = ThreadPoolBuilder::new().num_threads(count).build();
+        pool.map_or(Self::Current, Self::New)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
+    use std::sync::Mutex;
+    use std::thread;
 
     #[test]
     fn items_keep_their_order() {
@@ -99,6 +106,21 @@ mod tests {
         for threads in [0, 1, 2] {
             assert_eq!(both(threads, || 2 * 21, || "other"), (42, "other"));
         }
+    }
+
+    #[test]
+    fn work_within_work_takes_no_further_threads() {
+        let seen = Mutex::new(BTreeSet::new());
+        let note = |_: &u32| {
+            let id = format!("{:?}", thread::current().id());
+            seen.lock().unwrap().insert(id);
+        };
+        let items: Vec<u32> = (0..40).collect();
+        in_parallel(&items, 2, |_| {
+            both(8, || note(&0), || note(&1));
+            in_parallel(&items, 8, note);
+        });
+        assert!(seen.into_inner().unwrap().len() <= 2);
     }
 
     #[test]

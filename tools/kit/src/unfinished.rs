@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tempfile::{NamedTempFile, TempPath};
 
-/// Temporary files that have no other name yet. Whoever makes, renames or removes one holds the lock.
+/// Temporary files that do not have their final name yet. The lock is held while one is made, renamed or removed.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -32,8 +32,8 @@ pub fn persist(file: TempPath, path: PathBuf) -> io::Result<()> {
 /// Sees to it that signals that ask the process to end remove its unfinished files first, and that
 /// a write past the limit on file sizes fails like one to a full disk.
 ///
-/// Signals that the process was started to ignore stay ignored. Without threads or pipes to be had,
-/// everything stays as it is: then only the files remain.
+/// Signals that the process was started to ignore stay ignored. Where the system grants no thread or
+/// pipe, signals end the process as if this had not been called, and its temporary files stay.
 #[cfg(unix)]
 pub fn watch() {
     use signal_hook::consts::signal::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
@@ -49,7 +49,7 @@ pub fn watch() {
     };
     let wait = move || {
         if let Some(signal) = signals.forever().next() {
-            // Never given back: nothing gets its name any more.
+            // The lock is held until the process ends, so that no file gets its final name after this.
             let list = unfinished();
             for path in list.iter() {
                 let _ = std::fs::remove_file(path);

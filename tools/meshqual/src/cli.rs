@@ -106,7 +106,7 @@ fn count_above(text: &str) -> Result<Bound, String> {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
-            Error::TooLarge { .. } => Self::Impossible(error.to_string()),
+            Error::TooLarge { .. } | Error::Picture(_) => Self::Impossible(error.to_string()),
             Error::Invalid(_) | Error::Empty => Self::Input(error.to_string()),
         }
     }
@@ -136,6 +136,7 @@ impl Command for Cli {
         let report = analyse(&document, other, &params)?;
         session.info("measured and checked");
         let pictures = self.html.as_ref().map(|_| Pictures::of(&document));
+        let pictures = pictures.transpose()?;
         drop(document);
         self.write(&report, pictures.as_ref())?;
         let failures = report.failures(self.check);

@@ -11,7 +11,7 @@
 //! the second that are not shared with the first, and so on.
 
 use crate::orbit::{Orbits, SetId};
-use geom::sides::UnionFind;
+use geom::sets::DisjointSets;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 use tmesh::{Document, Instance, Isometry, Wall};
@@ -469,7 +469,7 @@ impl Builder<'_> {
         for (class, set) in stabilizers.into_iter().enumerate() {
             let template = self.classes[class].template;
             let instances = &templates[template].instances;
-            let mut cosets = UnionFind::new(instances.len());
+            let mut cosets = DisjointSets::new(instances.len());
             for &generator in orbits.generators(set) {
                 let moved = self.shifted(template, template, generator, instances)?;
                 for (slot, &other) in moved.iter().enumerate() {

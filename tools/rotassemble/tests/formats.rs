@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::structured::Structured;
+use bodies::structured::Structured;
 use common::{Mesh, gather};
 use glam::DVec3;
 use interchange::{Format, MeshStream, Surface, WriteOptions, parse_promise};

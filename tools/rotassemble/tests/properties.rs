@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::structured::{INNER, OUTER, Structured};
+use bodies::structured::{INNER, OUTER, Structured};
 use common::{Mesh, gather};
 use glam::DVec3;
 use interchange::Plain;

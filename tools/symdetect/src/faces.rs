@@ -8,7 +8,7 @@
 
 use crate::shape::{Motion, Target};
 use geom::edges::{EdgeUse, Edges};
-use geom::parts::Parts;
+use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -131,12 +131,12 @@ impl Faces {
     /// Faces whose vertices are in one plane up to `flat`; `None` where they are not.
     pub fn new(surface: &Surface<'_>, normals: &[DVec3], flat: f64) -> Option<Self> {
         let edges = Edges::new(surface.triangles);
-        let mut parts = Parts::new(surface.triangles.len());
+        let mut parts = DisjointSets::new(surface.triangles.len());
         for e in 0..edges.len() {
             if let [s, t] = edges.around(e)
                 && surface.continues(s, t, normals, flat)
             {
-                parts.unite(s.triangle, t.triangle);
+                parts.join(s.triangle, t.triangle);
             }
         }
         let (face_of, count) = parts.numbered();

@@ -2,7 +2,7 @@
 
 use crate::plc::Plc;
 use geom::edges::orientation;
-use geom::parts::Parts;
+use geom::sets::DisjointSets;
 use glam::DVec3;
 use tetgen_sys::Mesh;
 use tmesh::{OUTSIDE, Triangle};
@@ -165,13 +165,13 @@ fn apex(tet: [i32; 4], face: [i32; 3]) -> i32 {
 /// Cell of each tetrahedron, and their number; bit `c` of `walled` closes the face opposite to
 /// corner `c`. Cells are numbered by their first tetrahedra.
 fn connected(mesh: &Mesh, walled: &[u8]) -> (Vec<u32>, usize) {
-    let mut cells = Parts::new(walled.len());
+    let mut cells = DisjointSets::new(walled.len());
     for (tet, around) in mesh.neighbors().iter().enumerate().take(walled.len()) {
         for (corner, &next) in around.iter().enumerate() {
             // Each face is seen from both sides; one of them is enough.
             let earlier = u32::try_from(next).is_ok_and(|next| next < tet as u32);
             if earlier && walled[tet] & (1 << corner) == 0 {
-                cells.unite(tet as u32, next as u32);
+                cells.join(tet as u32, next as u32);
             }
         }
     }

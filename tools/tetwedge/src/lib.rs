@@ -19,7 +19,6 @@ mod improve;
 mod mesher;
 mod params;
 mod plc;
-mod raycast;
 mod seeds;
 mod surface;
 mod walls;

@@ -1,9 +1,10 @@
 //! Points inside the cells of a surface, computed from its triangles' two sides.
 
+use crate::Error;
 use crate::error::{Place, RegionName};
-use crate::{Error, raycast::Rays};
 use geom::edges::Edges;
 use geom::sides::{SideComponents, side_components};
+use geom::tree::Rays;
 use glam::DVec3;
 use tmesh::{OUTSIDE, Template};
 
@@ -46,7 +47,7 @@ pub fn seeds(
         let weights = [(b - c).length(), (c - a).length(), (a - b).length()];
         let incentre = (a * weights[0] + b * weights[1] + c * weights[2])
             / (weights[0] + weights[1] + weights[2]);
-        match rays.nearest(incentre, direction, triangle as u32) {
+        match rays.first(incentre, direction, triangle as u32) {
             Some(distance) => seeds.push(Seed {
                 point: incentre + direction * (0.5 * distance),
                 region,

@@ -3,7 +3,7 @@
 
 use crate::opening::Class;
 use crate::surface::{Surface, join_coincident};
-use geom::sides::UnionFind;
+use geom::sets::DisjointSets;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::Triangle;
 
@@ -45,7 +45,7 @@ pub fn collapse_short_edges(surface: &mut Surface, length: f64) -> Collapsed {
     short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     short.dedup_by_key(|s| s.1);
     let count = surface.points.len();
-    let mut sets = UnionFind::new(count);
+    let mut sets = DisjointSets::new(count);
     // The point that stands for a set: the one bound to most planes, else the one numbered lowest.
     let mut stands: Vec<u32> = (0..count as u32).collect();
     let mut collapsed = Collapsed::default();

@@ -1,8 +1,11 @@
 //! The command line of `wedgecut`.
 
-use crate::{Domain, Hub, Params, choose, cut, names};
+use crate::{Domain, Hub, Params, cut, names};
 use geom::tet::REGULAR_RADIUS_EDGE;
 use kit::{Command, CommonArgs, Failure, Session, ThreadArgs};
+
+/// Radius-edge bound that the mesher will be given, where nothing else is said.
+pub const RADIUS_EDGE: f64 = 1.4;
 
 const EXAMPLES: &str = "Examples:
   symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
@@ -45,7 +48,7 @@ pub struct Cli {
     edge_length: Option<f64>,
 
     /// Radius-edge bound that tetwedge will be given, for the same choice
-    #[arg(long, value_name = "R", default_value_t = choose::RADIUS_EDGE, value_parser = radius_edge)]
+    #[arg(long, value_name = "R", default_value_t = RADIUS_EDGE, value_parser = radius_edge)]
     #[arg(allow_negative_numbers = true)]
     radius_edge: f64,
 

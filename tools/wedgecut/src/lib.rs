@@ -10,25 +10,19 @@
 
 mod align;
 mod chains;
-mod choose;
 mod clean;
 mod cli;
 mod clip;
 mod error;
 mod finish;
-mod halved;
 mod hub;
-mod integral;
 mod names;
-mod needles;
 mod opening;
-mod piece;
 mod plan;
 mod planar;
 mod reconcile;
 mod seam;
 mod section;
-mod sliced;
 mod slide;
 mod snap;
 mod surface;
@@ -39,6 +33,8 @@ pub use cli::Cli;
 pub use error::CutError;
 pub use plan::{Domain, Hub, Params};
 
+use estimate::harm::{halved, sliced};
+use estimate::{Bounds, CostModel, Cut, Estimate, Hubs, Way, Ways, edge_of_volume};
 use finish::Caps;
 use glam::DVec3;
 use opening::{HubPlane, Opening, Side};
@@ -182,7 +178,7 @@ impl Uncut {
 fn cut_as_chosen(
     document: &Document,
     symmetry: &Symmetry,
-    choice: &choose::Choice,
+    choice: &Choice,
     first: (&Document, &Report),
     params: &Params,
     tolerances: &Tolerances,
@@ -236,6 +232,13 @@ fn orders(symmetry: &Symmetry, params: &Params, mirror: bool) -> Vec<u32> {
     orders
 }
 
+/// What has been chosen.
+struct Choice {
+    order: u32,
+    hub: Option<f64>,
+    level: bool,
+}
+
 /// Chooses order and hub, and says why.
 fn choose(
     document: &Document,
@@ -243,7 +246,7 @@ fn choose(
     symmetry: &Symmetry,
     params: &Params,
     uncut: &Uncut,
-) -> Option<(choose::Choice, String)> {
+) -> Option<(Choice, String)> {
     let mirror = matches!(wedge.templates[0].walls.first(), Some(Wall::Mirror(_)));
     let max_volume = |region: u32| params.max_volume_of(&wedge.regions, region);
     let mut orders = match params.order {
@@ -251,49 +254,82 @@ fn choose(
         None => orders(symmetry, params, mirror),
     };
     orders.retain(|&n| !uncut.has(n));
-    let options = choose::Options {
-        orders: &orders,
-        mirror,
-        hub_order: &|order| plan::hub_order(order, mirror),
-        radius: match params.hub {
-            Hub::Radius(radius) => Some(radius),
-            _ => None,
-        },
-        no_hub: params.hub == Hub::None,
-        level: params.level
-            && symmetry.horizontal_mirror
-            && names::keeps_names(
-                &document.templates[0],
-                DVec3::from(symmetry.axis.point),
-                DVec3::from(symmetry.axis.direction),
-            ),
-        harm: report.harm,
-        radius_edge: params.radius_edge,
+    let keeps_names = names::keeps_names(
+        &document.templates[0],
+        DVec3::from(symmetry.axis.point),
+        DVec3::from(symmetry.axis.direction),
+    );
+    let level = params.level && symmetry.horizontal_mirror && keeps_names;
+    let levels: &[bool] = if level { &[false, true] } else { &[false] };
+    let harm = report.harm;
+    let cut = |order: u32, across: bool| {
+        let images = [mirror, across].map(|on| if on { 2.0 } else { 1.0 });
+        let images = images[0] * images[1];
+        let full = if mirror { 1.0 } else { 2.0 };
+        let angle = full * std::f64::consts::PI / f64::from(order);
+        Cut {
+            order,
+            angle,
+            copies: images * f64::from(order),
+            hub_copies: images * f64::from(plan::hub_order(order, mirror)),
+            reach: 1.0
+                / if mirror {
+                    angle.cos()
+                } else {
+                    (0.5 * angle).cos()
+                },
+            free: mirror,
+            across,
+            harm: harm * f64::from(order),
+            hub: true,
+        }
     };
+    // Half a turn between the faces of a seam is left whole: three walls in two planes.
+    let cuts: Vec<Cut> = (orders.iter())
+        .flat_map(|&order| {
+            let half = order == 2 && !mirror;
+            let levels = levels.iter().filter(move |&&level| !(level && half));
+            levels.map(move |&level| (order, level))
+        })
+        .map(|(order, level)| cut(order, level))
+        .collect();
     let (body, copies) = (&document.templates[0], wedge.instances.len());
     let size = element_size(&document.regions, body, params);
-    let needles = needles::needles(body, size);
-    let first = &wedge.templates[0];
-    let estimate = choose::Estimate::new(first, copies, needles, max_volume, params.threads);
-    let ways = estimate.ways(&options);
-    let choice = options.best(&ways, 1.0)?;
-    let planes = |c: &choose::Choice| {
-        let hub = c.hub.map(|r| format!(" with a hub of {r:.3}"));
-        hub.unwrap_or_default() + if c.level { " halved" } else { "" }
+    let needles = estimate::needles(body, size);
+    let first = estimate::Wedge::new(&wedge.templates[0], copies);
+    let model = CostModel::CALIBRATED;
+    let estimate = Estimate::new(model, &first, needles, max_volume, params.threads);
+    let bounds = Bounds {
+        radius_edge: params.radius_edge,
+        hubs: match params.hub {
+            Hub::Radius(radius) => Hubs::Radius(radius),
+            Hub::None => Hubs::None,
+            Hub::Auto => Hubs::Free,
+        },
     };
-    let list: Vec<String> = ways
-        .iter()
-        .map(|c| format!("{}{} {:.2}", c.order, planes(c), c.elements))
+    let ways = Ways::new(&estimate, &cuts, bounds);
+    let choice = ways.ranked().first().copied()?;
+    let planes = |c: &Way| {
+        let hub = c.hub.map(|r| format!(" with a hub of {r:.3}"));
+        hub.unwrap_or_default() + if cuts[c.cut].across { " halved" } else { "" }
+    };
+    let list: Vec<String> = (ways.list.iter())
+        .map(|c| format!("{}{} {:.2}", cuts[c.cut].order, planes(c), c.elements))
         .collect();
     let why = format!(
         "order {} of {}{}: the fastest that costs few elements; estimated elements over those of the whole body by \
          order: {}",
-        choice.order,
+        cuts[choice.cut].order,
         symmetry.order,
         planes(&choice),
         list.join(", "),
     );
-    Some((choice, why))
+    let chosen = Choice {
+        order: cuts[choice.cut].order,
+        hub: choice.hub,
+        level: cuts[choice.cut].across,
+    };
+    Some((chosen, why))
 }
 
 /// Cuts as a plan says, elsewhere if it cannot be done where it is best.
@@ -545,11 +581,7 @@ fn element_size(regions: &[Region], body: &Template, params: &Params) -> impl Fn
     let high = body.vertices.iter().copied().reduce(DVec3::max);
     let extent = low.zip(high).map_or(0.0, |(a, b)| a.distance(b));
     move |t| {
-        let cap = |region| {
-            params
-                .max_volume_of(regions, region)
-                .map(choose::edge_of_volume)
-        };
+        let cap = |region| params.max_volume_of(regions, region).map(edge_of_volume);
         let caps = [t.front, t.back].into_iter().filter_map(cap);
         caps.fold(extent, f64::min)
     }

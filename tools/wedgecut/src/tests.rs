@@ -9,7 +9,7 @@ use tmesh::{
 const DEFAULT: Params = Params {
     hub: crate::Hub::None,
     max_volume: None,
-    radius_edge: crate::choose::RADIUS_EDGE,
+    radius_edge: crate::cli::RADIUS_EDGE,
     level: false,
     domain: Domain::Auto,
     order: None,

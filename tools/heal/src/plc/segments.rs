@@ -1,6 +1,6 @@
 //! Splitting of segments at nodes that lie on them, so that facets fit together.
 
-use geom::tree::Tree;
+use geom::tree::pairs;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -18,21 +18,20 @@ pub fn split_segments(
     let mut nodes: Vec<u32> = all.iter().flatten().copied().collect();
     nodes.sort_unstable();
     nodes.dedup();
-    // Boxes of nodes, grown by the tolerance, against boxes of segments: both as flat triangles.
-    let mut corners = points.to_vec();
-    let mut boxes: Vec<[u32; 3]> = all.iter().map(|&[a, b]| [a, b, b]).collect();
-    for &v in &nodes {
+    // Boxes of nodes, grown by the tolerance, against boxes of segments.
+    let of_segments = all.iter().map(|ends| {
+        let [p, q] = ends.map(|v| points[v as usize]);
+        [p.min(q), p.max(q)]
+    });
+    let of_nodes = nodes.iter().map(|&v| {
         let p = points[v as usize];
-        let low = corners.len() as u32;
-        corners.extend([p - tolerance, p + tolerance]);
-        boxes.push([low, low + 1, low + 1]);
-    }
+        [p - tolerance, p + tolerance]
+    });
     let count = all.len() as u32;
     let group = |t: u32| u32::from(t < count);
-    let tree = Tree::new(&corners, &boxes, group);
     let mut on: FxHashMap<u32, Vec<(f64, u32)>> = FxHashMap::default();
-    let mut left = 1000 * boxes.len() as u64 + 10_000_000;
-    tree.pairs(group, |s, t| {
+    let mut left = 1000 * (all.len() + nodes.len()) as u64 + 10_000_000;
+    pairs(of_segments.chain(of_nodes), group, |s, t| {
         let (segment, node) = (s.min(t), nodes[(s.max(t) - count) as usize]);
         let [a, b] = all[segment as usize];
         if node != a && node != b {

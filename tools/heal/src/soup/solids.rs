@@ -13,7 +13,7 @@ use geom::cells::Cells;
 use geom::contacts::{Contact, Search, contacts};
 use geom::edges::Edges;
 use geom::measure::tet_volume;
-use geom::sides::UnionFind;
+use geom::sets::DisjointSets;
 use interchange::text::counted;
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
@@ -72,7 +72,7 @@ pub fn label(surface: &Surface, edges: &Edges, solids: usize) -> Result<Labels, 
 
 /// Pieces of each solid that are connected through edges: piece of each triangle, and their number.
 fn shells(surface: &Surface, edges: &Edges) -> (Vec<u32>, usize) {
-    let mut sets = UnionFind::new(surface.triangles.len());
+    let mut sets = DisjointSets::new(surface.triangles.len());
     let mut first_of: Vec<(u32, u32)> = Vec::new();
     for e in 0..edges.len() {
         let fan = edges.around(e);
@@ -93,7 +93,7 @@ fn shells(surface: &Surface, edges: &Edges) -> (Vec<u32>, usize) {
             }
         }
     }
-    sets.labels()
+    sets.numbered()
 }
 
 /// Looks for shells that cross or touch other than in common triangles, edges and vertices. Within

@@ -1,6 +1,6 @@
 //! Welding of points that differ by rounding only.
 
-use geom::sides::UnionFind;
+use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -11,7 +11,7 @@ pub fn near_points(points: &[DVec3], candidates: &[u32], tolerance: f64) -> Vec<
         return Vec::new();
     }
     let cell = |p: DVec3| (p / (2.0 * tolerance)).floor().to_array().map(|x| x as i64);
-    let mut sets = UnionFind::new(candidates.len());
+    let mut sets = DisjointSets::new(candidates.len());
     // One representative set per grid cell is enough: points of a cell are joined to a point they
     // are near to, and to those of the seven neighbouring cells that the tolerance reaches.
     let mut grid: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();

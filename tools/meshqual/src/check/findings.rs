@@ -1,7 +1,7 @@
 //! Collects what is wrong: a count and the first place of each kind.
 
-use crate::text::number;
 use glam::DVec3;
+use kit::number;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use tmesh::Document;

@@ -19,10 +19,10 @@ pub use findings::Broken;
 use crate::Error;
 use crate::instances::{Realized, is_sector, realized, wall_triangles};
 use crate::measure::Measured;
-use crate::text::number;
 use conformity::{Skin, conformity};
 use findings::{Findings, Kind};
 use geom::edges::orientation;
+use kit::number;
 use serde::Serialize;
 use tmesh::{Document, Outside, Promise, Violation, Wall};
 

@@ -4,8 +4,8 @@ use super::RADIUS_SLACK;
 use super::findings::{Findings, Kind, at};
 use crate::faces::sorted;
 use crate::nearby::Nearby;
-use crate::text::number;
 use glam::{DMat3, DVec3};
+use kit::number;
 use rustc_hash::FxHashMap;
 use tmesh::{Document, Frame, Isometry, MAX_TURN_DENOMINATOR, Promise, Tet};
 

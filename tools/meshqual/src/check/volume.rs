@@ -5,7 +5,6 @@ use super::conformity::Skin;
 use super::findings::{Findings, Kind};
 use crate::instances::Copies;
 use crate::measure::Measured;
-use crate::report::region;
 use std::collections::BTreeMap;
 use tmesh::{Document, Region};
 
@@ -76,8 +75,7 @@ pub fn check(
         }
         if (found - expected).abs() > allowed {
             findings.add(Kind::RegionVolume, || {
-                let name = region(document, r.id).map_or("", |r| &r.name);
-                let what = format!("the volume of region {} '{name}'", r.id);
+                let what = format!("the volume of region {} '{}'", r.id, r.name);
                 differs(&what, found, expected, allowed)
             });
         }

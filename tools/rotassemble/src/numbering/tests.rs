@@ -93,7 +93,7 @@ fn brute_force(document: &Document) -> Vec<Vec<u32>> {
         let count = document.templates[i.template as usize].vertices.len();
         first.push(first[first.len() - 1] + count as u32);
     }
-    let mut sets = UnionFind::new(first[first.len() - 1] as usize);
+    let mut sets = DisjointSets::new(first[first.len() - 1] as usize);
     for (i, instance) in document.instances.iter().enumerate() {
         let t = instance.template;
         for wall in &document.templates[t as usize].walls {
@@ -111,7 +111,7 @@ fn brute_force(document: &Document) -> Vec<Vec<u32>> {
             }
         }
     }
-    let (labels, _) = sets.labels();
+    let (labels, _) = sets.numbered();
     first
         .windows(2)
         .map(|w| labels[w[0] as usize..w[1] as usize].to_vec())

@@ -2,8 +2,6 @@
 
 #![allow(dead_code)] // Not every test needs all of it.
 
-pub mod structured;
-
 use glam::DVec3;
 use interchange::MeshStream;
 use std::collections::BTreeMap;

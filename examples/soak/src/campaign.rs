@@ -1,0 +1,195 @@
+//! Many trials, with a table of their results that an interrupted campaign goes on from.
+
+use soak::{Laboratory, Trial, Verdict};
+use std::collections::{BTreeMap, HashSet};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+/// Options of a campaign.
+#[derive(clap::Args)]
+pub struct Options {
+    /// Number of bodies
+    #[arg(long, default_value_t = 1000)]
+    count: u64,
+
+    /// Seed of the first body; the others follow
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+
+    /// Folder of the tools' binaries
+    #[arg(long, default_value = "target/release")]
+    binaries: PathBuf,
+
+    /// Folder for results and for what fails; results that are there are not made again
+    #[arg(long, default_value = "target/soak")]
+    out: PathBuf,
+
+    /// Trials at the same time
+    #[arg(long, default_value_t = 1)]
+    jobs: usize,
+
+    /// Time limit of a pipe, seconds
+    #[arg(long, default_value_t = 60)]
+    limit: u64,
+
+    /// Run every so manieth pipe twice and compare the bytes, 0 for none
+    #[arg(long, default_value_t = 10)]
+    twice: u64,
+}
+
+/// Runs a campaign and prints what came of it. Returns whether nothing failed.
+///
+/// # Errors
+/// Fails when files cannot be written or processes not be started.
+pub fn run(options: &Options) -> io::Result<bool> {
+    fs::create_dir_all(&options.out)?;
+    let table = options.out.join("results.tsv");
+    let seeds = options.seed..options.seed + options.count;
+    let done = done(&table)?;
+    let todo: Vec<u64> = seeds.clone().filter(|s| !done.contains(s)).collect();
+    let results = Mutex::new(OpenOptions::new().create(true).append(true).open(&table)?);
+    let laboratory = Laboratory {
+        binaries: options.binaries.clone(),
+        limit: Duration::from_secs(options.limit),
+        twice: options.twice,
+    };
+    let next = AtomicU64::new(0);
+    let worker = || -> io::Result<()> {
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed) as usize;
+            let Some(&seed) = todo.get(place) else {
+                return Ok(());
+            };
+            let folder = options.out.join(format!("seed-{seed}"));
+            let _ = fs::remove_dir_all(&folder);
+            fs::create_dir_all(&folder)?;
+            let trial = laboratory.trial(seed, &folder)?;
+            match &trial.verdict {
+                Verdict::Meshed | Verdict::Asymmetric => fs::remove_dir_all(&folder)?,
+                Verdict::Refused(text) | Verdict::Failed(text) => {
+                    // The mesh is made again by the script.
+                    for name in ["mesh.tmesh", "again.tmesh"] {
+                        let _ = fs::remove_file(folder.join(name));
+                    }
+                    eprintln!("soak: seed {seed}: {text}");
+                }
+            }
+            let mut results = results.lock().unwrap_or_else(|e| e.into_inner());
+            results.write_all(line(seed, &trial).as_bytes())?;
+        }
+    };
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..options.jobs.max(1))
+            .map(|_| scope.spawn(worker))
+            .collect();
+        let ends = workers
+            .into_iter()
+            .map(|w| w.join().expect("workers do not panic"));
+        ends.collect::<io::Result<Vec<()>>>()
+    })?;
+    summary(&table, &seeds)
+}
+
+fn line(seed: u64, trial: &Trial) -> String {
+    let (word, text) = match &trial.verdict {
+        Verdict::Meshed => ("meshed", ""),
+        Verdict::Asymmetric => ("asymmetric", ""),
+        Verdict::Refused(text) => ("refused", text.as_str()),
+        Verdict::Failed(text) => ("failed", text.as_str()),
+    };
+    format!(
+        "{seed}\t{word}\t{:.3}\t{}\t{}\t{text}\n",
+        trial.time.as_secs_f64(),
+        trial.tetrahedra,
+        trial.description
+    )
+}
+
+/// Rows of the table, split into columns.
+fn rows(table: &Path) -> io::Result<Vec<Vec<String>>> {
+    let file = match File::open(table) {
+        Ok(file) => file,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) => return Err(error),
+    };
+    let mut rows = Vec::new();
+    for line in BufReader::new(file).lines() {
+        let row: Vec<String> = line?.split('\t').map(str::to_owned).collect();
+        // An interrupted campaign may have left part of a line.
+        if row.len() == 6 {
+            rows.push(row);
+        }
+    }
+    Ok(rows)
+}
+
+fn done(table: &Path) -> io::Result<HashSet<u64>> {
+    let rows = rows(table)?;
+    Ok(rows.iter().filter_map(|row| row[0].parse().ok()).collect())
+}
+
+/// Prints counts and reasons. Returns whether nothing failed.
+fn summary(table: &Path, seeds: &std::ops::Range<u64>) -> io::Result<bool> {
+    let mut reasons: BTreeMap<(String, String), Vec<u64>> = BTreeMap::new();
+    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
+    let mut seconds = 0.0;
+    let mut longest = (0.0, 0);
+    let mut tetrahedra = 0.0;
+    for row in rows(table)? {
+        let Some(seed) = row[0].parse().ok().filter(|s| seeds.contains(s)) else {
+            continue;
+        };
+        *counts.entry(row[1].clone()).or_default() += 1;
+        let time: f64 = row[2].parse().unwrap_or(0.0);
+        seconds += time;
+        if time > longest.0 {
+            longest = (time, seed);
+        }
+        tetrahedra += row[3].parse().unwrap_or(0.0);
+        if !row[5].is_empty() {
+            let key = (row[1].clone(), without_numbers(&row[5]));
+            reasons.entry(key).or_default().push(seed);
+        }
+    }
+    let total: u64 = counts.values().sum();
+    let of = |word: &str| counts.get(word).copied().unwrap_or(0);
+    println!(
+        "{total} bodies: {} meshed and checked, {} without symmetry and refused for it, {} refused, {} failed",
+        of("meshed"),
+        of("asymmetric"),
+        of("refused"),
+        of("failed")
+    );
+    println!(
+        "{:.3} s a body, at most {:.1} s (seed {}), {:.0} tetrahedra a body",
+        seconds / total.max(1) as f64,
+        longest.0,
+        longest.1,
+        tetrahedra / total.max(1) as f64
+    );
+    for ((word, reason), seeds) in &reasons {
+        let few: Vec<String> = seeds.iter().take(12).map(u64::to_string).collect();
+        println!("{word} {} x {reason}: seeds {}", seeds.len(), few.join(" "));
+    }
+    Ok(of("failed") == 0)
+}
+
+/// A message with every number replaced, so that those of one kind are alike.
+fn without_numbers(text: &str) -> String {
+    let mut out = String::new();
+    let mut within = false;
+    for c in text.chars() {
+        let part = c.is_ascii_digit() || within && matches!(c, '.' | 'e' | '-');
+        if !part {
+            out.push(c);
+        } else if !within {
+            out.push('#');
+        }
+        within = part;
+    }
+    out
+}

@@ -1,0 +1,60 @@
+//! Sends random symmetric bodies through the whole pipe and compares what comes out with what is
+//! known of them.
+//!
+//! ```text
+//! cargo run --release -p soak -- run --count 1000
+//! cargo run --release -p soak -- body --seed 17 -o body.stl
+//! ```
+
+mod campaign;
+
+use clap::{Parser, Subcommand};
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Send random symmetric bodies through the whole pipe.
+#[derive(Parser)]
+struct Cli {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand)]
+enum What {
+    /// Run trials; what fails is kept with its input, command lines and messages
+    Run(campaign::Options),
+    /// Write the body of a seed, in the format the seed chooses
+    Body {
+        /// Seed
+        #[arg(long)]
+        seed: u64,
+
+        /// File to write
+        #[arg(short, long)]
+        output: PathBuf,
+    },
+}
+
+fn main() -> ExitCode {
+    let outcome = match Cli::parse().what {
+        What::Run(options) => campaign::run(&options),
+        What::Body { seed, output } => write_body(seed, &output).map(|()| true),
+    };
+    match outcome {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("soak: error: {error}");
+            ExitCode::from(4)
+        }
+    }
+}
+
+fn write_body(seed: u64, output: &PathBuf) -> std::io::Result<()> {
+    let solid = bodies::random_solid::solid(seed);
+    let mut out = BufWriter::new(std::fs::File::create(output)?);
+    bodies::write(&solid.body, solid.encoding, &mut out)?;
+    eprintln!("{:?}", solid.facts);
+    out.flush()
+}

@@ -1,0 +1,80 @@
+//! The pipe of a trial: which tools, with which options.
+
+use bodies::Dice;
+use bodies::random_solid::Solid;
+
+/// A tool and its arguments.
+pub type Stage = Vec<String>;
+
+/// A pipe with random options for a solid.
+pub fn stages(solid: &Solid, seed: u64) -> Vec<Stage> {
+    // Apart from the choices that made the solid.
+    let mut dice = Dice::new(seed ^ 0x6f70_7469_6f6e_7300);
+    let order = solid.facts.order;
+    let stage = |name: &str| vec![name.to_owned()];
+
+    let mut detect = stage("symdetect");
+    if order == 1 && dice.chance(0.9) {
+        detect.push("--allow-asymmetric".to_owned());
+    }
+    let mut cut = stage("wedgecut");
+    if dice.chance(0.15) {
+        let divisors: Vec<usize> = (1..=order).filter(|d| order.is_multiple_of(*d)).collect();
+        cut.extend(["--order".to_owned(), dice.pick(&divisors).to_string()]);
+    }
+    if dice.chance(0.15) {
+        cut.extend(["--domain", "rotation"].map(str::to_owned));
+        if dice.chance(0.3) {
+            cut.extend([
+                "--start-angle".to_owned(),
+                format!("{:.3}", dice.between(-90.0, 90.0)),
+            ]);
+        }
+    }
+    if dice.chance(0.1) {
+        cut.extend(["--horizontal-mirror", "off"].map(str::to_owned));
+    }
+    if dice.chance(0.1) {
+        cut.extend(["--hub", "none"].map(str::to_owned));
+    }
+
+    let volume = solid.body.total_volume();
+    let mut elements = Vec::new();
+    if dice.chance(0.25) {
+        let largest = volume / dice.log_between(50.0, 3000.0);
+        elements.extend(["--max-volume".to_owned(), format!("{largest:.3e}")]);
+    }
+    if dice.chance(0.5) {
+        cut.extend(elements.clone());
+    }
+    let mut quality = Vec::new();
+    match dice.below(10) {
+        0 => quality.push("--no-quality".to_owned()),
+        1 => {
+            let ratio = dice.between(1.2, 2.0);
+            let angle = dice.between(0.0, 14.0);
+            quality.extend(["--radius-edge".to_owned(), format!("{ratio:.2}")]);
+            quality.extend(["--min-dihedral".to_owned(), format!("{angle:.1}")]);
+        }
+        2 => {
+            let angle = dice.pick(&["off", "130", "165"]);
+            quality.extend(["--optimize".to_owned(), angle.to_owned()]);
+        }
+        _ => {}
+    }
+    elements.extend(quality);
+    let surface = dice.chance(0.75);
+    let with_elements = |name| [stage(name), elements.clone()].concat();
+    let mut stages = vec![detect, cut];
+    if surface {
+        stages.push(with_elements("periodic-surf"));
+    }
+    stages.push(with_elements("tetwedge"));
+    let mut assemble = stage("rotassemble");
+    assemble.extend(["--to", "tmesh"].map(str::to_owned));
+    if dice.chance(0.3) {
+        assemble.push("--instances".to_owned());
+    }
+    stages.push(assemble);
+    stages
+}

@@ -1,0 +1,148 @@
+//! One trial: a body of a seed goes through the pipe, and what comes out is compared with what is known.
+
+mod commands;
+mod pipe;
+mod verdict;
+
+pub use verdict::Verdict;
+
+use bodies::random_solid::{Solid, solid};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Where trials run.
+pub struct Laboratory {
+    /// Folder of the tools' binaries.
+    pub binaries: PathBuf,
+    /// Time limit of a pipe.
+    pub limit: Duration,
+    /// Every how many trials the pipe runs twice, to compare the output; 0 for never.
+    pub twice: u64,
+}
+
+/// A trial that has ended.
+pub struct Trial {
+    /// What to think of it.
+    pub verdict: Verdict,
+    /// Time of the pipe and the check.
+    pub time: Duration,
+    /// Elements of the whole mesh; 0 if there is none.
+    pub tetrahedra: u64,
+    /// What the body is.
+    pub description: String,
+}
+
+/// Part of the time limit of a pipe that a tool which may take long is given.
+const PATIENCE: f64 = 0.45;
+
+impl Laboratory {
+    /// Runs the trial of a seed in an empty folder, which afterwards has the body, the command lines as a
+    /// script, all messages and reports.
+    ///
+    /// # Errors
+    /// Fails when files cannot be written or processes not be started.
+    pub fn trial(&self, seed: u64, folder: &Path) -> io::Result<Trial> {
+        let solid = solid(seed);
+        let facts = &solid.facts;
+        let mut stages = commands::stages(&solid, seed);
+        // TetGen comes to no end on some bodies, as on the whole body alone: tools are asked to say so.
+        let patience = format!("{:.0}", (PATIENCE * self.limit.as_secs_f64()).max(1.0));
+        for stage in &mut stages {
+            if matches!(stage[0].as_str(), "periodic-surf" | "tetwedge") {
+                stage.extend(["--timeout".to_owned(), patience.clone()]);
+            }
+        }
+        let mut out = BufWriter::new(File::create(folder.join("body"))?);
+        bodies::write(&solid.body, solid.encoding, &mut out)?;
+        out.flush()?;
+        drop(out);
+        let mut plain = facts.group.clone();
+        plain.push_str(&format!(
+            ", order {}, {} triangles, {} materials; {}",
+            facts.order,
+            solid.body.faces.len(),
+            solid.body.materials.len(),
+            facts.features.join(", ")
+        ));
+        stages[0].extend(["--report".to_owned(), path(folder, "symmetry.json")]);
+        let check = vec![
+            "meshqual".to_owned(),
+            "--check".to_owned(),
+            "--json".to_owned(),
+            path(folder, "quality.json"),
+        ];
+        std::fs::write(folder.join("run.sh"), script(seed, &plain, &stages, &check))?;
+        let begun = Instant::now();
+        let (verdict, tetrahedra) = self.verdict(seed, &solid, &stages, check, folder)?;
+        Ok(Trial {
+            verdict,
+            time: begun.elapsed(),
+            tetrahedra,
+            description: plain,
+        })
+    }
+
+    fn verdict(
+        &self,
+        seed: u64,
+        solid: &Solid,
+        stages: &[commands::Stage],
+        check: commands::Stage,
+        folder: &Path,
+    ) -> io::Result<(Verdict, u64)> {
+        let run = |stages: &[commands::Stage], input, output| {
+            pipe::run(&self.binaries, folder, stages, input, output, self.limit)
+        };
+        let ended = run(stages, "body", "mesh.tmesh")?;
+        if let Some(verdict) = verdict::of_stages(solid, &ended) {
+            return Ok((verdict, 0));
+        }
+        let checked = run(&[check], "mesh.tmesh", "quality.txt")?;
+        if let Some(verdict) = verdict::of_stages(solid, &checked) {
+            // What meshqual refuses is a wrong mesh.
+            let (Verdict::Refused(text) | Verdict::Failed(text)) = verdict else {
+                return Ok((verdict, 0));
+            };
+            return Ok((Verdict::Failed(text), 0));
+        }
+        let report = |name: &str| -> io::Result<serde_json::Value> {
+            Ok(serde_json::from_slice(&std::fs::read(folder.join(name))?)?)
+        };
+        let quality = report("quality.json")?;
+        let tetrahedra = quality["tetrahedra"].as_u64().unwrap_or(0);
+        let verdict = verdict::of_reports(solid, &report("symmetry.json")?, &quality);
+        if verdict == Verdict::Meshed && self.twice > 0 && seed.is_multiple_of(self.twice) {
+            run(stages, "body", "again.tmesh")?;
+            let [first, second] =
+                ["mesh.tmesh", "again.tmesh"].map(|name| std::fs::read(folder.join(name)));
+            if first? != second? {
+                let text = "determinism: two runs wrote different bytes".to_owned();
+                return Ok((Verdict::Failed(text), tetrahedra));
+            }
+        }
+        Ok((verdict, tetrahedra))
+    }
+}
+
+fn path(folder: &Path, name: &str) -> String {
+    folder.join(name).to_string_lossy().into_owned()
+}
+
+/// The command lines of a trial as a shell script that expects the tools on the path.
+fn script(seed: u64, facts: &str, stages: &[commands::Stage], check: &[String]) -> String {
+    let line = |stage: &[String]| -> String {
+        let words = stage.iter().map(|word| match word.rsplit_once('/') {
+            Some((_, name)) => name,
+            None => word,
+        });
+        words.collect::<Vec<_>>().join(" ")
+    };
+    let pipe: Vec<String> = stages.iter().map(|s| line(s)).collect();
+    format!(
+        "#!/bin/sh\n# Seed {seed}: {facts}\ncd \"$(dirname \"$0\")\" || exit\n<body {} >mesh.tmesh\n{} mesh.tmesh >quality.txt\n",
+        pipe.join(" |\n  "),
+        line(check)
+    )
+}

@@ -1,0 +1,107 @@
+//! What to think of how a trial ended.
+
+use super::pipe::Ended;
+use bodies::random_solid::Solid;
+use serde_json::Value;
+
+/// How a trial ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Meshed; all that is known of the body holds.
+    Meshed,
+    /// Refused for what is known to be true: it has no symmetry.
+    Asymmetric,
+    /// Refused by a tool with exit code 1: the reason is for people to judge.
+    Refused(String),
+    /// Something that must not happen.
+    Failed(String),
+}
+
+/// Largest deviation of a volume, relative to the boundary's area times radius, that rounding and
+/// cleaning explain.
+const VOLUME: f64 = 2e-6;
+
+/// Judges the stages of the pipe: `None` when all have ended well.
+pub fn of_stages(solid: &Solid, ended: &[Ended]) -> Option<Verdict> {
+    let first = ended.iter().find(|e| e.hung || e.code != Some(0))?;
+    // A stage that waits for one that hangs hangs too; the last one that does is to blame for nothing.
+    let tool = &first.tool;
+    let last = first.messages.lines().last().unwrap_or_default();
+    let reason = last.strip_prefix(&format!("{tool}: error: "));
+    Some(match (first.hung, first.code, reason) {
+        (true, ..) => Verdict::Failed(format!("{tool}: over the time limit")),
+        (_, None, _) => Verdict::Failed(format!("{tool}: ended by a signal")),
+        (_, Some(code), None) => Verdict::Failed(format!("{tool}: exit {code} without a reason")),
+        (_, Some(1), Some(reason)) if reason.contains("internal error") => {
+            Verdict::Failed(format!("{tool}: {reason}"))
+        }
+        (_, Some(1), Some(reason))
+            if solid.facts.order == 1 && reason.starts_with("no symmetry within") =>
+        {
+            Verdict::Asymmetric
+        }
+        (_, Some(1), Some(reason)) => Verdict::Refused(format!("{tool}: {reason}")),
+        // The body is sound and so is the usage.
+        (_, Some(code), Some(reason)) => Verdict::Failed(format!("{tool}: exit {code}: {reason}")),
+    })
+}
+
+/// Compares what symdetect and meshqual report with what is known.
+pub fn of_reports(solid: &Solid, symmetry: &Value, quality: &Value) -> Verdict {
+    let problems = [order(solid, symmetry), volumes(solid, symmetry, quality)];
+    match problems.into_iter().flatten().next() {
+        Some(problem) => Verdict::Failed(problem),
+        None => Verdict::Meshed,
+    }
+}
+
+fn order(solid: &Solid, symmetry: &Value) -> Option<String> {
+    let known = solid.facts.order as u64;
+    let Some(found) = symmetry["order"].as_u64() else {
+        return Some("symdetect: the report has no order".to_owned());
+    };
+    // About another axis than the one known, flat faces may have more; of a body of revolution, as far as the
+    // tolerance goes, all orders hold.
+    let more = found > known && (known <= 2 || symmetry["axisymmetric"] == Value::Bool(true));
+    if !more && !found.is_multiple_of(known) {
+        return Some(format!("order: {found} found, {known} known"));
+    }
+    // Groups of lower order may be seen from another axis.
+    if found == known && known > 2 && solid.facts.mirror && symmetry["mirror"] != Value::Bool(true)
+    {
+        return Some(format!("mirror: none found in {}", solid.facts.group));
+    }
+    None
+}
+
+fn volumes(solid: &Solid, symmetry: &Value, quality: &Value) -> Option<String> {
+    let Some(regions) = quality["regions"].as_array() else {
+        return Some("meshqual: the report has no regions".to_owned());
+    };
+    let body = &solid.body;
+    if regions.len() != body.materials.len() {
+        return Some(format!(
+            "regions: {} of {}",
+            regions.len(),
+            body.materials.len()
+        ));
+    }
+    let residual = symmetry["residual"].as_f64().unwrap_or(f64::INFINITY);
+    let slack = (VOLUME + 2.0 * residual) * body.boundary_area() * solid.facts.radius;
+    for (index, material) in body.materials.iter().enumerate() {
+        let named = regions.iter().find(|r| r["name"] == material.name.as_str());
+        // Binary STL has no names.
+        let region = named.or_else(|| (regions.len() == 1).then(|| &regions[0]));
+        let Some(found) = region.and_then(|r| r["volume"].as_f64()) else {
+            return Some(format!("regions: none is called {}", material.name));
+        };
+        let known = body.volume(index);
+        if (found - known).abs() > slack {
+            return Some(format!(
+                "volume: {} has {found:e}, not {known:e} (slack {slack:.1e})",
+                material.name
+            ));
+        }
+    }
+    None
+}

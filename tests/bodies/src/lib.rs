@@ -1,0 +1,23 @@
+//! The bodies of all tests, each with exactly known symmetry, regions and volumes.
+//!
+//! A [`Body`] is a list of vertices and of triangles with the material on either side. [`swept`] builds
+//! bodies from rings around an axis, so that neighbouring materials share their triangles. [`random_solid`]
+//! makes bodies from random numbers, [`adversarial`] the shapes that make programs slow, [`facets`] triangle
+//! soups for the readers of files, and [`structured`] documents of meshed wedges without any of the tools.
+
+pub mod adversarial;
+mod body;
+mod chance;
+mod output;
+mod placement;
+pub mod random_solid;
+pub mod structured;
+pub mod swept;
+
+pub use body::{Body, Face, Material};
+pub use chance::{Dice, Random};
+pub use output::{Encoding, write};
+pub use placement::Placement;
+pub use swept::{
+    Coating, Gear, Impeller, PracticalTsv, Prism, Ratchet, Screw, Tessellation, Tsv, cube,
+};

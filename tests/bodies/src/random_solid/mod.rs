@@ -1,0 +1,348 @@
+//! Random solids whose symmetry, regions and volumes are known.
+//!
+//! A solid is made of cells of a grid around an axis ([`grid`]), on which its group ([`group`]) acts by
+//! permutation: nodes are displaced ([`form`]) and cells filled ([`filling`]) the same way throughout an
+//! orbit. Its cells stay star-shaped, so its surface is a valid piecewise linear complex. Polyhedra within
+//! cells ([`inclusions`]) and other triangles for the same shape ([`tessellation`]) keep it one.
+
+mod filling;
+mod form;
+mod grid;
+mod group;
+mod inclusions;
+mod tessellation;
+
+use crate::Dice;
+use crate::{Body, Encoding, Face, Material, Placement};
+use form::Form;
+use glam::DVec3;
+use grid::Grid;
+use group::{Family, Motion};
+
+/// A random body, where it is, and what is known of it.
+pub struct Solid {
+    /// The body, placed.
+    pub body: Body,
+    /// File format it is to be read from.
+    pub encoding: Encoding,
+    /// What is known of it.
+    pub facts: Facts,
+}
+
+/// What is known of a solid.
+#[derive(Clone, Debug)]
+pub struct Facts {
+    /// Schoenflies symbol of the group it was made for; it may have more symmetry by chance.
+    pub group: String,
+    /// Highest order of a rotation that maps it onto itself.
+    pub order: usize,
+    /// Whether mirror planes contain the axis.
+    pub mirror: bool,
+    /// Largest distance from the axis, in the units of the placed body.
+    pub radius: f64,
+    /// Features, in a few words.
+    pub features: Vec<String>,
+}
+
+/// The solid of a seed.
+pub fn solid(seed: u64) -> Solid {
+    let mut dice = Dice::new(seed);
+    let family = dice.pick(&Family::ALL);
+    let order = match dice.below(100) {
+        0..4 => 1,
+        4..64 => dice.integer(2, 8),
+        64..86 => dice.integer(9, 16),
+        _ => dice.integer(17, 64),
+    };
+    let pitch = pitch(family, order, &mut dice);
+    // Fewer cells along the others where there are many around.
+    let most = if order * pitch > 36 { 2 } else { 4 };
+    let grid = Grid {
+        rings: dice.integer(1, most),
+        sectors: order * pitch,
+        levels: dice.integer(1, most),
+        bored: dice.chance(0.4),
+    };
+    let motions = group::motions(family, order, pitch, &mut dice);
+    let middles = dice.pick(&[0.0, 0.0, 0.2, 1.0]);
+    let faces = grid.faces(&motions, middles, &mut dice);
+    let mut features = Vec::new();
+    let form = random_form(family, &grid, &mut features, &mut dice);
+    let (places, share) = form.places(&grid, &faces, &motions, &mut dice);
+    if share < 1.0 {
+        features.push(format!("deformation x {share}"));
+    }
+    let materials = dice.pick(&[1, 1, 1, 2, 2, 3, 4]);
+    let filling = filling::fill(&grid, &motions, materials, &mut dice);
+    let mut body = assemble(&grid, &faces, &places, &filling, materials);
+    let mut origins = vec![None; filling.len()];
+    if dice.chance(0.2) {
+        let middles = grid.middles(&places);
+        let clear = grid.clearances(&faces, &places);
+        origins = inclusions::include(
+            &mut body, &grid, &motions, &filling, &middles, &clear, &mut dice,
+        );
+        if origins.iter().any(Option::is_some) {
+            features.push("inclusions".to_owned());
+        }
+    }
+    // Inclusions may have fewer symmetries than the cells that they are in.
+    let turns = match origins.iter().any(Option::is_some) {
+        true => order,
+        false => turns(&grid, &faces, &places, &filling),
+    };
+    body.order = turns.max(family.highest_order(order)) as u32;
+    body.mirror = motions.iter().any(|m| m.mirror && !m.flip);
+    tidy(&mut body);
+    if tessellation::touches(&body) {
+        features.push("touching edges".to_owned());
+    }
+    if dice.chance(0.3) {
+        let few = body.faces.len().min(200);
+        let (splits, flips) = (dice.below(few), dice.below(4 * few));
+        tessellation::change(&mut body, splits, flips, &mut dice);
+        features.push(format!("{splits} splits, {flips} flips"));
+    }
+    let distances = body.vertices.iter().map(|p| p.truncate().length());
+    let radius = distances.fold(0.0, f64::max);
+    let (noise, scale) = place(&mut body, &mut features, &mut dice);
+    let encoding = encoding(&body, noise, &mut dice);
+    features.push(format!("{encoding:?}"));
+    Solid {
+        facts: Facts {
+            group: family.symbol(order),
+            order: body.order as usize,
+            mirror: body.mirror,
+            radius: scale * radius,
+            features,
+        },
+        body,
+        encoding,
+    }
+}
+
+/// Sectors of a pitch: at least three around the axis, an even number where the group halves it.
+fn pitch(family: Family, order: usize, dice: &mut Dice) -> usize {
+    let most = match order {
+        0..=8 => 5,
+        9..=16 => 3,
+        _ => 2,
+    };
+    loop {
+        let pitch = dice.integer(1, most.max(3_usize.div_ceil(order)));
+        if pitch * order >= 3 && (!family.halves_pitch() || pitch.is_multiple_of(2)) {
+            return pitch;
+        }
+    }
+}
+
+/// Values from `low` to `high`, one of the intervals thin in some cases.
+fn steps(
+    low: f64,
+    high: f64,
+    count: usize,
+    even: bool,
+    dice: &mut Dice,
+) -> (Vec<f64>, Option<f64>) {
+    let mut widths: Vec<f64> = (0..count).map(|_| dice.between(0.3, 1.0)).collect();
+    let mut thin = None;
+    if count > 1 && dice.chance(0.25) {
+        let place = dice.below(count);
+        let sum: f64 = widths.iter().sum();
+        let share = dice.log_between(0.02, 0.3);
+        widths[place] = share * sum;
+        thin = Some(share);
+    }
+    if even {
+        for i in 0..count / 2 {
+            widths[count - 1 - i] = widths[i];
+        }
+    }
+    let sum: f64 = widths.iter().sum();
+    let mut values = vec![low];
+    let mut part = 0.0;
+    for width in &widths {
+        part += width;
+        values.push(low + (high - low) * part / sum);
+    }
+    if even {
+        // Exactly opposite.
+        for i in 0..values.len() / 2 {
+            values[count - i] = -values[i];
+        }
+        if count.is_multiple_of(2) {
+            values[count / 2] = 0.0;
+        }
+    }
+    (values, thin)
+}
+
+fn random_form(family: Family, grid: &Grid, features: &mut Vec<String>, dice: &mut Dice) -> Form {
+    let bore = if grid.bored {
+        dice.between(0.1, 0.8)
+    } else {
+        0.0
+    };
+    let (radii, thin_ring) = steps(bore, 1.0, grid.rings, false, dice);
+    let height = dice.log_between(0.1, 4.0);
+    let turned = family.turns_over();
+    let (heights, thin_level) = steps(-0.5 * height, 0.5 * height, grid.levels, turned, dice);
+    if let Some(thin) = thin_ring {
+        features.push(format!("ring of {thin:.3}"));
+    }
+    if let Some(thin) = thin_level {
+        features.push(format!("layer of {thin:.3}"));
+    }
+    let mut deformation = |share: f64, name: &str, low: f64, high: f64| {
+        if !dice.chance(share) {
+            return 0.0;
+        }
+        features.push(name.to_owned());
+        dice.between(low, high)
+    };
+    let chiral = matches!(family, Family::C | Family::D | Family::Ch | Family::S);
+    Form {
+        radii,
+        heights,
+        profile: deformation(0.35, "profile", 0.05, 0.5),
+        twist: deformation(if chiral { 0.4 } else { 0.0 }, "twist", 0.05, 0.8),
+        dish: deformation(0.2, "dish", 0.02, 0.3),
+        roughness: deformation(0.25, "rough", 0.02, 0.3),
+        unevenness: deformation(0.4, "uneven", 0.05, 0.4),
+    }
+}
+
+fn assemble(
+    grid: &Grid,
+    faces: &[grid::Face],
+    places: &[DVec3],
+    filling: &[Option<usize>],
+    materials: usize,
+) -> Body {
+    let mut vertices = places.to_vec();
+    let mut out = Vec::new();
+    for face in faces {
+        let side = |cell: Option<usize>| cell.and_then(|c| filling[c]);
+        let (front, back) = (side(face.front), side(face.back));
+        if front == back {
+            continue;
+        }
+        let triangles = grid.triangles(face, || {
+            vertices.push(face.corners.iter().map(|&n| places[n]).sum::<DVec3>() / 4.0);
+            vertices.len() - 1
+        });
+        out.extend(triangles.into_iter().map(|t| Face {
+            vertices: t.map(|v| v as u32),
+            front,
+            back,
+        }));
+    }
+    Body {
+        vertices,
+        faces: out,
+        materials: (0..materials)
+            .map(|m| Material {
+                name: format!("material{m}"),
+            })
+            .collect(),
+        order: 1,
+        mirror: false,
+    }
+}
+
+/// Highest order of the rotations by whole sectors that map the filled grid onto itself.
+fn turns(grid: &Grid, faces: &[grid::Face], places: &[DVec3], filling: &[Option<usize>]) -> usize {
+    let holds = |shift: usize| {
+        if !grid.split_alike(faces, shift) {
+            return false;
+        }
+        let motion = Motion {
+            shift,
+            mirror: false,
+            flip: false,
+        };
+        let turn = tmesh::Isometry::rotation(shift as i64, grid.sectors as u32);
+        let (c, s) = turn.cos_sin();
+        let same = (0..filling.len()).all(|cell| {
+            let image = grid.cell_image(cell, motion);
+            filling[cell] == filling[image]
+        });
+        same && (0..places.len()).all(|node| {
+            let (p, q) = (places[node], places[grid.node_image(node, motion)]);
+            let turned = DVec3::new(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+            let idle = node != grid.node(grid.node_place(node));
+            idle || turned.distance(q) < 1e-9
+        })
+    };
+    (1..=grid.sectors)
+        .filter(|n| grid.sectors.is_multiple_of(*n))
+        .rev()
+        .find(|n| holds(grid.sectors / n))
+        .unwrap_or(1)
+}
+
+/// Drops vertices without faces and materials without volume.
+fn tidy(body: &mut Body) {
+    let mut ids = vec![u32::MAX; body.vertices.len()];
+    let mut vertices = Vec::new();
+    for v in body.faces.iter_mut().flat_map(|f| &mut f.vertices) {
+        let old = *v as usize;
+        if ids[old] == u32::MAX {
+            ids[old] = vertices.len() as u32;
+            vertices.push(body.vertices[old]);
+        }
+        *v = ids[old];
+    }
+    body.vertices = vertices;
+    let used = |m: usize| {
+        body.faces
+            .iter()
+            .any(|f| f.front == Some(m) || f.back == Some(m))
+    };
+    let kept: Vec<usize> = (0..body.materials.len()).filter(|&m| used(m)).collect();
+    let new = |m: Option<usize>| m.map(|m| kept.iter().position(|&k| k == m).expect("kept"));
+    for face in &mut body.faces {
+        face.front = new(face.front);
+        face.back = new(face.back);
+    }
+    body.materials = kept.iter().map(|&m| body.materials[m].clone()).collect();
+}
+
+/// Disturbs, turns, shifts and scales the body. Returns the disturbance and the scale.
+fn place(body: &mut Body, features: &mut Vec<String>, dice: &mut Dice) -> (f64, f64) {
+    let mut noise = 0.0;
+    if dice.chance(0.15) {
+        noise = dice
+            .log_between(1e-8, 2e-4)
+            .min(0.02 * tessellation::least_height(body));
+        features.push(format!("noise {noise:.1e}"));
+    }
+    let rotate = dice.chance(0.8).then(|| dice.seed());
+    let scale = if dice.chance(0.3) {
+        dice.log_between(1e-4, 1e4)
+    } else {
+        1.0
+    };
+    Placement {
+        rotate,
+        scale,
+        jitter: noise,
+    }
+    .apply(body);
+    features.push(match rotate {
+        Some(_) => format!("placed, scale {scale:.1e}"),
+        None => format!("scale {scale:.1e}"),
+    });
+    (noise, scale)
+}
+
+fn encoding(body: &Body, noise: f64, dice: &mut Dice) -> Encoding {
+    let single = body.materials.len() == 1;
+    match dice.below(10) {
+        0..3 if single => Encoding::StlBinary,
+        3..5 => Encoding::Obj,
+        5 => Encoding::Tmesh,
+        6 if noise == 0.0 => Encoding::StlAscii { digits: Some(9) },
+        _ => Encoding::StlAscii { digits: None },
+    }
+}

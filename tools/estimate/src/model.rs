@@ -1,0 +1,94 @@
+//! The coefficients of the estimate.
+
+/// What elements and cuts cost. The unit of all costs is an element of the estimate: the integral of the inverse
+/// cube of the size of elements, of which [`CostModel::tetrahedra`] tetrahedra make one.
+///
+/// The values of [`CostModel::CALIBRATED`] come from `make calibrate`, which meshes the bodies listed in
+/// `tools/estimate/examples/calibrate.rs` whole and cut in every way and fits the coefficients by least squares,
+/// unless the field says otherwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CostModel {
+    /// Tetrahedra that make one element of the estimate.
+    pub tetrahedra: f64,
+    /// How fast the size of elements grows with the distance from a feature.
+    pub growth: f64,
+    /// Size of elements over the width of a wedge that does not disturb them, between mirror planes, whose
+    /// triangles the mesher may divide.
+    pub span: f64,
+    /// The same between the faces of a seam, whose triangles stay as they are.
+    pub seam_span: f64,
+    /// Angle of a wedge, radians, from which its width at the axis does not disturb elements: there is no narrow
+    /// place for a hub to take out. A quarter of a right angle below it, the wedge of 45 degrees that 8 copies
+    /// need has to be among the wide ones, that of 40 degrees, whose elements at the axis are below the bound that
+    /// is asked for by default, among the narrow ones; nothing lies between.
+    pub wide: f64,
+    /// Elements beside a square of the boundary of their size, over those in a cube of it, where a size that was
+    /// asked for limits them: wedges have more boundary than their part of the body.
+    pub skin: f64,
+    /// The same for the wall between wedge and hub, which gets the triangles of two meshes.
+    pub hub_skin: f64,
+    /// What a seam costs in each copy for each unit of [`crate::harm::sliced::Harm::sliced`].
+    pub sliced: f64,
+    /// Time for an element of the hub, which is meshed once for its wall and once within it, over that for one of
+    /// the wedge.
+    pub hub_time: f64,
+    /// Elements that are meshed in the time that it takes to start the mesher. With tiny meshes, nothing is won by
+    /// a narrower wedge, nor by a hub.
+    pub start: f64,
+    /// Which ways to cut are good enough.
+    pub accepted: Accepted,
+}
+
+/// Elements of the assembled mesh over those of a mesh of the whole body that are accepted.
+///
+/// These are choices, bounded above by the budget of 1.3 times the direct mesh's elements and below by what the
+/// estimate is wrong by: `make calibrate` prints the spread of measured over estimated ratios for each of the four.
+/// Each is the budget less two of these spreads; smaller values give up narrow wedges that would have been faster.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accepted {
+    /// Of wedges between mirror planes.
+    pub mirror: f64,
+    /// Of wedges whose faces have to keep their triangles: these limit what can be done about bad elements.
+    pub seam: f64,
+    /// Where a hub or the plane across the axis is cut: their elements are estimated less well.
+    pub more_cuts: f64,
+    /// Of hubs where the bound on the radius-edge ratio is [`Accepted::loose`] or more: with every looser bound
+    /// the whole body loses more elements than hub and narrow wedge do.
+    pub loose_hub: f64,
+    /// Bounds on the radius-edge ratio up to which [`Accepted::more_cuts`] holds for hubs, and from which
+    /// [`Accepted::loose_hub`] does; in between, the share of the way.
+    pub loose: [f64; 2],
+    /// Ways within this factor of the fastest are as fast; the one of the lowest order has the fewest cuts. The
+    /// time of one run differs from that of the next by as much.
+    pub as_fast: f64,
+}
+
+impl CostModel {
+    /// The coefficients that `make calibrate` gave.
+    pub const CALIBRATED: Self = Self {
+        tetrahedra: 17.0,
+        growth: 0.35,
+        span: 1.2,
+        seam_span: 0.7,
+        wide: 44.0 * std::f64::consts::PI / 180.0,
+        skin: 0.25,
+        hub_skin: 0.6,
+        sliced: 6.0,
+        hub_time: 2.0,
+        start: 25.0,
+        accepted: Accepted {
+            mirror: 1.22,
+            seam: 1.15,
+            more_cuts: 1.09,
+            loose_hub: 1.03,
+            loose: [1.7, 2.0],
+            as_fast: 1.02,
+        },
+    };
+}
+
+impl Default for CostModel {
+    fn default() -> Self {
+        Self::CALIBRATED
+    }
+}

@@ -1,0 +1,13 @@
+//! Constrained Delaunay triangulation of points and segments in the plane (crate `spade`, exact
+//! predicates), and which of its triangles belong to what the segments bound.
+//!
+//! - [`Cdt`]: the triangulation as arrays.
+//! - [`Borders`]: segments that know what lies on either side; [`Cdt::label`] spreads that.
+//! - [`Cdt::enclosed`]: what the segments enclose, without holes.
+
+mod enclosed;
+mod label;
+mod triangulation;
+
+pub use label::{Borders, Labels, Segment, triangulate};
+pub use triangulation::{Cdt, CdtError, NONE};

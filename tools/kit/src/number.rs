@@ -1,0 +1,96 @@
+//! Numbers as people read them, in messages, tables and pictures. Files get all digits, from their writers.
+
+/// Significant digits: what distinguishes two meshes of a million elements, and what a person compares at a glance.
+const DIGITS: i32 = 6;
+
+/// Powers of ten of the leading digit for which plain notation is used: a choice. Within it either notation takes at
+/// most eleven characters, which is what the columns of tables are made for, and beyond it the padding zeros of plain
+/// notation would have to be counted.
+const PLAIN: std::ops::Range<i32> = -4..7;
+
+/// A number with six significant digits and without trailing zeros, in plain notation from 1e-4 to below 1e7 (there
+/// with its whole part), else in scientific notation.
+pub fn number(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        // No minus before zero.
+        return format!("{}", x + 0.0).to_lowercase();
+    }
+    let scientific = format!("{x:.*e}", DIGITS as usize - 1);
+    let Some((digits, exponent)) = scientific.split_once('e') else {
+        return scientific;
+    };
+    // The exponent after rounding: 999999.7 has seven digits.
+    match exponent.parse::<i32>() {
+        Ok(power) if PLAIN.contains(&power) => {
+            let decimals = (DIGITS - 1 - power).max(0) as usize;
+            trimmed(&format!("{x:.decimals$}")).to_owned()
+        }
+        _ => format!("{}e{exponent}", trimmed(digits)),
+    }
+}
+
+/// Digits without the zeros that end their decimals.
+fn trimmed(digits: &str) -> &str {
+    if digits.contains('.') {
+        digits.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        digits
+    }
+}
+
+/// A count with its digits in groups of three.
+pub fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(' ');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// Three numbers as a point: `(0.5, -12.25, 1e-9)`.
+pub fn point(p: [f64; 3]) -> String {
+    let [x, y, z] = p.map(number);
+    format!("({x}, {y}, {z})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_six_digits_at_most() {
+        for (x, expected) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1"),
+            (70.528779, "70.5288"),
+            (-0.25, "-0.25"),
+            (123_456.7, "123457"),
+            (999_999.7, "1000000"),
+            (1_234_567.8, "1234568"),
+            (0.000_123_456_7, "0.000123457"),
+            (1e-7, "1e-7"),
+            (-1.234_567_8e-7, "-1.23457e-7"),
+            (1.5e9, "1.5e9"),
+            (f64::INFINITY, "inf"),
+            (f64::NEG_INFINITY, "-inf"),
+            (f64::NAN, "nan"),
+        ] {
+            assert_eq!(number(x), expected);
+        }
+        assert_eq!(
+            point([0.1 + 0.2, -0.0, 1e-20 / 3.0]),
+            "(0.3, 0, 3.33333e-21)"
+        );
+    }
+
+    #[test]
+    fn counts_are_grouped_by_thousands() {
+        assert_eq!(grouped(1_234_567), "1 234 567");
+        assert_eq!(grouped(12), "12");
+    }
+}

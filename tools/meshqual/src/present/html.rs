@@ -1,0 +1,229 @@
+//! The report as a page: tables, histograms and pictures in one file that needs no other.
+
+use super::palette::{quality_colour, quality_legend, region_colour};
+use super::picture;
+use super::svg::{escaped, svg};
+use super::words::{STATISTICS, beyond, check_table, symmetry_words};
+use crate::error::Error;
+use crate::measure::{Metric, Statistic, Summary};
+use crate::report::Report;
+use base64::display::Base64Display;
+use base64::engine::general_purpose::STANDARD;
+use kit::{grouped, number, point};
+use std::fmt::Write;
+use tmesh::Document;
+
+/// Pictures of a mesh.
+pub struct Pictures {
+    outside: Vec<u8>,
+    inside: Option<Vec<u8>>,
+}
+
+impl Pictures {
+    /// Draws a mesh.
+    ///
+    /// # Errors
+    /// Pictures that cannot be encoded.
+    pub fn of(document: &Document) -> Result<Self, Error> {
+        Ok(Self {
+            outside: picture::outside(document)?,
+            inside: picture::inside(document)?,
+        })
+    }
+}
+
+/// Regions named below a picture; the table of regions has them all.
+const NAMED_REGIONS: usize = 16;
+
+const STYLE: &str = "body{font:14px/1.5 sans-serif;color:#222;max-width:1280px;margin:2em auto;padding:0 1em}\
+table{border-collapse:collapse;margin:.5em 0 1.5em}td,th{padding:.15em .9em;text-align:right;border-bottom:1px solid #ddd}\
+td:first-child,th:first-child{text-align:left;padding-left:0}figure{display:inline-block;margin:0 1em 1em 0;vertical-align:top}\
+figcaption{max-width:600px;color:#555}img{max-width:100%;border:1px solid #ddd}.broken{color:#b2182b;font-weight:bold}\
+.key{display:inline-block;width:.9em;height:.9em;margin:0 .3em 0 .8em;vertical-align:-.1em}svg{max-width:100%;height:auto}";
+
+/// The page.
+pub fn html(report: &Report, title: &str, pictures: &Pictures) -> String {
+    let mut out = String::new();
+    let name = escaped(title);
+    let _ = writeln!(
+        out,
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title>\
+         <style>{STYLE}</style></head>\n<body>\n<h1>{name}</h1>"
+    );
+    sizes(&mut out, &report.summary);
+    images(&mut out, report, pictures);
+    regions(&mut out, &report.summary);
+    metrics(&mut out, report);
+    out.push_str(&svg(report, title));
+    worst(&mut out, report);
+    checks(&mut out, report);
+    for note in &report.notes {
+        let _ = writeln!(out, "<p>{}</p>", escaped(note));
+    }
+    out.push_str("</body>\n</html>\n");
+    out
+}
+
+fn sizes(out: &mut String, s: &Summary) {
+    let _ = write!(
+        out,
+        "<p>{} vertices, {} tetrahedra, {} surface triangles; volume {}, boundary area {}",
+        grouped(s.vertices),
+        grouped(s.tetrahedra),
+        grouped(s.surface.triangles),
+        number(s.volume),
+        number(s.surface.boundary_area)
+    );
+    if let Some(symmetry) = &s.symmetry {
+        let _ = write!(out, "; symmetry of {}", symmetry_words(symmetry));
+        if s.instances > 1 {
+            let _ = write!(out, ", {} copies", grouped(s.instances));
+        }
+    }
+    out.push_str("</p>\n");
+}
+
+fn key(out: &mut String, colour: [f64; 3], text: &str) {
+    let [r, g, b] = colour.map(|c| c as u8);
+    let _ = write!(
+        out,
+        "<span class=\"key\" style=\"background:rgb({r},{g},{b})\"></span>{}",
+        escaped(text)
+    );
+}
+
+fn images(out: &mut String, report: &Report, pictures: &Pictures) {
+    let mut figure = |bytes: &[u8], caption: &dyn Fn(&mut String)| {
+        let _ = write!(
+            out,
+            "<figure><img width=\"600\" alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>",
+            Base64Display::new(bytes, &STANDARD)
+        );
+        caption(out);
+        out.push_str("</figcaption></figure>\n");
+    };
+    figure(&pictures.outside, &|out| {
+        out.push_str("Surface, by region:");
+        for (i, region) in report
+            .summary
+            .regions
+            .iter()
+            .enumerate()
+            .take(NAMED_REGIONS)
+        {
+            key(out, region_colour(i), &region.name);
+        }
+    });
+    if let Some(inside) = &pictures.inside {
+        figure(inside, &|out| {
+            out.push_str("Elements behind a plane through the middle, by smallest dihedral angle:");
+            for degrees in quality_legend() {
+                let text = format!("{degrees}°");
+                key(out, quality_colour(degrees), &text);
+            }
+        });
+    }
+}
+
+fn regions(out: &mut String, s: &Summary) {
+    out.push_str(
+        "<h2>Regions</h2>\n<table><tr><th>region</th><th>id</th><th>tetrahedra</th><th>volume</th>\
+         <th>smallest dihedral</th><th>1 %</th><th>radius-edge 99 %</th><th>largest</th></tr>\n",
+    );
+    for r in &s.regions {
+        let of = |metric, statistic| {
+            let value = r.metrics.get(metric).map(|m| m.get(statistic));
+            value.map_or("-".to_owned(), number)
+        };
+        let _ = writeln!(
+            out,
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+             <td>{}</td></tr>",
+            escaped(&r.name),
+            r.id,
+            grouped(r.tetrahedra),
+            number(r.volume),
+            of(Metric::MinDihedral, Statistic::Min),
+            of(Metric::MinDihedral, Statistic::P01),
+            of(Metric::RadiusEdgeRatio, Statistic::P99),
+            of(Metric::RadiusEdgeRatio, Statistic::Max),
+        );
+    }
+    out.push_str("</table>\n");
+}
+
+fn metrics(out: &mut String, report: &Report) {
+    out.push_str("<h2>Quality</h2>\n<table><tr><th>metric</th>");
+    for statistic in STATISTICS {
+        let _ = write!(out, "<th>{}</th>", statistic.name());
+    }
+    out.push_str("</tr>\n");
+    let other = report
+        .compare
+        .as_ref()
+        .map(|c| (c.name.as_str(), &c.summary));
+    let all = [("", &report.summary)].into_iter().chain(other);
+    for metric in Metric::ALL {
+        for (name, summary) in all.clone() {
+            let name = match name {
+                "" => metric.name().to_owned(),
+                name => format!("compared: {}", escaped(name)),
+            };
+            let _ = write!(out, "<tr><td>{name}</td>");
+            for statistic in STATISTICS {
+                let value = summary.metrics.get(metric).map(|m| m.get(statistic));
+                let _ = write!(out, "<td>{}</td>", value.map_or("-".to_owned(), number));
+            }
+            out.push_str("</tr>\n");
+        }
+    }
+    out.push_str("</table>\n");
+    for (name, summary) in all {
+        for line in beyond(summary) {
+            let of = if name.is_empty() { "" } else { "compared: " };
+            let _ = writeln!(out, "<p>{of}{}</p>", escaped(&line));
+        }
+    }
+}
+
+fn worst(out: &mut String, report: &Report) {
+    if report.worst.is_empty() {
+        return;
+    }
+    out.push_str(
+        "<h2>Worst elements</h2>\n<table><tr><th>metric</th><th>value</th><th>region</th>\
+         <th>place</th><th>template</th><th>tetrahedron</th><th>copies</th></tr>\n",
+    );
+    for w in &report.worst {
+        let _ = writeln!(
+            out,
+            "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+             <td>{}</td></tr>",
+            w.metric.name(),
+            number(w.value),
+            escaped(&report.summary.region_name(w.region)),
+            point(w.place),
+            w.template,
+            w.tetrahedron,
+            w.copies
+        );
+    }
+    out.push_str("</table>\n");
+}
+
+fn checks(out: &mut String, report: &Report) {
+    out.push_str("<h2>Checks</h2>\n");
+    let failures = report.failures(true);
+    for failure in &failures {
+        let _ = writeln!(out, "<p class=\"broken\">{}</p>", escaped(failure));
+    }
+    if failures.is_empty() {
+        out.push_str("<p>All promises and limits hold.</p>\n");
+    }
+    out.push_str("<table>\n");
+    for (name, value) in check_table(&report.checks) {
+        let value = value.unwrap_or_else(|| "-".to_owned());
+        let _ = writeln!(out, "<tr><td>{name}</td><td>{value}</td></tr>");
+    }
+    out.push_str("</table>\n");
+}

@@ -1,0 +1,263 @@
+//! The histograms as an SVG image: two rows of three panels.
+
+use crate::measure::{Histogram, Metric, Statistics};
+use crate::report::Report;
+use kit::number;
+use std::fmt::Write;
+
+/// The look of the image, pixels. All of it is a matter of taste: nothing is computed from it.
+struct Layout {
+    /// Size of a panel's plot.
+    width: f64,
+    height: f64,
+    /// Margins around the plot.
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+    /// Height of the headline above the panels, and its two base lines.
+    head: f64,
+    title_base: f64,
+    sizes_base: f64,
+    /// Base lines of a panel's name and statistics, relative to the plot's top.
+    name_base: f64,
+    statistics_base: f64,
+    /// Base line of the labels below the plot, relative to its bottom.
+    label_base: f64,
+    /// Base line of the label of the highest share, relative to the plot's top.
+    share_base: f64,
+    /// Distance of the labels at the left from the plot.
+    label_gap: f64,
+    /// Length of the ticks below the plot.
+    tick: f64,
+    /// Gap between bars, and the least width of a bar.
+    gap: f64,
+    least_bar: f64,
+    /// Panels side by side, and the steps between the labels of a plot.
+    columns: usize,
+    steps: usize,
+}
+
+const LAYOUT: Layout = Layout {
+    width: 340.0,
+    height: 200.0,
+    left: 52.0,
+    right: 18.0,
+    top: 44.0,
+    bottom: 34.0,
+    head: 48.0,
+    title_base: 24.0,
+    sizes_base: 42.0,
+    name_base: -22.0,
+    statistics_base: -7.0,
+    label_base: 16.0,
+    share_base: 8.0,
+    label_gap: 5.0,
+    tick: 4.0,
+    gap: 1.0,
+    least_bar: 0.5,
+    columns: 3,
+    steps: 4,
+};
+
+/// The image. With a comparison, the other mesh is drawn as an outline; heights are shares.
+pub fn svg(report: &Report, title: &str) -> String {
+    let Layout { columns, left, .. } = LAYOUT;
+    let panel = (
+        left + LAYOUT.width + LAYOUT.right,
+        LAYOUT.top + LAYOUT.height + LAYOUT.bottom,
+    );
+    let rows = Metric::ALL.len().div_ceil(columns);
+    let width = columns as f64 * panel.0;
+    let height = LAYOUT.head + rows as f64 * panel.1;
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="11" fill="#222222">
+<rect width="{width}" height="{height}" fill="#ffffff"/>"##
+    );
+    headline(&mut out, report, title);
+    for (i, metric) in Metric::ALL.into_iter().enumerate() {
+        let x = (i % columns) as f64 * panel.0 + left;
+        let y = LAYOUT.head + (i / columns) as f64 * panel.1 + LAYOUT.top;
+        let _ = writeln!(out, r#"<g transform="translate({x} {y})">"#);
+        let own = report.summary.metrics.get(metric);
+        let other = report.compare.as_ref();
+        let other = other.and_then(|c| c.summary.metrics.get(metric));
+        draw(&mut out, metric, own, other);
+        let _ = writeln!(out, "</g>");
+    }
+    let _ = writeln!(out, "</svg>");
+    out
+}
+
+fn headline(out: &mut String, report: &Report, title: &str) {
+    let Layout {
+        left,
+        title_base,
+        sizes_base,
+        ..
+    } = LAYOUT;
+    let summary = &report.summary;
+    let _ = writeln!(
+        out,
+        r#"<text x="{left}" y="{title_base}" font-size="15" font-weight="bold">{}</text>"#,
+        escaped(title)
+    );
+    let mut line = format!(
+        "{} vertices, {} tetrahedra",
+        summary.vertices, summary.tetrahedra
+    );
+    if let Some(other) = &report.compare {
+        let _ = write!(
+            line,
+            "; outline: {} ({} tetrahedra)",
+            other.name, other.summary.tetrahedra
+        );
+    }
+    let line = escaped(&line);
+    let _ = writeln!(out, r#"<text x="{left}" y="{sizes_base}">{line}</text>"#);
+}
+
+/// A panel: what it shows, the bars of the mesh, the outline of the other one, and the axes.
+fn draw(out: &mut String, metric: Metric, own: Option<&Statistics>, other: Option<&Statistics>) {
+    let Layout {
+        name_base,
+        statistics_base,
+        ..
+    } = LAYOUT;
+    let name = metric.name();
+    let _ = writeln!(
+        out,
+        r#"<text y="{name_base}" font-weight="bold">{name}</text>"#
+    );
+    let Some(reference) = own.or(other) else {
+        let _ = writeln!(out, r#"<text y="{statistics_base}">no tetrahedra</text>"#);
+        return;
+    };
+    if let Some(s) = own {
+        let _ = writeln!(
+            out,
+            r#"<text y="{statistics_base}">min {}  p01 {}  p50 {}  p99 {}  max {}</text>"#,
+            number(s.min),
+            number(s.p01),
+            number(s.p50),
+            number(s.p99),
+            number(s.max)
+        );
+    }
+    let shown = [own, other].into_iter().flatten();
+    let plot = Plot {
+        bins: reference.histogram.counts.len(),
+        highest: shown
+            .flat_map(|s| shares(&s.histogram))
+            .fold(f64::MIN_POSITIVE, f64::max),
+    };
+    if let Some(s) = own {
+        plot.bars(out, &s.histogram);
+    }
+    if let Some(s) = other {
+        plot.outline(out, &s.histogram);
+    }
+    plot.axes(out, &reference.histogram.edges);
+}
+
+/// The scales of a panel.
+struct Plot {
+    bins: usize,
+    /// The highest share of a bin.
+    highest: f64,
+}
+
+impl Plot {
+    /// Where a bin begins.
+    fn x(&self, bin: usize) -> f64 {
+        LAYOUT.width * bin as f64 / self.bins as f64
+    }
+
+    fn y(&self, share: f64) -> f64 {
+        LAYOUT.height * (1.0 - share / self.highest)
+    }
+
+    fn bars(&self, out: &mut String, histogram: &Histogram) {
+        let width = (LAYOUT.width / self.bins as f64 - LAYOUT.gap).max(LAYOUT.least_bar);
+        for (i, share) in shares(histogram).into_iter().enumerate() {
+            if share > 0.0 {
+                let _ = writeln!(
+                    out,
+                    r##"<rect x="{:.2}" y="{:.2}" width="{width:.2}" height="{:.2}" fill="#4c78a8"><title>{} to {}: {}</title></rect>"##,
+                    self.x(i) + 0.5 * LAYOUT.gap,
+                    self.y(share),
+                    LAYOUT.height - self.y(share),
+                    number(histogram.edges[i]),
+                    number(histogram.edges[i + 1]),
+                    histogram.counts[i]
+                );
+            }
+        }
+    }
+
+    fn outline(&self, out: &mut String, histogram: &Histogram) {
+        let height = LAYOUT.height;
+        let mut path = format!("M0 {height}");
+        for (i, share) in shares(histogram).into_iter().enumerate() {
+            let _ = write!(path, " V{:.2} H{:.2}", self.y(share), self.x(i + 1));
+        }
+        let _ = writeln!(
+            out,
+            r##"<path d="{path} V{height}" fill="none" stroke="#e45756" stroke-width="1.5"/>"##
+        );
+    }
+
+    fn axes(&self, out: &mut String, edges: &[f64]) {
+        let Layout {
+            width,
+            height,
+            label_gap,
+            share_base,
+            tick,
+            steps,
+            ..
+        } = LAYOUT;
+        let _ = writeln!(
+            out,
+            r##"<path d="M0 0 V{height} H{width}" fill="none" stroke="#222222"/>
+<text x="-{label_gap}" y="{share_base}" text-anchor="end">{:.1} %</text>
+<text x="-{label_gap}" y="{height}" text-anchor="end">0</text>"##,
+            100.0 * self.highest
+        );
+        let mut labelled: Vec<usize> = (0..=steps).map(|i| i * self.bins / steps).collect();
+        labelled.dedup();
+        for i in labelled {
+            let _ = writeln!(
+                out,
+                r##"<path d="M{0:.2} {height} v{tick}" stroke="#222222"/><text x="{0:.2}" y="{1}" text-anchor="middle">{2}</text>"##,
+                self.x(i),
+                height + LAYOUT.label_base,
+                number(edges[i])
+            );
+        }
+    }
+}
+
+fn shares(histogram: &Histogram) -> Vec<f64> {
+    let total = histogram.counts.iter().sum::<u64>().max(1) as f64;
+    histogram.counts.iter().map(|&c| c as f64 / total).collect()
+}
+
+/// Text as it can stand in XML.
+pub fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // XML has no other control characters.
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
