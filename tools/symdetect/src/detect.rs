@@ -10,7 +10,7 @@ use crate::summary::OrderResidual;
 use crate::verify::Depth;
 use glam::DVec3;
 use std::ops::RangeInclusive;
-use tmesh::{Document, Frame, Symmetry};
+use tmesh::{Document, Frame, Search, Symmetry};
 
 /// How far from the direction given, in radians, an adjusted axis may be.
 const OVERRIDE_ANGLE: f64 = 0.02;
@@ -19,6 +19,8 @@ const OVERRIDE_ANGLE: f64 = 0.02;
 pub struct Detection {
     /// The symmetry, in world coordinates.
     pub symmetry: Symmetry,
+    /// What else the search came across.
+    pub search: Search,
     /// Remarks, a sentence each.
     pub notes: Vec<String>,
     /// Residuals of all orders up to some, if [`Params::profile`] asked for them.

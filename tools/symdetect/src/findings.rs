@@ -11,7 +11,7 @@ use crate::summary::OrderResidual;
 use crate::verify::Depth;
 use glam::{DMat3, DVec3};
 use kit::in_parallel;
-use tmesh::{Axis, Frame, Isometry, OtherAxis, RejectedOrder, Symmetry};
+use tmesh::{Axis, Frame, Isometry, OtherAxis, RegionMap, RejectedOrder, Search, Symmetry};
 
 /// Other axes listed at most.
 const MOST_OTHER_AXES: usize = 64;
@@ -70,35 +70,37 @@ impl Job<'_> {
         }
         let regions = &shape.regions;
         let centre = shape.to_world(frame.origin);
+        // In the order of the group's generators.
+        let operations = [
+            (group.order > 1, &found.verified.rotation),
+            (group.mirror, &found.verified.mirror),
+            (group.flip != Flip::None, &found.verified.flip),
+        ];
+        let maps: Vec<RegionMap> = operations
+            .into_iter()
+            .filter(|(there, _)| *there)
+            .map(|(_, permutation)| RegionMap {
+                pairs: permutation.pairs(regions),
+            })
+            .collect();
+        let permuted = maps.iter().any(|map| !map.pairs.is_empty());
         let symmetry = Symmetry {
-            group: group.symbol(),
-            order: group.order,
-            mirror: group.mirror,
-            horizontal_mirror: group.flip == Flip::Horizontal,
+            group: group.named(),
             axis: Axis {
                 point: centre.to_array(),
                 direction: frame.rotation.z_axis.to_array(),
             },
-            mirror_direction: frame.rotation.x_axis.to_array(),
+            reference: frame.rotation.x_axis.to_array(),
             residual,
             tolerance: self.params.tolerance,
             axisymmetric: found.axisymmetric,
             radius: found.radius * shape.scale,
-            other_axes,
-            rejected,
-            rotation_regions: found.verified.rotation.pairs(regions),
-            mirror_regions: found.verified.mirror.pairs(regions),
-            horizontal_regions: if group.flip == Flip::Horizontal {
-                found.verified.flip.pairs(regions)
-            } else {
-                Vec::new()
-            },
-            promise: None,
+            regions: if permuted { maps } else { Vec::new() },
         };
-        if !symmetry.rotation_regions.is_empty() {
+        let turned = symmetry.rotation_regions().pairs.len();
+        if group.order > 1 && turned > 0 {
             notes.push(format!(
-                "the rotation maps {} regions onto other ones",
-                symmetry.rotation_regions.len()
+                "the rotation maps {turned} regions onto other ones"
             ));
         }
         notes.insert(
@@ -115,6 +117,10 @@ impl Job<'_> {
         Detection {
             profile: self.profile(frame, group.order),
             symmetry,
+            search: Search {
+                other_axes,
+                rejected,
+            },
             notes,
             asymmetric: None,
         }

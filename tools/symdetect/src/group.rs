@@ -5,7 +5,7 @@ use crate::permutation::Permutation;
 use crate::shape::{Motion, Shape};
 use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DMat3;
-use tmesh::{Frame, Isometry};
+use tmesh::{Frame, Isometry, Kind};
 
 /// Operations that turn the axis over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,19 +46,23 @@ pub struct Verified {
 }
 
 impl Group {
-    /// Schoenflies symbol with the order written out. A single mirror plane is `C1v`.
+    /// The same as a document has it.
+    pub fn named(&self) -> tmesh::Group {
+        let kind = match (self.flip, self.mirror) {
+            (Flip::None, false) => Kind::C,
+            (Flip::None, true) => Kind::Cv,
+            (Flip::Horizontal, false) => Kind::Ch,
+            (Flip::Horizontal, true) => Kind::Dh,
+            (Flip::Rotary, false) => Kind::S,
+            (Flip::Rotary, true) => Kind::Dd,
+            (Flip::HalfTurn, _) => Kind::D,
+        };
+        tmesh::Group::new(kind, self.order)
+    }
+
+    /// Schoenflies symbol with the order written out.
     pub fn symbol(&self) -> String {
-        let n = self.order;
-        match (self.flip, self.mirror) {
-            (Flip::None, false) => format!("C{n}"),
-            (Flip::None, true) => format!("C{n}v"),
-            (Flip::Horizontal, false) => format!("C{n}h"),
-            (Flip::Horizontal, true) if n == 1 => "C2v".to_owned(),
-            (Flip::Horizontal, true) => format!("D{n}h"),
-            (Flip::Rotary, false) => format!("S{}", 2 * n),
-            (Flip::Rotary, true) => format!("D{n}d"),
-            (Flip::HalfTurn, _) => format!("D{n}"),
-        }
+        self.named().symbol()
     }
 
     /// How much there is beside the rotation: mirrors count most.

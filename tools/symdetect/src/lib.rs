@@ -88,5 +88,6 @@ impl Default for Params {
 pub fn run(mut document: Document, params: &Params) -> Result<Document, Error> {
     let detection = detect(&document, params, &mut |_| ())?;
     document.symmetry = Some(detection.symmetry);
+    document.search = Some(detection.search);
     Ok(document)
 }

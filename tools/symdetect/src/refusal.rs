@@ -10,7 +10,7 @@ use crate::refine::{Canonical, refine};
 use crate::shape::Motion;
 use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DVec3;
-use tmesh::{Axis, Frame, RejectedOrder, Symmetry};
+use tmesh::{Axis, Frame, RejectedOrder, Search, Symmetry};
 
 impl Job<'_> {
     /// The operation that comes nearest to being a symmetry.
@@ -137,25 +137,21 @@ impl Job<'_> {
             .collect();
         Detection {
             symmetry: Symmetry {
-                group: group.symbol(),
-                order: 1,
-                mirror: false,
-                horizontal_mirror: false,
+                group: group.named(),
                 axis: Axis {
                     point: self.shape.to_world(self.centre).to_array(),
                     direction: frame.rotation.z_axis.to_array(),
                 },
-                mirror_direction: x.to_array(),
+                reference: x.to_array(),
                 residual: 0.0,
                 tolerance: self.params.tolerance,
                 axisymmetric: false,
                 radius: radius * self.shape.scale,
+                regions: Vec::new(),
+            },
+            search: Search {
                 other_axes: Vec::new(),
                 rejected,
-                rotation_regions: Vec::new(),
-                mirror_regions: Vec::new(),
-                horizontal_regions: Vec::new(),
-                promise: None,
             },
             notes: Vec::new(),
             profile: self.profile(&frame, 1),

@@ -11,7 +11,7 @@ use glam::DVec3;
 use kit::in_parallel;
 use rustc_hash::FxHashMap;
 use tetgen_sys::Mesh;
-use tmesh::{Document, Template, Tet, Triangle, Wall};
+use tmesh::{Document, Template, Tet, Triangle};
 
 /// Points that belong to a plane or to the axis may be this far from it, relative to the largest
 /// coordinate: rounding of what TetGen computes.
@@ -143,13 +143,13 @@ pub fn fill(
             vertices,
             triangles,
             tets,
-            walls: Vec::new(),
+            gluings: Vec::new(),
             axis: Vec::new(),
         },
         vertices: of_vertex,
         triangles: vec![NONE; input.triangles.len()],
         shared: {
-            let others = face_key(input.walls.len(), false);
+            let others = face_key(input.gluings.len(), false);
             let all = 0..faces.len() as u32;
             all.filter(|&t| faces[t as usize] >= others).collect()
         },
@@ -160,7 +160,8 @@ pub fn fill(
     let first_new = filled.vertices.iter().filter(|&&v| v != NONE).count();
     restore_preserved(input, plc, &faces, &mut filled).map_err(&unusable)?;
     let shifted = on_shifted_facets(plc, &facets, first_new, &filled.template);
-    restore_walls(input, plc, &faces, first_new, shifted, &mut filled).map_err(&unusable)?;
+    restore_walls((input, index), plc, &faces, first_new, shifted, &mut filled)
+        .map_err(&unusable)?;
     let origin = Origin {
         facets,
         faces,
@@ -185,7 +186,14 @@ pub fn finish(
         template: index,
         what,
     };
-    filled.improved = refine(document, plc, &origin.facets, params, sizes, filled);
+    filled.improved = refine(
+        (document, index),
+        plc,
+        &origin.facets,
+        params,
+        sizes,
+        filled,
+    );
     let reach = document.frame.origin.length() + plc.extent;
     let template = &filled.template;
     orientations(template, origin.first_new, reach, params.threads).map_err(unusable)?;
@@ -195,7 +203,7 @@ pub fn finish(
 /// Improves the tetrahedra, as far as elements are to be optimized: the smallest angle to reach is what
 /// remains of a straight angle, halved, and the one asked for at least.
 fn refine(
-    document: &Document,
+    (document, index): (&Document, usize),
     plc: &Plc,
     facets: &[usize],
     params: &Params,
@@ -211,7 +219,7 @@ fn refine(
         .flat_map(|&t| filled.template.triangles[t as usize].vertices)
         .collect();
     let freedoms = Freedoms::new(
-        &filled.template,
+        (&filled.template, index),
         &Flats {
             of_triangle: &of_triangle,
             normals: &normals,
@@ -343,7 +351,7 @@ fn on_shifted_facets(
 
 /// Rebuilds walls and axis, and puts new vertices on them exactly where they belong.
 fn restore_walls(
-    input: &Template,
+    (input, index): (&Template, usize),
     plc: &Plc,
     faces: &[u32],
     first_new: usize,
@@ -361,60 +369,53 @@ fn restore_walls(
         }
         on
     };
-    let mut walls = Vec::with_capacity(input.walls.len());
-    for (w, wall) in input.walls.iter().enumerate() {
-        let mut wall = wall.clone();
-        match &mut wall {
-            Wall::Mirror(mirror) => {
-                let projection = Projection::of(mirror);
-                let touching = segments(
-                    input,
-                    &touching_edges(input, &mirror.vertices, &mirror.triangles),
-                );
-                let key = face_key(w, false);
-                let triangles: Vec<u32> = (0..faces.len() as u32)
-                    .filter(|&t| faces[t as usize] == key)
-                    .collect();
-                let mut vertices: Vec<u32> = mirror
-                    .vertices
-                    .iter()
-                    .map(|&v| filled.vertices[v as usize])
-                    .filter(|&v| v != NONE)
-                    .collect();
-                for &t in &triangles {
-                    vertices.extend(filled.template.triangles[t as usize].vertices);
-                }
-                if !touching.is_empty() {
-                    vertices.extend((first_new..on_surface.len()).filter_map(|v| {
-                        let p = filled.template.vertices[v];
-                        let near = mirror.plane.distance(p).abs() <= tolerance;
-                        (on_surface[v] && near && on_segments(p, &touching, tolerance))
-                            .then_some(v as u32)
-                    }));
-                }
-                vertices.sort_unstable();
-                vertices.dedup();
-                let new = vertices.iter().filter(|&&v| v as usize >= first_new);
-                projections.extend(new.map(|&v| (v, projection)));
-                mirror.vertices = vertices;
-                mirror.triangles = triangles;
+    let mut gluings = Vec::with_capacity(input.gluings.len());
+    for (w, gluing) in input.gluings.iter().enumerate() {
+        let mut gluing = gluing.clone();
+        if let Some(plane) = gluing.mirror_plane(index) {
+            let projection = Projection::of(&gluing);
+            let [on, of]: [Vec<u32>; 2] = [
+                gluing.vertices_here().collect(),
+                gluing.triangles_here().collect(),
+            ];
+            let touching = segments(input, &touching_edges(input, &on, &of));
+            let key = face_key(w, false);
+            let triangles: Vec<u32> = (0..faces.len() as u32)
+                .filter(|&t| faces[t as usize] == key)
+                .collect();
+            let mut vertices: Vec<u32> = on
+                .iter()
+                .map(|&v| filled.vertices[v as usize])
+                .filter(|&v| v != NONE)
+                .collect();
+            for &t in &triangles {
+                vertices.extend(filled.template.triangles[t as usize].vertices);
             }
-            Wall::Seam(seam) => {
-                pairs(&mut seam.vertex_pairs, &filled.vertices, &filled.vertices)?;
-                pairs(
-                    &mut seam.triangle_pairs,
-                    &filled.triangles,
-                    &filled.triangles,
-                )?;
+            if !touching.is_empty() {
+                vertices.extend((first_new..on_surface.len()).filter_map(|v| {
+                    let p = filled.template.vertices[v];
+                    let near = plane.distance(p).abs() <= tolerance;
+                    (on_surface[v] && near && on_segments(p, &touching, tolerance))
+                        .then_some(v as u32)
+                }));
             }
-            // The other template's numbers are not known here.
-            Wall::Hub(hub) => {
-                let same: Vec<u32> = Vec::new();
-                pairs(&mut hub.vertex_pairs, &filled.vertices, &same)?;
-                pairs(&mut hub.triangle_pairs, &filled.triangles, &same)?;
-            }
+            vertices.sort_unstable();
+            vertices.dedup();
+            let new = vertices.iter().filter(|&&v| v as usize >= first_new);
+            projections.extend(new.map(|&v| (v, projection)));
+            gluing.vertex_pairs = vertices.into_iter().map(|v| [v, v]).collect();
+            gluing.triangle_pairs = triangles.into_iter().map(|t| [t, t]).collect();
+        } else {
+            // The numbers of another template are not known here.
+            let own = gluing.is_seam(index);
+            let there = |numbers: &'_ [u32]| -> Vec<u32> {
+                if own { numbers.to_vec() } else { Vec::new() }
+            };
+            let (vertices, triangles) = (there(&filled.vertices), there(&filled.triangles));
+            pairs(&mut gluing.vertex_pairs, &filled.vertices, &vertices)?;
+            pairs(&mut gluing.triangle_pairs, &filled.triangles, &triangles)?;
         }
-        walls.push(wall);
+        gluings.push(gluing);
     }
 
     let mut axis: Vec<u32> = input
@@ -435,12 +436,10 @@ fn restore_walls(
     axis.sort_unstable();
     axis.dedup();
     let new_on_axis = || axis.iter().filter(|&&v| v as usize >= first_new);
-    for wall in &mut walls {
-        if let Wall::Seam(seam) = wall {
-            // The copies of a wedge that only touches the axis meet there.
-            seam.vertex_pairs.extend(new_on_axis().map(|&v| [v, v]));
-            seam.vertex_pairs.sort_unstable();
-        }
+    for gluing in gluings.iter_mut().filter(|g| g.is_seam(index)) {
+        // The copies of a wedge that only touches the axis meet there.
+        gluing.vertex_pairs.extend(new_on_axis().map(|&v| [v, v]));
+        gluing.vertex_pairs.sort_unstable();
     }
 
     for _ in 0..rounds {
@@ -461,7 +460,7 @@ fn restore_walls(
         let p = &mut filled.template.vertices[v as usize];
         *p = DVec3::new(0.0, 0.0, p.z);
     }
-    filled.template.walls = walls;
+    filled.template.gluings = gluings;
     filled.template.axis = axis;
     Ok(())
 }

@@ -14,7 +14,7 @@ use glam::DVec3;
 use kit::{both, in_parallel};
 use std::time::Instant;
 use tetgen_sys::{Limits, Mesh};
-use tmesh::{Document, Template, Wall};
+use tmesh::{Document, Template};
 
 /// Most tetrahedra that may be asked for in a template: TetGen counts in 32 bits.
 const MOST: f64 = 4e8;
@@ -79,7 +79,7 @@ pub fn tetrahedralize(
 
     let mut advice = Vec::new();
     let mut facts = Vec::new();
-    let refined = document.history.iter().any(|h| h.tool == "periodic-surf");
+    let refined = document.wishes.keep_surface();
     let as_cut = |(d, lead): (&Done, &Option<usize>)| d.preserved && lead.is_none();
     if !refined && done.iter().zip(&leaders).any(as_cut) {
         advice.push(
@@ -108,19 +108,19 @@ pub fn tetrahedralize(
     for index in 0..count {
         let mut template = std::mem::take(&mut done[index].filled.template);
         // A follower has the new numbers already.
-        let walls = template
-            .walls
+        let gluings = template
+            .gluings
             .iter_mut()
             .filter(|_| leaders[index].is_none());
-        for wall in walls {
-            if let Wall::Hub(hub) = wall {
-                let other = &done[hub.other as usize].filled;
-                let lost = renumber_second(&mut hub.vertex_pairs, &other.vertices)
-                    || renumber_second(&mut hub.triangle_pairs, &other.triangles);
+        for gluing in gluings {
+            if let Some(other) = gluing.other_than(index) {
+                let filled = &done[other].filled;
+                let lost = renumber_second(&mut gluing.vertex_pairs, &filled.vertices)
+                    || renumber_second(&mut gluing.triangle_pairs, &filled.triangles);
                 if lost {
                     return Err(Error::Unusable {
-                        template: hub.other as usize,
-                        what: format!("it lost a part of wall '{}'", hub.name),
+                        template: other,
+                        what: format!("it lost a part of wall '{}'", gluing.name),
                     });
                 }
             }

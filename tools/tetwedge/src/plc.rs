@@ -8,7 +8,7 @@ use crate::{Error, Sizes};
 use geom::edges::Edges;
 use glam::DVec3;
 use tetgen_sys::{Complex, RegionSeed};
-use tmesh::{Document, OUTSIDE, Wall};
+use tmesh::{Document, OUTSIDE};
 
 /// Facets may be uneven by this part of the body's diagonal, or by a few times the input's
 /// precision where that is more.
@@ -217,7 +217,7 @@ impl Plc {
         }
         let place =
             |v: u32| Some(point_of_vertex[v as usize] as usize).filter(|&p| p < points.len());
-        let planes: Vec<([f64; 2], Vec<usize>)> = vertical_planes(template)
+        let planes: Vec<([f64; 2], Vec<usize>)> = vertical_planes(template, index)
             .into_iter()
             .map(|(angle, list)| (angle, list.into_iter().filter_map(place).collect()))
             .collect();
@@ -246,7 +246,10 @@ impl Plc {
             let wall = facet.attributes.face.checked_sub(1).map(|k| k as usize / 2);
             // Walls through the axis have a plane of their own to be put back onto.
             let upright = wall.is_some_and(|w| {
-                matches!(template.walls.get(w), Some(Wall::Mirror(_) | Wall::Seam(_)))
+                template
+                    .gluings
+                    .get(w)
+                    .is_some_and(|g| g.other_than(index).is_none())
             });
             *shifted &= !upright && facet.normal != DVec3::ZERO;
         }

@@ -2,7 +2,7 @@
 //! and the walls of the refined surface.
 
 use glam::DVec3;
-use tmesh::{Document, Isometry, MAX_TURN_DENOMINATOR, MirrorWall, Template, Wall};
+use tmesh::{Document, Gluing, Template};
 
 /// Not on any wall.
 pub const NO_FACE: u32 = 0;
@@ -15,19 +15,16 @@ pub fn face_key(wall: usize, second: bool) -> u32 {
 /// Whether a template may refine the faces that others list as hub walls: what lists them is given
 /// the result. A template with a seam has its surface settled before, a listed face is not its own.
 pub fn leads(document: &Document, index: usize) -> bool {
-    let walls = &document.templates[index].walls;
-    walls.iter().all(|w| matches!(w, Wall::Mirror(_)))
+    let gluings = &document.templates[index].gluings;
+    gluings.iter().all(|g| g.is_mirror(index))
 }
 
 /// The template that has to be meshed before this one, whose hub walls are given what came of it.
 pub fn leader(document: &Document, index: usize) -> Option<usize> {
     let mut others = document.templates[index]
-        .walls
+        .gluings
         .iter()
-        .filter_map(|w| match w {
-            Wall::Hub(hub) => Some(hub.other as usize),
-            _ => None,
-        });
+        .filter_map(|g| g.other_than(index));
     let first = others.next()?;
     (others.all(|o| o == first) && leads(document, first)).then_some(first)
 }
@@ -48,46 +45,34 @@ impl Faces {
         let n = template.triangles.len();
         let mut of_triangle = vec![NO_FACE; n];
         let mut preserved = vec![false; n];
-        for (w, wall) in template.walls.iter().enumerate() {
-            match wall {
-                Wall::Mirror(m) => {
-                    for &t in &m.triangles {
-                        of_triangle[t as usize] = face_key(w, false);
-                    }
-                }
-                Wall::Seam(s) => {
-                    for &[low, high] in &s.triangle_pairs {
-                        of_triangle[low as usize] = face_key(w, false);
-                        of_triangle[high as usize] = face_key(w, true);
-                    }
-                }
-                Wall::Hub(h) => {
-                    for &[here, _] in &h.triangle_pairs {
-                        of_triangle[here as usize] = face_key(w, false);
-                    }
+        for (w, gluing) in template.gluings.iter().enumerate() {
+            let seam = gluing.is_seam(index);
+            for &[here, there] in &gluing.triangle_pairs {
+                of_triangle[here as usize] = face_key(w, seam);
+                if seam {
+                    of_triangle[there as usize] = face_key(w, false);
                 }
             }
-            if !matches!(wall, Wall::Mirror(_)) {
-                for t in wall.triangles() {
+            if !gluing.is_mirror(index) {
+                for t in gluing.triangles_of(index) {
                     preserved[t as usize] = true;
                 }
             }
         }
-        let mut key = face_key(template.walls.len(), false);
+        let mut key = face_key(template.gluings.len(), false);
         let free = leads(document, index);
-        for other in &document.templates {
-            for wall in &other.walls {
-                if let Wall::Hub(h) = wall
-                    && h.other as usize == index
-                {
-                    for &[_, t] in &h.triangle_pairs {
-                        preserved[t as usize] |= !free;
-                        if of_triangle[t as usize] == NO_FACE {
-                            of_triangle[t as usize] = key;
-                        }
-                    }
-                    key += 1;
+        for (o, other) in document.templates.iter().enumerate() {
+            for gluing in &other.gluings {
+                if gluing.other_than(o) != Some(index) {
+                    continue;
                 }
+                for t in gluing.triangles_there() {
+                    preserved[t as usize] |= !free;
+                    if of_triangle[t as usize] == NO_FACE {
+                        of_triangle[t as usize] = key;
+                    }
+                }
+                key += 1;
             }
         }
         Self {
@@ -125,23 +110,12 @@ pub enum Projection {
 
 impl Projection {
     /// The projection onto a mirror wall's plane.
-    pub fn of(wall: &MirrorWall) -> Self {
-        let reflection = wall.reflection;
-        if reflection.flipped() {
+    pub fn of(wall: &Gluing) -> Self {
+        if wall.step.flipped() {
             return Self::Horizontal;
         }
-        // The reflection by k / n of a turn fixes the plane at half that angle.
-        if reflection.n() <= MAX_TURN_DENOMINATOR / 2 {
-            let half = Isometry::rotation(i64::from(reflection.k()), 2 * reflection.n());
-            let (cos, sin) = half.cos_sin();
-            Self::Vertical { cos, sin }
-        } else {
-            let normal = wall.plane.normal;
-            Self::Vertical {
-                cos: -normal.y,
-                sin: normal.x,
-            }
-        }
+        let (cos, sin) = wall.step.half_angle();
+        Self::Vertical { cos, sin }
     }
 
     /// The nearest point of the plane; exactly y = 0 for the vertical plane at angle 0.
@@ -158,24 +132,19 @@ impl Projection {
     }
 }
 
-/// Planes through the axis that contain faces of a template's walls, as cosine and sine, each with
-/// its vertices.
-pub fn vertical_planes(template: &Template) -> Vec<([f64; 2], Vec<u32>)> {
+/// Planes through the axis that contain faces of the walls of a template, `own`, as cosine and sine,
+/// each with its vertices.
+pub fn vertical_planes(template: &Template, own: usize) -> Vec<([f64; 2], Vec<u32>)> {
     let mut planes = Vec::new();
-    for wall in &template.walls {
-        match wall {
-            Wall::Mirror(mirror) => {
-                if let Projection::Vertical { cos, sin } = Projection::of(mirror) {
-                    planes.push(([cos, sin], mirror.vertices.clone()));
-                }
+    for gluing in &template.gluings {
+        if gluing.is_mirror(own) {
+            if let Projection::Vertical { cos, sin } = Projection::of(gluing) {
+                planes.push(([cos, sin], gluing.vertices_here().collect()));
             }
+        } else if gluing.is_seam(own) {
             // The low face of a seam is at angle 0 in the canonical frame.
-            Wall::Seam(seam) => {
-                let (cos, sin) = seam.rotation.cos_sin();
-                let high = seam.vertex_pairs.iter().map(|p| p[1]);
-                planes.push(([cos, sin], high.collect()));
-            }
-            Wall::Hub(_) => {}
+            let (cos, sin) = gluing.step.cos_sin();
+            planes.push(([cos, sin], gluing.vertices_here().collect()));
         }
     }
     planes
@@ -220,47 +189,32 @@ pub fn on_segments(p: DVec3, segments: &[[DVec3; 2]], tolerance: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tmesh::Plane;
+    use tmesh::{Isometry, MAX_TURN_DENOMINATOR};
 
-    fn wall(reflection: Isometry, normal: DVec3) -> MirrorWall {
-        MirrorWall {
-            name: "wall".to_owned(),
-            plane: Plane {
-                normal,
-                offset: 0.0,
-            },
-            reflection,
-            vertices: Vec::new(),
-            triangles: Vec::new(),
-        }
+    fn wall(reflection: Isometry) -> Gluing {
+        Gluing::mirror("wall", 0, reflection, [], [])
     }
 
     #[test]
     fn projections_are_exact_where_they_can_be() {
-        let low = Projection::of(&wall(Isometry::reflection(0, 1), -DVec3::Y));
+        let low = Projection::of(&wall(Isometry::reflection(0, 1)));
         let p = low.apply(DVec3::new(-1.25, -1e-17, 0.5));
         assert_eq!(p, DVec3::new(-1.25, 0.0, 0.5));
         assert!(p.y.is_sign_positive());
         let (cos, sin) = Isometry::rotation(1, 10).cos_sin();
-        let high = Projection::of(&wall(
-            Isometry::reflection(1, 5),
-            DVec3::new(-sin, cos, 0.0),
-        ));
+        let high = Projection::of(&wall(Isometry::reflection(1, 5)));
         let p = high.apply(DVec3::new(2.0 * cos, 2.0 * sin + 1e-16, 0.1));
         assert!((p - DVec3::new(2.0 * cos, 2.0 * sin, 0.1)).length() < 1e-15);
         assert_eq!(
             high.apply(DVec3::new(0.0, 0.0, 3.0)),
             DVec3::new(0.0, 0.0, 3.0)
         );
-        let across = Projection::of(&wall(Isometry::new(0, 1, false, true), -DVec3::Z));
+        let across = Projection::of(&wall(Isometry::FLIP));
         assert_eq!(
             across.apply(DVec3::new(1.0, 2.0, 1e-18)),
             DVec3::new(1.0, 2.0, 0.0)
         );
         // The largest denominator there is.
-        let _ = Projection::of(&wall(
-            Isometry::reflection(1, MAX_TURN_DENOMINATOR),
-            DVec3::Y,
-        ));
+        let _ = Projection::of(&wall(Isometry::reflection(1, MAX_TURN_DENOMINATOR)));
     }
 }

@@ -6,7 +6,7 @@ use crate::document::{Imported, Labelled, check_scale, document};
 use crate::words::dropped;
 use interchange::parsed::{Mesh, MeshTriangles};
 use rustc_hash::FxHashSet;
-use tmesh::{Axis, Document, Marker, Promise, Region, Symmetry, Template};
+use tmesh::{Document, Marker, Region, Template};
 
 /// Builds the document: a tetrahedral mesh where there are tetrahedra, else a surface whose triangles
 /// name the regions on both sides.
@@ -68,42 +68,6 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
         document.markers = markers.collect();
         Imported { document, notices }
     };
-    imported.document.symmetry = mesh.promise.map(symmetry);
+    imported.document.promise = mesh.promise;
     Ok(imported)
-}
-
-/// What a promise says about the symmetry.
-fn symmetry(promise: Promise) -> Symmetry {
-    let r = promise.rotation;
-    let suffix = match (promise.mirror, promise.horizontal_mirror) {
-        (false, false) => "",
-        (false, true) => "h",
-        (true, _) => "v",
-    };
-    let kind = if promise.mirror && promise.horizontal_mirror {
-        format!("D{}h", promise.order)
-    } else {
-        format!("C{}{suffix}", promise.order)
-    };
-    Symmetry {
-        group: kind,
-        order: promise.order,
-        mirror: promise.mirror,
-        horizontal_mirror: promise.horizontal_mirror,
-        axis: Axis {
-            point: promise.origin,
-            direction: [r[0][2], r[1][2], r[2][2]],
-        },
-        mirror_direction: [r[0][0], r[1][0], r[2][0]],
-        residual: 0.0,
-        tolerance: 0.0,
-        axisymmetric: false,
-        radius: 0.0,
-        other_axes: Vec::new(),
-        rejected: Vec::new(),
-        rotation_regions: Vec::new(),
-        mirror_regions: Vec::new(),
-        horizontal_regions: Vec::new(),
-        promise: Some(promise),
-    }
 }

@@ -4,7 +4,7 @@ use crate::walls::Projection;
 use geom::edges::Edges;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tmesh::{Isometry, Template, Wall};
+use tmesh::{Isometry, Template};
 
 /// Directions in which a vertex may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,46 +66,42 @@ pub struct Freedoms {
 const ALONG: f64 = 1e-6;
 
 impl Freedoms {
-    /// Finds what each vertex of a filled template may do. Linear.
-    pub fn new(template: &Template, flats: &Flats<'_>) -> Self {
+    /// Finds what each vertex of a filled template, number `own`, may do. Linear.
+    pub fn new((template, own): (&Template, usize), flats: &Flats<'_>) -> Self {
         let mut of_vertex = surface(template, flats);
         let mut exact: FxHashMap<u32, Exact> = FxHashMap::default();
         let mut low_of = FxHashMap::default();
         let mut high_of = FxHashMap::default();
         let fix = |list: &mut [Freedom], v: u32| list[v as usize] = Freedom::Fixed;
         flats.fixed.iter().for_each(|&v| fix(&mut of_vertex, v));
-        for wall in &template.walls {
-            match wall {
-                Wall::Mirror(mirror) => {
-                    let projection = Projection::of(mirror);
-                    for &v in &mirror.vertices {
-                        let exact = exact.entry(v).or_default();
-                        match projection {
-                            Projection::Horizontal => exact.level = true,
-                            _ => exact.vertical = Some(projection),
-                        }
+        for gluing in &template.gluings {
+            if gluing.is_mirror(own) {
+                let projection = Projection::of(gluing);
+                for v in gluing.vertices_here() {
+                    let exact = exact.entry(v).or_default();
+                    match projection {
+                        Projection::Horizontal => exact.level = true,
+                        _ => exact.vertical = Some(projection),
                     }
                 }
-                Wall::Hub(hub) => {
-                    for &[v, _] in &hub.vertex_pairs {
-                        fix(&mut of_vertex, v);
+            } else if gluing.is_seam(own) {
+                for &[high, low] in &gluing.vertex_pairs {
+                    if low == high {
+                        continue;
                     }
+                    exact.entry(low).or_default().vertical = Some(LOW);
+                    let turned = (high, gluing.step);
+                    let once =
+                        high_of.insert(low, turned).is_none() && low_of.insert(high, low).is_none();
+                    let free = once && alike(&of_vertex, low, high, gluing.step);
+                    if !free {
+                        fix(&mut of_vertex, low);
+                    }
+                    fix(&mut of_vertex, high);
                 }
-                Wall::Seam(seam) => {
-                    for &[low, high] in &seam.vertex_pairs {
-                        if low == high {
-                            continue;
-                        }
-                        exact.entry(low).or_default().vertical = Some(LOW);
-                        let turned = (high, seam.rotation);
-                        let once = high_of.insert(low, turned).is_none()
-                            && low_of.insert(high, low).is_none();
-                        let free = once && alike(&of_vertex, low, high, seam.rotation);
-                        if !free {
-                            fix(&mut of_vertex, low);
-                        }
-                        fix(&mut of_vertex, high);
-                    }
+            } else {
+                for v in gluing.vertices_here() {
+                    fix(&mut of_vertex, v);
                 }
             }
         }

@@ -9,7 +9,7 @@ use crate::Params;
 use crate::walls::{NO_FACE, Projection, face_key};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
-use tmesh::{Document, Seam, Template, Triangle, Wall};
+use tmesh::{Document, Gluing, Template, Triangle};
 
 /// Twice the area of a triangle up to which its corners count as on one line, over the square of its longer sides.
 const FLAT: f64 = 1e-10;
@@ -36,10 +36,8 @@ pub fn make(
     log: &(dyn Fn(&str) + Sync),
 ) -> Result<Made, SurfaceError> {
     let input = &document.templates[index];
-    let seam = input.walls.iter().enumerate().find_map(|(i, w)| match w {
-        Wall::Seam(seam) => Some((i, seam)),
-        _ => None,
-    });
+    let mut gluings = input.gluings.iter().enumerate();
+    let seam = gluings.find(|(_, gluing)| gluing.is_seam(index));
     // The guide's own elements are thrown away; only the surface counts.
     let params = Params {
         optimize: None,
@@ -48,10 +46,10 @@ pub fn make(
     let guide = refine(document, index, &params, log)?;
     let features = Features::new(input, index, &guide)?;
     let mut frozen = vec![false; guide.facets.facets.len()];
-    for wall in &input.walls {
-        if let Wall::Hub(hub) = wall {
-            for pair in &hub.triangle_pairs {
-                frozen[guide.facets.of_triangle[pair[0] as usize] as usize] = true;
+    for gluing in &input.gluings {
+        if gluing.other_than(index).is_some() {
+            for t in gluing.triangles_here() {
+                frozen[guide.facets.of_triangle[t as usize] as usize] = true;
             }
         }
     }
@@ -78,7 +76,7 @@ pub fn make(
             maker.face_of[pair[1] as usize] = face_key(i, true);
         }
     }
-    let walls = maker.walls(triangle_pairs);
+    let gluings = maker.gluings(triangle_pairs);
     let Maker {
         mut made,
         face_of,
@@ -87,14 +85,14 @@ pub fn make(
     } = maker;
     made.axis.sort_unstable();
     made.axis.dedup();
-    made.walls = walls;
+    made.gluings = gluings;
     let facets = &guide.facets.facets;
     let slack = facets.iter().map(|f| 2.0 * f.area * f.deviation).sum();
     check::same_body(input, &made, slack).map_err(|what| SurfaceError::Changed {
         template: index,
         what,
     })?;
-    let others = face_key(input.walls.len(), false);
+    let others = face_key(input.gluings.len(), false);
     let shared = (0..face_of.len() as u32).filter(|&t| face_of[t as usize] >= others);
     Ok(Made {
         shared: shared.collect(),
@@ -116,7 +114,7 @@ struct Chain {
 struct Maker<'a> {
     input: &'a Template,
     index: usize,
-    seam: Option<&'a Seam>,
+    seam: Option<&'a Gluing>,
     guide: &'a Refined,
     features: &'a Features,
     /// Facets that stay as they are.
@@ -148,11 +146,10 @@ impl Maker<'_> {
         self.made.vertices.len() as u32 - 1
     }
 
-    /// The seam's pairs.
+    /// The seam's pairs: low, high.
     fn seam_pairs(&self) -> impl Iterator<Item = [u32; 2]> + use<'_> {
-        self.seam
-            .into_iter()
-            .flat_map(|s| s.vertex_pairs.iter().copied())
+        let pairs = self.seam.into_iter().flat_map(|s| &s.vertex_pairs);
+        pairs.map(|&[high, low]| [low, high])
     }
 
     /// Takes over the input vertices where feature edges end, those on the axis and on facets that
@@ -233,7 +230,7 @@ impl Maker<'_> {
                 is_image[other] = true;
             }
         }
-        let rotation = self.seam.map(|s| s.rotation.placed());
+        let rotation = self.seam.map(|s| s.step.placed());
         for edge in 0..count {
             if is_image[edge] {
                 continue;
@@ -310,7 +307,7 @@ impl Maker<'_> {
         // Of each facet of the low face, the triangle that says what its image is like.
         let mut low: Vec<Option<Triangle>> = vec![None; count];
         let mut high = vec![false; count];
-        for &[a, b] in self.seam.map_or(&[][..], |s| &s.triangle_pairs) {
+        for &[b, a] in self.seam.map_or(&[][..], |s| &s.triangle_pairs) {
             let image = self.input.triangles[b as usize];
             let like = |t: &Triangle| (t.marker, t.front, t.back);
             let slot = &mut low[facets.of_triangle[a as usize] as usize];
@@ -367,7 +364,7 @@ impl Maker<'_> {
             return Ok(Vec::new());
         };
         let mut image: FxHashMap<u32, u32> = self.pairs.iter().map(|p| (p[0], p[1])).collect();
-        let rotation = seam.rotation.placed();
+        let rotation = seam.step.placed();
         let mut pairs = Vec::with_capacity(on_seam.len());
         for &(low, like) in on_seam {
             let corners = self.made.triangles[low as usize].vertices;
@@ -520,15 +517,13 @@ impl Maker<'_> {
             return Some(Projection::Vertical { cos: 1.0, sin: 0.0 });
         }
         let wall = (face.checked_sub(1)? / 2) as usize;
-        match self.input.walls.get(wall) {
-            Some(Wall::Mirror(mirror)) => Some(Projection::of(mirror)),
-            _ => None,
-        }
+        let gluing = self.input.gluings.get(wall)?;
+        gluing.is_mirror(self.index).then(|| Projection::of(gluing))
     }
 
-    /// The walls of the new surface.
-    fn walls(&mut self, triangle_pairs: Vec<[u32; 2]>) -> Vec<Wall> {
-        let mut walls = self.input.walls.clone();
+    /// The gluings of the new surface.
+    fn gluings(&mut self, triangle_pairs: Vec<[u32; 2]>) -> Vec<Gluing> {
+        let mut gluings = self.input.gluings.clone();
         let mut of_face: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for (t, &face) in self.face_of.iter().enumerate() {
             if face != NO_FACE {
@@ -536,36 +531,34 @@ impl Maker<'_> {
             }
         }
         let mut triangle_pairs = Some(triangle_pairs);
-        for (i, wall) in walls.iter_mut().enumerate() {
-            match wall {
-                Wall::Mirror(mirror) => {
-                    mirror.triangles = of_face.remove(&face_key(i, false)).unwrap_or_default();
-                    let mut on: Vec<u32> = self.on_wall(&mirror.vertices);
-                    let corners = |&t: &u32| self.made.triangles[t as usize].vertices;
-                    on.extend(mirror.triangles.iter().flat_map(corners));
-                    on.sort_unstable();
-                    on.dedup();
-                    mirror.vertices = on;
+        for (i, gluing) in gluings.iter_mut().enumerate() {
+            if gluing.is_mirror(self.index) {
+                let triangles = of_face.remove(&face_key(i, false)).unwrap_or_default();
+                let old: Vec<u32> = gluing.vertices_here().collect();
+                let mut on: Vec<u32> = self.on_wall(&old);
+                let corners = |&t: &u32| self.made.triangles[t as usize].vertices;
+                on.extend(triangles.iter().flat_map(corners));
+                on.sort_unstable();
+                on.dedup();
+                gluing.vertex_pairs = on.into_iter().map(|v| [v, v]).collect();
+                gluing.triangle_pairs = triangles.into_iter().map(|t| [t, t]).collect();
+            } else if gluing.is_seam(self.index) {
+                let mut pairs = std::mem::take(&mut self.pairs);
+                pairs.sort_unstable();
+                pairs.dedup();
+                let triangles = triangle_pairs.take().unwrap_or_default();
+                *gluing = Gluing::seam(&gluing.name, gluing.other, gluing.step, pairs, triangles);
+            } else {
+                for pair in &mut gluing.vertex_pairs {
+                    pair[0] = self.of_input[pair[0] as usize];
                 }
-                Wall::Seam(seam) => {
-                    let mut pairs = std::mem::take(&mut self.pairs);
-                    pairs.sort_unstable();
-                    pairs.dedup();
-                    seam.vertex_pairs = pairs;
-                    seam.triangle_pairs = triangle_pairs.take().unwrap_or_default();
+                for pair in &mut gluing.triangle_pairs {
+                    pair[0] = self.of_triangle[pair[0] as usize];
                 }
-                Wall::Hub(hub) => {
-                    for pair in &mut hub.vertex_pairs {
-                        pair[0] = self.of_input[pair[0] as usize];
-                    }
-                    hub.vertex_pairs.sort_unstable();
-                    for pair in &mut hub.triangle_pairs {
-                        pair[0] = self.of_triangle[pair[0] as usize];
-                    }
-                }
+                gluing.sort();
             }
         }
-        walls
+        gluings
     }
 
     /// New vertices at input vertices of a wall, and on edges between them.
