@@ -533,14 +533,17 @@ impl Side<'_> {
     /// Checks that first members are images of second ones.
     fn check_images(&self, other: &Template, found: &mut Collector) {
         let template = &self.document.templates[self.index];
-        let allowed = match self.gluing.is_seam(self.index) {
-            true => 0.0,
-            false => ROUNDING * self.extent,
-        };
+        let is_seam = self.gluing.is_seam(self.index);
         let placed = self.gluing.step.placed();
         for &[here, there] in &self.gluing.vertex_pairs {
             let image = placed.apply(other.vertices[there as usize]);
             let off = image - template.vertices[here as usize];
+            // A vertex on the axis of a half turn is its own image but for rounding.
+            let allowed = if is_seam && here != there {
+                0.0
+            } else {
+                ROUNDING * self.extent
+            };
             if off.abs().max_element() > allowed {
                 found.add(Violation::NotAnImage {
                     wall: self.gluing.name.clone(),
