@@ -1,8 +1,8 @@
 //! No two vertices in one place.
 
-use super::COINCIDENCE;
-use super::findings::{Findings, Kind, at};
-use crate::nearby::coincident;
+use crate::check::findings::{Findings, Kind, at};
+use crate::check::nearby::coincident;
+use crate::check::tolerances::COINCIDENCE;
 use tmesh::Document;
 
 /// Looks for vertices of a template that coincide with an earlier one.
