@@ -9,7 +9,6 @@ mod error;
 mod faces;
 mod instances;
 mod measure;
-mod nearby;
 mod present;
 mod report;
 mod soundness;

@@ -5,8 +5,8 @@
 //! are made once per edge and shared by all patches around it.
 
 use crate::opening::{Class, Opening, Side};
-use crate::planar::{Segment, triangulate};
 use crate::surface::Surface;
+use geom::cdt::{Segment, triangulate};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::Triangle;

@@ -19,7 +19,6 @@ mod hub;
 mod names;
 mod opening;
 mod plan;
-mod planar;
 mod reconcile;
 mod seam;
 mod section;

@@ -2,8 +2,8 @@
 
 use crate::error::CutError;
 use crate::opening::{Class, Opening, Side};
-use crate::planar::{PlanarError, Segment, triangulate};
 use crate::surface::Surface;
+use geom::cdt::{CdtError, Segment, triangulate};
 use geom::edges::orientation;
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -324,19 +324,19 @@ impl Section {
         }
         let triangles = triangulate(&plane, &segments, OUTSIDE).map_err(|error| {
             let at = match error {
-                PlanarError::Coincident(a, _) | PlanarError::Crossing(a, _) => a,
-                PlanarError::Ambiguous { near, .. } => near,
-                PlanarError::Coordinate => 0,
+                CdtError::Coincident(a, _) | CdtError::Crossing(a, _) => a,
+                CdtError::Ambiguous { near, .. } => near,
+                CdtError::Coordinate => 0,
             };
             let near = self
                 .points
                 .get(at as usize)
                 .map_or(DVec3::ZERO, |&v| frame.to_world(surface.points[v as usize]));
             let reason = match error {
-                PlanarError::Coincident(..) => "two of its points coincide".to_owned(),
-                PlanarError::Coordinate => "a coordinate cannot be represented".to_owned(),
-                PlanarError::Crossing(..) => "two of its edges cross or touch".to_owned(),
-                PlanarError::Ambiguous { labels: [a, b], .. } => {
+                CdtError::Coincident(..) => "two of its points coincide".to_owned(),
+                CdtError::Coordinate => "a coordinate cannot be represented".to_owned(),
+                CdtError::Crossing(..) => "two of its edges cross or touch".to_owned(),
+                CdtError::Ambiguous { labels: [a, b], .. } => {
                     format!("{} and {} claim the same part of it", name(a), name(b))
                 }
             };

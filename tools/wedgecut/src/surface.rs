@@ -2,8 +2,10 @@
 
 use crate::opening::{Class, Opening};
 use geom::edges::Edges;
+use geom::flat::{Flatness, Flats};
+use geom::weld::Welder;
 use glam::DVec3;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 use tmesh::{OUTSIDE, Triangle};
 
 /// A surface in the canonical frame, with every point classified.
@@ -31,12 +33,15 @@ impl Surface {
         flatness: f64,
     ) -> Self {
         let mut surface = Self::default();
-        let mut at: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+        let mut welder = Welder::new(points.len());
         let mut renumbered = Vec::with_capacity(points.len());
         for p in points {
             let (p, class) = opening.map_or((p, Class::INSIDE), |o| o.classify(p));
-            let entry = at.entry(bits(p));
-            renumbered.push(*entry.or_insert_with(|| surface.add(p, class)));
+            let (v, is_new) = welder.add(p);
+            if is_new {
+                surface.add(p, class);
+            }
+            renumbered.push(v);
         }
         for mut face in faces {
             face.vertices = face.vertices.map(|v| renumbered[v as usize]);
@@ -61,9 +66,12 @@ impl Surface {
     /// body.
     pub fn add_corners(&mut self, opening: &Opening) {
         let used = self.faces.iter().flat_map(|f| f.vertices);
-        let present: FxHashSet<[u64; 3]> = used.map(|v| bits(self.points[v as usize])).collect();
+        let mut present = Welder::new(self.points.len());
+        for v in used {
+            present.id(self.points[v as usize]);
+        }
         for (p, class) in opening.corners() {
-            if !present.contains(&bits(p)) {
+            if present.find(p).is_none() {
                 let v = self.add(p, class);
                 self.corners.push(v);
             }
@@ -74,11 +82,6 @@ impl Surface {
     pub fn at(&self, v: u32) -> (DVec3, Class) {
         (self.points[v as usize], self.classes[v as usize])
     }
-}
-
-fn bits(p: DVec3) -> [u64; 3] {
-    // Adding zero folds the two zeros into one.
-    (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
 /// Joins faces on the same three points, as they are left when the layer between them has been
@@ -144,60 +147,17 @@ const PATCH_COSINE: f64 = 0.99;
 /// Numbers connected sets of faces with equal attributes that lie within `flatness` (model units)
 /// of the plane of their largest face.
 pub fn flat_patches(points: &[DVec3], faces: &[Triangle], flatness: f64) -> Vec<u32> {
-    let corner_ids: Vec<[u32; 3]> = faces.iter().map(|f| f.vertices).collect();
-    let edges = Edges::new(&corner_ids);
-    let mut neighbours = vec![[u32::MAX; 3]; faces.len()];
-    for e in 0..edges.len() {
-        if let [u, v] = edges.around(e)
-            && u.forward != v.forward
-        {
-            neighbours[u.triangle as usize][u.corner as usize] = v.triangle;
-            neighbours[v.triangle as usize][v.corner as usize] = u.triangle;
-        }
-    }
-    let normals: Vec<DVec3> = faces
-        .iter()
-        .map(|f| {
-            let [a, b, c] = geom::measure::corners(points, f);
-            geom::measure::double_area_vector(a, b, c)
-        })
-        .collect();
-    let mut order: Vec<u32> = (0..faces.len() as u32).collect();
-    order.sort_by(|&i, &j| {
-        let size = |k: u32| normals[k as usize].length_squared();
-        size(j).total_cmp(&size(i)).then(i.cmp(&j))
-    });
-    let mut patch = vec![u32::MAX; faces.len()];
-    let mut count = 0;
-    let mut stack = Vec::new();
-    for seed in order {
-        if patch[seed as usize] != u32::MAX {
-            continue;
-        }
-        patch[seed as usize] = count;
-        let normal = normals[seed as usize].normalize_or_zero();
-        let origin = points[faces[seed as usize].vertices[0] as usize];
-        stack.push(seed);
-        while let Some(f) = stack.pop() {
-            for n in neighbours[f as usize] {
-                if n == u32::MAX || patch[n as usize] != u32::MAX {
-                    continue;
-                }
-                let (face, other) = (&faces[n as usize], &faces[f as usize]);
-                let alike =
-                    (face.marker, face.front, face.back) == (other.marker, other.front, other.back);
-                let flat = face
-                    .vertices
-                    .iter()
-                    .all(|&v| (points[v as usize] - origin).dot(normal).abs() <= flatness);
-                let turned = normals[n as usize];
-                if alike && flat && turned.dot(normal) >= PATCH_COSINE * turned.length() {
-                    patch[n as usize] = count;
-                    stack.push(n);
-                }
-            }
-        }
-        count += 1;
-    }
-    patch
+    let corners: Vec<[u32; 3]> = faces.iter().map(|f| f.vertices).collect();
+    let across = Edges::new(&corners).across();
+    let flatness = Flatness {
+        distance: flatness,
+        cosine: PATCH_COSINE,
+    };
+    let attributes = |t: u32| {
+        let face = &faces[t as usize];
+        (face.marker, face.front, face.back)
+    };
+    let alike = |s: u32, t: u32| attributes(s) == attributes(t);
+    let flats = Flats::new(points, &corners, &across, |_| flatness, alike);
+    flats.regions.of
 }

@@ -3,7 +3,7 @@
 use super::RADIUS_SLACK;
 use super::findings::{Findings, Kind, at};
 use crate::faces::sorted;
-use crate::nearby::Nearby;
+use geom::grid::Grid;
 use glam::{DMat3, DVec3};
 use kit::number;
 use rustc_hash::FxHashMap;
@@ -222,8 +222,8 @@ struct Matcher<'a> {
     size: f64,
     /// Largest distance allowed, model units.
     limit: f64,
-    near: Option<Nearby<'a>>,
-    far: Option<Nearby<'a>>,
+    near: Option<Grid<3>>,
+    far: Option<Grid<3>>,
 }
 
 impl Matcher<'_> {
@@ -240,11 +240,10 @@ impl Matcher<'_> {
         let placed = generator.isometry.placed();
         let near = self
             .near
-            .get_or_insert_with(|| Nearby::all(self.points, self.limit));
+            .get_or_insert_with(|| Grid::of(self.points.iter().copied(), self.limit));
         // A cell of the fine grid holds few vertices; of the coarse one possibly many, where a mesh is
         // extremely graded, so that searching it is limited.
         let mut budget = 1000 * self.points.len() as u64;
-        let mut unlimited = u64::MAX;
         let mut residual = 0.0_f64;
         let mut images = Vec::with_capacity(self.points.len());
         for (v, &p) in self.points.iter().enumerate() {
@@ -253,13 +252,13 @@ impl Matcher<'_> {
                 continue;
             }
             let image = placed.apply(p);
-            let mut found = near.nearest(image, &mut unlimited);
+            let mut found = near.nearest(image, self.limit);
             if found.is_none() {
                 let reach = REACH * self.size;
                 let far = self
                     .far
-                    .get_or_insert_with(|| Nearby::all(self.points, reach));
-                found = far.nearest(image, &mut budget);
+                    .get_or_insert_with(|| Grid::of(self.points.iter().copied(), reach));
+                found = far.nearest_of(image, reach, &mut budget);
                 let kind = if found.is_some() {
                     Kind::Deviation
                 } else {

@@ -2,21 +2,25 @@
 
 use super::COINCIDENCE;
 use super::findings::{Findings, Kind, at};
-use crate::nearby::coincident;
+use geom::grid::coincident;
 use tmesh::Document;
 
 /// Looks for vertices of a template that coincide with an earlier one.
 pub fn coincident_vertices(document: &Document, size: f64, findings: &mut Findings) {
     for (index, template) in document.templates.iter().enumerate() {
-        coincident(&template.vertices, COINCIDENCE * size, |later, earlier| {
-            findings.add(Kind::Coincident, || {
-                let [p, q] = [later, earlier].map(|v| template.vertices[v as usize]);
-                format!(
-                    "vertices {earlier} and {later} are {:e} apart {}",
-                    p.distance(q),
-                    at(document, index, &[later])
-                )
-            });
-        });
+        coincident(
+            template.vertices.iter().copied(),
+            COINCIDENCE * size,
+            |later, earlier| {
+                findings.add(Kind::Coincident, || {
+                    let [p, q] = [later, earlier].map(|v| template.vertices[v as usize]);
+                    format!(
+                        "vertices {earlier} and {later} are {:e} apart {}",
+                        p.distance(q),
+                        at(document, index, &[later])
+                    )
+                });
+            },
+        );
     }
 }

@@ -4,7 +4,7 @@ use super::COINCIDENCE;
 use super::conformity::Skin;
 use super::findings::{Findings, Kind, at};
 use crate::instances::Links;
-use crate::nearby::Nearby;
+use geom::grid::Grid;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 use tmesh::{Document, Isometry, MirrorWall, OUTSIDE, Template, Wall};
@@ -206,13 +206,13 @@ impl Across<'_> {
         partner: impl Fn(u32) -> Option<u32>,
         findings: &mut Findings,
     ) {
-        let grid = Nearby::all(&there.vertices, COINCIDENCE * size);
+        let reach = COINCIDENCE * size;
+        let grid = Grid::of(there.vertices.iter().copied(), reach);
         let placed = self.placement.placed();
         let mut links = None;
-        let mut budget = u64::MAX;
         for (v, &p) in here.vertices.iter().enumerate() {
             let image = placed.apply(p);
-            let Some((w, distance)) = grid.nearest(image, &mut budget) else {
+            let Some((w, distance)) = grid.nearest(image, reach) else {
                 continue;
             };
             let paired = partner(v as u32).is_some_and(|q| {
