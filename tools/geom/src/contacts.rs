@@ -25,8 +25,9 @@ pub enum Search {
     GaveUp,
 }
 
-/// Bound on the error of a coordinate that was turned, relative to the largest one.
-const ROUNDING: f64 = 1e-14;
+/// Bound on the error of a coordinate that was turned, relative to the largest one: three products and two sums of
+/// half a rounding each, times `sqrt(3)`, and those of the rotation's own entries.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Finds contacts between triangles of different groups, and hands them to `found` until it returns
 /// false. Two triangles with the same three vertices are no contact; neither is one without area.
@@ -139,8 +140,8 @@ fn meeting(p: [DVec3; 3], q: [DVec3; 3], shared: &[(usize, usize)]) -> Option<DV
 }
 
 /// Bound on the error of a determinant of three differences of points, relative to the sum of the sizes of
-/// its terms; Shewchuk's is 7.8e-16.
-const FILTER: f64 = 1e-15;
+/// its terms: Shewchuk's `(7 + 56 e) e` with `e` half of [`f64::EPSILON`], rounded up.
+const FILTER: f64 = 4.0 * f64::EPSILON;
 
 /// The determinant of two vectors with a third, which is rounded.
 struct Determinant {
@@ -228,7 +229,8 @@ fn separated_at(common: DVec3, p: [DVec3; 2], q: [DVec3; 2]) -> bool {
 }
 
 /// Height of one triangle above the plane of another, relative to its distance, up to which they are looked
-/// at in projection first.
+/// at in projection first: far above rounding, so that nearly coplanar neighbours on a fan are settled by
+/// projection. A choice that changes the time only.
 const LEVEL: f64 = 1e-9;
 
 /// Whether two triangles are nearly in one plane, and an edge line of one of them separates them in a

@@ -1,7 +1,6 @@
 //! Measures of single elements and of closed surfaces.
 
 use glam::DVec3;
-use tmesh::{OUTSIDE, Template, Triangle};
 
 /// Twice the area of a triangle as a vector along its normal (right-hand rule).
 #[inline]
@@ -21,36 +20,54 @@ pub fn tet_volume(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
     double_area_vector(a, b, c).dot(d - a) / 6.0
 }
 
-/// Corner positions of a triangle.
+/// Corner positions of a triangle or a tetrahedron.
 #[inline]
-pub fn corners(vertices: &[DVec3], t: &Triangle) -> [DVec3; 3] {
-    t.vertices.map(|v| vertices[v as usize])
+pub fn corners<const N: usize>(vertices: &[DVec3], ids: impl Into<[u32; N]>) -> [DVec3; N] {
+    ids.into().map(|v| vertices[v as usize])
 }
 
 /// Volume enclosed by the triangles that bound `region`, by the divergence theorem; model units
-/// cubed. Positive for a closed surface whose triangles name the region on the right sides.
-pub fn region_volume(template: &Template, region: u32) -> f64 {
-    let origin = template.vertices.first().copied().unwrap_or_default();
+/// cubed. `faces`: vertex ids of each triangle, and the regions on its front and on its back side.
+/// Positive for a closed surface whose triangles name the region on the right sides.
+pub fn volume_of_region(
+    vertices: &[DVec3],
+    faces: impl Iterator<Item = ([u32; 3], [u32; 2])>,
+    region: u32,
+) -> f64 {
+    let origin = vertices.first().copied().unwrap_or_default();
     let mut volume = 0.0;
-    for t in &template.triangles {
-        let sign = f64::from(i8::from(t.back == region) - i8::from(t.front == region));
+    for (ids, [front, back]) in faces {
+        let sign = f64::from(i8::from(back == region) - i8::from(front == region));
         if sign != 0.0 {
-            let [a, b, c] = corners(&template.vertices, t);
+            let [a, b, c] = corners(vertices, ids);
             volume += sign * tet_volume(origin, a, b, c);
         }
     }
     volume
 }
 
-/// Area of all triangles with [`OUTSIDE`] on exactly one side, model units squared.
-pub fn boundary_area(template: &Template) -> f64 {
-    template
-        .triangles
-        .iter()
-        .filter(|t| (t.front == OUTSIDE) != (t.back == OUTSIDE))
-        .map(|t| {
-            let [a, b, c] = corners(&template.vertices, t);
+/// Area of all triangles that have `region` on exactly one side, model units squared; `faces` as in
+/// [`volume_of_region`].
+pub fn area_of_region(
+    vertices: &[DVec3],
+    faces: impl Iterator<Item = ([u32; 3], [u32; 2])>,
+    region: u32,
+) -> f64 {
+    faces
+        .filter(|(_, [front, back])| (*front == region) != (*back == region))
+        .map(|(ids, _)| {
+            let [a, b, c] = corners(vertices, ids);
             triangle_area(a, b, c)
         })
         .sum()
+}
+
+/// The former name of [`volume_of_region`].
+pub fn region_volume(template: &tmesh::Template, region: u32) -> f64 {
+    volume_of_region(&template.vertices, template.faces(), region)
+}
+
+/// The former name of [`area_of_region`].
+pub fn boundary_area(template: &tmesh::Template) -> f64 {
+    area_of_region(&template.vertices, template.faces(), tmesh::OUTSIDE)
 }
