@@ -9,6 +9,7 @@ mod codec;
 mod document;
 mod error;
 mod faces;
+mod fixed;
 mod frame;
 mod isometry;
 mod symmetry;
@@ -25,6 +26,7 @@ pub use document::{
     Triangle,
 };
 pub use error::DecodeError;
+pub use fixed::FixedSet;
 pub use frame::Frame;
 pub use isometry::{Isometry, MAX_TURN_DENOMINATOR, Placed};
 pub use symmetry::{Axis, OtherAxis, Outside, Promise, RejectedOrder, Symmetry};

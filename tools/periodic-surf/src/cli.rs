@@ -1,8 +1,7 @@
 //! The command line of `periodic-surf`.
 
-use crate::prepare;
+use crate::{ElementArgs, prepare};
 use kit::{Command, CommonArgs, Failure, Session};
-use tetwedge::ElementArgs;
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk

@@ -1,7 +1,7 @@
 //! What meshing must not change: the volume of each region and the area of each wall.
 
-use crate::plc::Plc;
 use geom::measure::{corners, tet_volume, triangle_area};
+use mesher::{NO_FACE, Plc};
 use std::collections::BTreeMap;
 use tmesh::{Document, OUTSIDE, Template};
 
@@ -10,16 +10,15 @@ const CHANGE: f64 = 1e-9;
 
 /// Compares the filled template with the surface it was made from.
 ///
-/// Uneven facets (see [`crate::facets`]) may be triangulated anew, which moves volume by no more
+/// Uneven facets (see [`mesher::Facets`]) may be triangulated anew, which moves volume by no more
 /// than their area times their unevenness.
 pub fn measures(
     document: &Document,
-    index: usize,
     plc: &Plc,
     faces: &[u32],
     filled: &Template,
 ) -> Result<(), String> {
-    let input = &document.templates[index];
+    let input = &document.templates[plc.template];
     let slack: f64 = plc
         .facets
         .facets
@@ -62,7 +61,7 @@ pub fn measures(
         let [a, b, c] = corners(&filled.vertices, t);
         areas.entry(key).or_default().1 += triangle_area(a, b, c);
     }
-    areas.remove(&crate::walls::NO_FACE);
+    areas.remove(&NO_FACE);
     for (key, (before, after)) in areas {
         let allowed = CHANGE * before + rounding(plc, 2);
         if !within(before, after, allowed) {

@@ -1,7 +1,9 @@
 //! The command line of `tetwedge`.
 
-use crate::{ElementArgs, Params, tetrahedralize};
+use crate::tetrahedralize;
 use kit::{Command, CommonArgs, Failure, Session, ThreadArgs};
+use mesher::Params;
+use periodic_surf::{ElementArgs, failure};
 
 /// Fills a wedge, or any closed surface, with tetrahedra
 ///
@@ -49,7 +51,6 @@ impl Cli {
     fn params(&self) -> Params {
         Params {
             switches: self.switches.clone(),
-            threads: self.threads.count(),
             ..self.elements.params()
         }
     }
@@ -65,7 +66,9 @@ impl Command for Cli {
         session.check_output()?;
         let document = session.read()?;
         let log = |text: &str| session.info(text);
-        let meshed = tetrahedralize(document, &params, &log).map_err(|e| e.failure())?;
+        let meshed = on_threads(self.threads.count(), || {
+            tetrahedralize(document, &params, &log).map_err(|e| failure(&e))
+        })?;
         for sentence in &meshed.advice {
             session.note(sentence);
         }
@@ -76,11 +79,24 @@ impl Command for Cli {
     }
 }
 
+/// Does something with so many threads at hand.
+fn on_threads<T: Send>(
+    threads: usize,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> Result<T, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    match pool {
+        Ok(pool) => pool.install(work),
+        // Where no threads are to be had, it goes without.
+        Err(_) => work(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::DEFAULT_OPTIMIZE;
     use clap::{CommandFactory, Parser};
+    use mesher::DEFAULT_OPTIMIZE;
     use std::time::Duration;
 
     fn parse(arguments: &[&str]) -> Result<Params, clap::Error> {

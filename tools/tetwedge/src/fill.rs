@@ -1,24 +1,17 @@
 //! From TetGen's mesh back to a template.
 
-use crate::cells::{Cells, label};
-use crate::error::Place;
-use crate::improve::{Flats, Freedoms, Improved, Wish, improve};
-use crate::plc::Plc;
-use crate::walls::{Projection, face_key, on_segments, touching_edges};
-use crate::{Error, Params, Sizes, check};
+use crate::check;
+use crate::walls::{on_segments, touching_edges};
 use geom::edges::orientation;
 use glam::DVec3;
-use kit::in_parallel;
+use improve::{Flats, Freedoms, Improved, Wish, improve};
+use mesher::{
+    Answer, Cells, Climb, Elements, Error, NO_FACE, PROJECTIONS, Place, Plc, ROUNDING, Surface,
+    face_key, label,
+};
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
-use tetgen_sys::Mesh;
-use tmesh::{Document, Template, Tet, Triangle, Wall};
-
-/// Points that belong to a plane or to the axis may be this far from it, relative to the largest
-/// coordinate: rounding of what TetGen computes.
-pub const ROUNDING: f64 = 1e-11;
-
-/// Rounds of projection onto the planes of facets.
-pub const ROUNDS: usize = 4;
+use tmesh::{Document, FixedSet, Template, Tet, Triangle, Wall};
 
 /// Part of the tetrahedra that is improved, at most: where more are bad, the shape is.
 const SHARE: f64 = 0.1;
@@ -62,6 +55,24 @@ impl Filled {
     }
 }
 
+/// What a new vertex belongs to.
+#[derive(Clone, Copy)]
+enum Plane {
+    /// A mirror wall.
+    Wall(FixedSet),
+    /// A facet of the surface, by its unit normal and a point.
+    Facet { normal: DVec3, origin: DVec3 },
+}
+
+impl Plane {
+    fn nearest(self, p: DVec3) -> DVec3 {
+        match self {
+            Self::Wall(set) => set.nearest(p),
+            Self::Facet { normal, origin } => p - normal * (p - origin).dot(normal),
+        }
+    }
+}
+
 /// What is known of a filled template that is not finished.
 pub struct Origin {
     /// Facet of each triangle.
@@ -77,12 +88,8 @@ pub struct Origin {
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
-pub fn fill(
-    document: &Document,
-    index: usize,
-    plc: &Plc,
-    mesh: &Mesh,
-) -> Result<(Filled, Origin), Error> {
+pub fn fill(document: &Document, index: usize, answer: &Answer) -> Result<(Filled, Origin), Error> {
+    let (plc, mesh) = (&answer.plc, &*answer.mesh);
     let input = &document.templates[index];
     let unusable = |what: String| Error::Unusable {
         template: index,
@@ -91,8 +98,7 @@ pub fn fill(
     if mesh.tetrahedra().is_empty() {
         return Err(unusable("it is empty".to_owned()));
     }
-    let kept = plc.points.len();
-    if mesh.points().len() < kept || mesh.points()[..kept] != plc.points {
+    if !answer.keeps_points() {
         return Err(unusable("input points were moved or left out".to_owned()));
     }
     let Cells { region, surface } = label(plc, mesh).map_err(|c| {
@@ -174,34 +180,36 @@ pub fn fill(
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
 pub fn finish(
-    document: &Document,
-    index: usize,
+    climb: &Climb<'_>,
     plc: &Plc,
-    (filled, origin): (&mut Filled, &Origin),
-    params: &Params,
-    sizes: &Sizes,
+    filled: &mut Filled,
+    origin: &Origin,
 ) -> Result<(), Error> {
+    let Climb {
+        document,
+        template: index,
+        ..
+    } = *climb;
     let unusable = |what: String| Error::Unusable {
         template: index,
         what,
     };
-    filled.improved = refine(document, plc, &origin.facets, params, sizes, filled);
+    filled.improved = refine(climb, plc, &origin.facets, filled);
     let reach = document.frame.origin.length() + plc.extent;
     let template = &filled.template;
-    orientations(template, origin.first_new, reach, params.threads).map_err(unusable)?;
-    check::measures(document, index, plc, &origin.faces, template).map_err(unusable)
+    orientations(template, origin.first_new, reach).map_err(unusable)?;
+    check::measures(document, plc, &origin.faces, template).map_err(unusable)
 }
 
 /// Improves the tetrahedra, as far as elements are to be optimized: the smallest angle to reach is what
 /// remains of a straight angle, halved, and the one asked for at least.
-fn refine(
-    document: &Document,
-    plc: &Plc,
-    facets: &[usize],
-    params: &Params,
-    sizes: &Sizes,
-    filled: &mut Filled,
-) -> Option<Improved> {
+fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -> Option<Improved> {
+    let Climb {
+        document,
+        params,
+        sizes,
+        ..
+    } = *climb;
     let largest = params.optimize.filter(|_| params.quality)?;
     let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
     let normals: Vec<DVec3> = plc.facets.facets.iter().map(|f| f.normal).collect();
@@ -229,12 +237,7 @@ fn refine(
         scale: plc.scale,
         share: SHARE,
     };
-    Some(improve(
-        &mut filled.template,
-        &freedoms,
-        &wish,
-        params.threads,
-    ))
+    Some(improve(&mut filled.template, &freedoms, &wish))
 }
 
 /// Numbers for the points that the mesh uses: the template's own in their order there, then new ones.
@@ -245,9 +248,9 @@ struct Numbering {
 
 impl Numbering {
     fn new(
-        mesh: &Mesh,
+        mesh: &dyn Elements,
         region: &[u32],
-        surface: &[crate::cells::Surface],
+        surface: &[Surface],
         vertex_of_point: &[u32],
     ) -> Self {
         let mut new_id = vec![NONE; mesh.points().len()];
@@ -292,7 +295,7 @@ fn restore_preserved(
     }
     let mut new_index: FxHashMap<[u32; 3], u32> = FxHashMap::default();
     for (i, t) in filled.template.triangles.iter().enumerate() {
-        if faces[i] != crate::walls::NO_FACE {
+        if faces[i] != NO_FACE {
             new_index.insert(sorted(t.vertices), i as u32);
         }
     }
@@ -320,7 +323,7 @@ fn on_shifted_facets(
     facets: &[usize],
     first_new: usize,
     template: &Template,
-) -> Vec<(u32, Projection)> {
+) -> Vec<(u32, Plane)> {
     let mut found: Vec<(u32, usize)> = Vec::new();
     for (t, &facet) in template.triangles.iter().zip(facets) {
         // Facets more uneven than the shift have no plane to be put back onto.
@@ -333,7 +336,7 @@ fn on_shifted_facets(
     found.dedup();
     let plane = |facet: usize| {
         let facet = &plc.facets.facets[facet];
-        Projection::Facet {
+        Plane::Facet {
             normal: facet.normal,
             origin: facet.origin,
         }
@@ -347,12 +350,16 @@ fn restore_walls(
     plc: &Plc,
     faces: &[u32],
     first_new: usize,
-    mut projections: Vec<(u32, Projection)>,
+    mut projections: Vec<(u32, Plane)>,
     filled: &mut Filled,
 ) -> Result<(), String> {
     // A single projection meets a single plane; where planes of facets meet that of a wall, each
     // leaves the other a little, and a few rounds meet all.
-    let rounds = if projections.is_empty() { 1 } else { ROUNDS };
+    let rounds = if projections.is_empty() {
+        1
+    } else {
+        PROJECTIONS
+    };
     let tolerance = ROUNDING * plc.extent + 2.0 * plc.shift;
     let on_surface = {
         let mut on = vec![false; filled.template.vertices.len()];
@@ -366,7 +373,7 @@ fn restore_walls(
         let mut wall = wall.clone();
         match &mut wall {
             Wall::Mirror(mirror) => {
-                let projection = Projection::of(mirror);
+                let projection = FixedSet::of(mirror.reflection);
                 let touching = segments(
                     input,
                     &touching_edges(input, &mirror.vertices, &mirror.triangles),
@@ -395,7 +402,7 @@ fn restore_walls(
                 vertices.sort_unstable();
                 vertices.dedup();
                 let new = vertices.iter().filter(|&&v| v as usize >= first_new);
-                projections.extend(new.map(|&v| (v, projection)));
+                projections.extend(new.map(|&v| (v, Plane::Wall(projection))));
                 mirror.vertices = vertices;
                 mirror.triangles = triangles;
             }
@@ -446,7 +453,7 @@ fn restore_walls(
     for _ in 0..rounds {
         for &(v, projection) in &projections {
             let p = &mut filled.template.vertices[v as usize];
-            let image = projection.apply(*p);
+            let image = projection.nearest(*p);
             let distance = (image - *p).length();
             if distance > tolerance {
                 return Err(format!(
@@ -515,17 +522,9 @@ fn within(intervals: &[[f64; 2]], z: f64) -> bool {
 /// largest face.
 const TURNED: f64 = 16.0;
 
-/// Tetrahedra that a thread looks at, at a time.
-const CHUNK: usize = 1 << 14;
-
 /// All tetrahedra positive, exactly, and still so where their copies are placed: coordinates there are up to
 /// `reach` (model units), and rounded.
-fn orientations(
-    template: &Template,
-    first_new: usize,
-    reach: f64,
-    threads: usize,
-) -> Result<(), String> {
+fn orientations(template: &Template, first_new: usize, reach: f64) -> Result<(), String> {
     let bad = |t: &&Tet| {
         let [a, b, c, d] = t.vertices.map(|v| template.vertices[v as usize]);
         let (u, v, w) = (b - a, c - a, d - a);
@@ -535,14 +534,11 @@ fn orientations(
         let safe = uv.dot(w) > TURNED * f64::EPSILON * reach * largest;
         !safe || orientation(a, b, c, d) <= 0.0
     };
-    let chunks: Vec<&[Tet]> = template.tets.chunks(CHUNK).collect();
-    let found = in_parallel(&chunks, threads, |chunk| {
-        let mut bad = chunk.iter().filter(bad);
-        let first = bad.next();
-        (usize::from(first.is_some()) + bad.count(), first)
-    });
-    let count: usize = found.iter().map(|(count, _)| count).sum();
-    match found.iter().find_map(|(_, first)| *first) {
+    let count = template.tets.par_iter().filter(bad).count();
+    if count == 0 {
+        return Ok(());
+    }
+    match template.tets.iter().find(bad) {
         None => Ok(()),
         Some(t) => {
             let corners = t.vertices.map(|v| template.vertices[v as usize]);
@@ -570,15 +566,15 @@ mod tests {
             }],
             ..Template::default()
         };
-        assert_eq!(orientations(&flat(1e-9), 4, 1.0, 1), Ok(()));
+        assert_eq!(orientations(&flat(1e-9), 4, 1.0), Ok(()));
         // Positive, but not for coordinates of a million.
-        let told = orientations(&flat(1e-9), 4, 1e6, 2).unwrap_err();
+        let told = orientations(&flat(1e-9), 4, 1e6).unwrap_err();
         assert!(
             told.contains("1 of 1 tetrahedra are inverted or flat"),
             "{told}"
         );
-        assert!(orientations(&flat(0.0), 4, 1.0, 1).is_err());
-        assert!(orientations(&flat(-1.0), 4, 1.0, 1).is_err());
+        assert!(orientations(&flat(0.0), 4, 1.0).is_err());
+        assert!(orientations(&flat(-1.0), 4, 1.0).is_err());
     }
 
     #[test]

@@ -1,8 +1,14 @@
 use crate::bodies::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
-use crate::{Error, Params, RegionSize, tetrahedralize};
+use crate::fill::{fill, finish};
+use crate::tetrahedralize;
 use geom::measure::{region_volume, tet_volume};
 use glam::DVec3;
 use kit::Failure;
+use mesher::{
+    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, Judged, LADDER, Params,
+    RegionSize, Rung, Sizes, TetGen,
+};
+use periodic_surf::failure;
 use std::time::Duration;
 use tmesh::{Document, OUTSIDE, Template, Wall, validate};
 
@@ -207,7 +213,7 @@ fn coatings_keep_their_region_and_may_have_a_size() {
     }
     params.region_sizes[0].region = "copper".to_owned();
     let error = mesh(coated_ring(16, 0.2), &params).unwrap_err();
-    assert!(matches!(error.failure(), Failure::Usage(_)));
+    assert!(matches!(failure(&error), Failure::Usage(_)));
 }
 
 #[test]
@@ -300,11 +306,9 @@ fn faces_between_templates_are_refined_alike() {
     let before = with_hub(6);
     // With several threads, the hub is meshed while the wedge is improved.
     let [one, four] = [1, 4].map(|threads| {
-        let params = Params {
-            threads,
-            ..sized(1e-4)
-        };
-        mesh(before.clone(), &params).unwrap()
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let meshed = || mesh(before.clone(), &sized(1e-4)).unwrap();
+        pool.build().unwrap().install(meshed)
     });
     assert_eq!(one.templates, four.templates);
     for done in [one, four] {
@@ -385,7 +389,7 @@ fn open_surfaces_are_refused() {
         .err()
         .unwrap();
     assert!(matches!(error, Error::Open { edges: 2..=3, .. }), "{error}");
-    assert!(matches!(error.failure(), Failure::Input(_)));
+    assert!(matches!(failure(&error), Failure::Input(_)));
 }
 
 #[test]
@@ -442,7 +446,7 @@ fn intersections_are_reported_with_their_place() {
         text.contains("intersect") && text.contains("near ("),
         "{text}"
     );
-    assert!(matches!(error.failure(), Failure::Impossible(_)));
+    assert!(matches!(failure(&error), Failure::Impossible(_)));
 }
 
 #[test]
@@ -472,91 +476,67 @@ fn switches_that_change_the_contract_are_errors() {
     }
 }
 
-/// Our time beside that of the `tetgen` program on the same complex with the same switches: run it
-/// with `cargo test --release -p tetwedge -- --ignored --nocapture overhead`.
-#[test]
-#[ignore = "a measurement, and needs the tetgen program"]
-fn overhead() {
-    use crate::params::{Sizes, switches};
-    use crate::plc::{DESCRIPTIONS, Plc};
-    use std::fmt::Write;
-    use std::time::Instant;
-    for (name, document, max_volume) in [
-        ("prism, order 3", prism(3), 2e-6),
-        ("ring, order 16, coating 5e-3", coated_ring(16, 5e-3), 1e-2),
-        ("ring, order 64, coating 5e-3", coated_ring(64, 5e-3), 1e-2),
-        ("with hub, order 6", with_hub(6), 1e-6),
-    ] {
-        let params = sized(max_volume);
-        let sizes = Sizes::new(&document, &params).unwrap();
-        let folder = tempfile::tempdir().unwrap();
-        let mut theirs = 0.0;
-        for index in 0..document.templates.len() {
-            let plc = Plc::new(&document, index, &sizes, DESCRIPTIONS[0]).unwrap();
-            let complex = plc.complex();
-            let mut text = format!("{} 3 0 0\n", complex.points.len());
-            for (i, [x, y, z]) in complex.points.iter().enumerate() {
-                writeln!(text, "{i} {x:?} {y:?} {z:?}").unwrap();
+/// Meshes every template of a document in one attempt, its surface described like this.
+fn described(document: &Document, description: Description, take: impl Fn(&Climb<'_>, Answer)) {
+    let params = sized(1e-3);
+    let sizes = Sizes::new(document, &params).unwrap();
+    let rungs = [Rung {
+        after: Ending::Chance,
+        change: Change::Describe(description),
+    }];
+    let climb = Climb {
+        document,
+        template: 0,
+        params: &params,
+        sizes: &sizes,
+        preserve: true,
+        rungs: &rungs,
+        deadline: Deadline::start(params.timeout),
+        mesher: &TetGen,
+        log: &|_| (),
+    };
+    let taken = climb.climb(
+        Asks::AsWished,
+        |answer| {
+            if answer.failed == 0 {
+                // The rung has the description that is wanted.
+                return Err(Error::Unusable {
+                    template: 0,
+                    what: "once more".to_owned(),
+                });
             }
-            writeln!(text, "{} 1", complex.triangles.len()).unwrap();
-            for ([a, b, c], marker) in complex.triangles.iter().zip(complex.markers) {
-                writeln!(text, "1 0 {marker}\n3 {a} {b} {c}").unwrap();
-            }
-            text.push_str("0\n0\n");
-            std::fs::write(folder.path().join("body.poly"), text).unwrap();
-            let switches = switches(&params, plc.max_volume, false, plc.faces.preserve());
-            let begun = Instant::now();
-            let status = std::process::Command::new("tetgen")
-                .arg(format!("-{switches}NEFI"))
-                .arg("body.poly")
-                .current_dir(folder.path())
-                .stdout(std::process::Stdio::null())
-                .status()
-                .unwrap();
-            theirs += begun.elapsed().as_secs_f64();
-            assert!(status.success());
-        }
-        let begun = Instant::now();
-        let lines = std::sync::Mutex::new(Vec::new());
-        let log = |line: &str| lines.lock().unwrap().push(line.to_owned());
-        let done = tetrahedralize(document, &params, &log).unwrap().document;
-        let ours = begun.elapsed().as_secs_f64();
-        let tets: usize = done.templates.iter().map(|t| t.tets.len()).sum();
-        println!("{name}: {tets} tetrahedra, tetgen {theirs:.3} s, tetwedge {ours:.3} s");
-        for line in lines
-            .lock()
-            .unwrap()
-            .iter()
-            .filter(|l| l.starts_with("template"))
-        {
-            println!("    {line}");
-        }
-    }
+            take(&climb, answer);
+            Ok(Judged {
+                made: (),
+                short: None,
+            })
+        },
+        |_, _| true,
+    );
+    taken.unwrap();
 }
 
 #[test]
 fn equivalent_descriptions_give_equivalent_meshes() {
-    use crate::fill::{fill, finish};
-    use crate::params::{Sizes, switches};
-    use crate::plc::{DESCRIPTIONS, Plc};
+    let changes = LADDER.iter().map(|rung| rung.change);
+    let descriptions = changes.filter_map(|change| match change {
+        Change::Describe(description) => Some(description),
+        _ => None,
+    });
+    let descriptions: Vec<Description> = std::iter::once(Description::PLAIN)
+        .chain(descriptions)
+        .collect();
+    assert_eq!(descriptions.len(), 8);
     for document in [coated_ring(7, 5e-3), ratchet(7)] {
-        let params = sized(1e-3);
-        let sizes = Sizes::new(&document, &params).unwrap();
-        for description in DESCRIPTIONS {
-            let plc = Plc::new(&document, 0, &sizes, description).unwrap();
-            assert_eq!(plc.shift > 0.0, description.flat);
-            let switches = switches(&params, plc.max_volume, false, plc.faces.preserve());
-            let limits = tetgen_sys::Limits {
-                timeout: params.timeout,
-                ..tetgen_sys::Limits::default()
-            };
-            let mesh =
-                tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |_| ()).unwrap();
-            let (mut filled, origin) = fill(&document, 0, &plc, &mesh).unwrap();
-            finish(&document, 0, &plc, (&mut filled, &origin), &params, &sizes).unwrap();
-            let mut done = document.clone();
-            done.templates[0] = filled.template;
-            check(&document, &done);
+        for &description in &descriptions {
+            described(&document, description, |climb, answer| {
+                assert_eq!(answer.plc.shift > 0.0, description.flat);
+                let (mut filled, origin) = fill(&document, 0, &answer).unwrap();
+                finish(climb, &answer.plc, &mut filled, &origin).unwrap();
+                let mut done = document.clone();
+                done.templates[0] = filled.template;
+                check(&document, &done);
+            });
         }
     }
 }
