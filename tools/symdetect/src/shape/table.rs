@@ -1,0 +1,34 @@
+//! Lists of different lengths, one behind the other.
+
+/// A list for each of several things, one behind the other.
+pub struct Table {
+    offsets: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Table {
+    /// From pairs of a thing, below `count`, and an item of its list. Keeps the order of the pairs.
+    pub fn new(count: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let mut offsets = vec![0; count + 1];
+        for (thing, _) in pairs.clone() {
+            offsets[thing as usize + 1] += 1;
+        }
+        for i in 0..count {
+            offsets[i + 1] += offsets[i];
+        }
+        let mut items = vec![0; offsets[count] as usize];
+        let mut next = offsets.clone();
+        for (thing, item) in pairs {
+            let place = &mut next[thing as usize];
+            items[*place as usize] = item;
+            *place += 1;
+        }
+        Self { offsets, items }
+    }
+
+    /// The list of a thing.
+    pub fn of(&self, thing: u32) -> &[u32] {
+        let [first, end] = [thing, thing + 1].map(|i| self.offsets[i as usize] as usize);
+        &self.items[first..end]
+    }
+}
