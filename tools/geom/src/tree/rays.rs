@@ -2,7 +2,7 @@
 
 use super::boxes::{Bounds, Boxes, Item, LEAF, WIDTH};
 use super::placement::Placement;
-use crate::predicate::orientation;
+use crate::element::predicate::orientation;
 use glam::DVec3;
 use robust::{Coord, orient2d};
 

@@ -1,6 +1,6 @@
 //! Edges of a triangle complex and the triangles around them, in angular order.
 
-pub use crate::predicate::orientation;
+pub use crate::element::predicate::orientation;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::cmp::Ordering;

@@ -1,7 +1,7 @@
 //! Where triangles meet in any other way than in common vertices and edges.
 
-use crate::alignment::alignment;
-use crate::predicate::orientation;
+use crate::element::predicate::orientation;
+use crate::tree::alignment::alignment;
 use crate::tree::pairs;
 use glam::DVec3;
 use robust::{Coord, orient2d};

@@ -87,19 +87,19 @@ fn frame(z: DVec3, x: DVec3) -> DMat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cells::tests::add_box;
 
     /// The faces of a box, in two triangles each.
     fn cuboid(turn: DMat3) -> Vec<[DVec3; 3]> {
-        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
-        add_box(
-            &mut vertices,
-            &mut triangles,
-            DVec3::ZERO,
-            DVec3::new(1.0, 2.0, 3.0),
-        );
-        let corners = |t: &[u32; 3]| t.map(|v| turn * vertices[v as usize]);
-        triangles.iter().map(corners).collect()
+        let size = DVec3::new(1.0, 2.0, 3.0);
+        let [x, y, z] = [0, 1, 2].map(|k| DVec3::AXES[k] * size[k]);
+        let sides = [(x, y, z), (y, z, x), (z, x, y)];
+        let both = sides.map(|(u, v, w)| [(DVec3::ZERO, u, v), (w, u, v)]);
+        let corners = |p: DVec3, u: DVec3, v: DVec3| [[p, p + u, p + u + v], [p, p + u + v, p + v]];
+        both.as_flattened()
+            .iter()
+            .flat_map(|&(p, u, v)| corners(p, u, v))
+            .map(|t| t.map(|p| turn * p))
+            .collect()
     }
 
     #[test]
