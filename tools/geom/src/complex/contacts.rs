@@ -25,6 +25,12 @@ pub enum Search {
     GaveUp,
 }
 
+/// Pairs of triangles that are compared at most, per triangle and in addition. Real surfaces have some ten pairs
+/// per triangle, and fans of thin triangles hundreds; the limit ends a search through triangles that all lie
+/// over each other after seconds instead of hours.
+const PAIRS_PER_TRIANGLE: u64 = 1000;
+const PAIRS: u64 = 10_000_000;
+
 /// Bound on the error of a coordinate that was turned, relative to the largest one: three products and two sums of
 /// half a rounding each, times `sqrt(3)`, and those of the rotation's own entries.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -50,7 +56,7 @@ pub fn contacts(
         let [a, b, c] = corners(t).map(|p| frame.map_or(p, |frame| frame * p));
         [a.min(b).min(c) - margin, a.max(b).max(c) + margin]
     });
-    let mut left = 1000 * triangles.len() as u64 + 10_000_000;
+    let mut left = PAIRS_PER_TRIANGLE * triangles.len() as u64 + PAIRS;
     let mut end = Search::Done;
     pairs(boxes, &group, |s, t| {
         left -= 1;

@@ -6,11 +6,13 @@
 use crate::eigen;
 use glam::{DMat3, DVec3};
 
-/// Triangles looked at, at most.
+/// Triangles looked at, at most: enough to find directions that are worth it, and a few milliseconds.
 const SAMPLED: usize = 20_000;
-/// Boxes must get smaller by this factor for a frame to be worth its use.
+/// Boxes must get smaller by this factor for a frame to be worth its use: turning all coordinates costs about
+/// a tenth of building the tree. This and what follows change the time only.
 const GAIN: f64 = 0.8;
-/// Cosine up to which a face counts as parallel to a direction.
+/// Cosine up to which a face counts as parallel to a direction, three degrees: boxes of faces as far off are
+/// still thin.
 const ALONG: f64 = 0.05;
 
 /// The rotation into such a frame, or `None` where the coordinates given are about as good. Depends on the
