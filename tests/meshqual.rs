@@ -3,15 +3,12 @@
 use assert_cmd::Command;
 use glam::DVec3;
 use serde_json::Value;
-use tmesh::{
-    Document, Instance, Isometry, MirrorWall, OUTSIDE, Plane, Region, Template, Tet, Triangle, Wall,
-};
+use tmesh::{Document, Gluing, Instance, Isometry, OUTSIDE, Region, Template, Tet, Triangle};
 
 /// An octagonal pyramid of radius 1 and height 1 as half-wedges of a fourfold symmetry:
 /// one tetrahedron, eight times.
 fn pyramid() -> Document {
     let turn = Isometry::rotation(1, 8);
-    let (c, s) = turn.cos_sin();
     let vertices = vec![DVec3::ZERO, DVec3::X, turn.apply(DVec3::X), DVec3::Z];
     let triangle = |vertices| Triangle {
         vertices,
@@ -22,17 +19,8 @@ fn pyramid() -> Document {
     let triangles = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]]
         .map(triangle)
         .to_vec();
-    let wall = |name: &str, normal, reflection, vertices: [u32; 3], triangle| {
-        Wall::Mirror(MirrorWall {
-            name: name.to_owned(),
-            plane: Plane {
-                normal,
-                offset: 0.0,
-            },
-            reflection,
-            vertices: vertices.to_vec(),
-            triangles: vec![triangle],
-        })
+    let wall = |name: &str, reflection, vertices: [u32; 3], triangle| {
+        Gluing::mirror(name, 0, reflection, vertices, [triangle])
     };
     let mut document = Document::single(Template {
         vertices,
@@ -41,21 +29,9 @@ fn pyramid() -> Document {
             vertices: [0, 1, 2, 3],
             region: 3,
         }],
-        walls: vec![
-            wall(
-                "wall-a",
-                DVec3::NEG_Y,
-                Isometry::reflection(0, 1),
-                [0, 1, 3],
-                2,
-            ),
-            wall(
-                "wall-b",
-                DVec3::new(-s, c, 0.0),
-                Isometry::reflection(1, 4),
-                [0, 2, 3],
-                1,
-            ),
+        gluings: vec![
+            wall("wall-a", Isometry::reflection(0, 1), [0, 1, 3], 2),
+            wall("wall-b", Isometry::reflection(1, 4), [0, 2, 3], 1),
         ],
         axis: vec![0, 3],
     });
@@ -208,7 +184,7 @@ fn the_text_report_and_its_files() {
     assert_eq!((code, stderr.as_str()), (0, ""));
     for part in [
         "10 vertices, 8 tetrahedra, 16 surface triangles",
-        "1 template placed 8 times, symmetry of order 4 with mirrors",
+        "1 template placed 8 times, symmetry of C4v",
         "quartz",
         "min_dihedral_deg",
         "100.00 % ████",

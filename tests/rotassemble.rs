@@ -87,8 +87,7 @@ fn the_expanded_document_can_be_assembled_again() {
     assert!(document.is_plain());
     assert_eq!(document.history.len(), 1);
     assert_eq!(document.history[0].arguments, ["--to", "tmesh"]);
-    let promise = document.symmetry.unwrap().promise.unwrap();
-    assert_eq!((promise.order, promise.mirror), (6, true));
+    assert_eq!(document.promise.unwrap().group.symbol(), "C6v");
     assert!(succeeds(&[], &expanded) == succeeds(&[], &input));
 }
 
@@ -164,11 +163,11 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
     let document = tmesh::read(assembled.as_slice()).unwrap();
     let promised = |change: &dyn Fn(&mut Outside)| {
         let mut changed = document.clone();
-        let promise = changed.symmetry.as_mut().unwrap().promise.as_mut().unwrap();
+        let promise = changed.promise.as_mut().unwrap();
         change(promise.outside.as_mut().unwrap());
         checked(&bytes(&changed))
     };
-    let (code, _, errors) = promised(&|outside| outside.order = 32);
+    let (code, _, errors) = promised(&|outside| outside.group.order = 32);
     assert!(
         code == Some(1) && errors.contains("order 32 outside"),
         "{errors}"
@@ -181,13 +180,7 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
     );
     // Slices of the outer part are another material, in a way that keeps the lower order.
     let mut disturbed = document.clone();
-    let promise = disturbed
-        .symmetry
-        .as_ref()
-        .unwrap()
-        .promise
-        .clone()
-        .unwrap();
+    let promise = disturbed.promise.clone().unwrap();
     let axis = |i: usize| glam::DVec3::from_array(promise.rotation.map(|row| row[i]));
     let (x, y, origin) = (axis(0), axis(1), glam::DVec3::from_array(promise.origin));
     let template = &mut disturbed.templates[0];
@@ -302,10 +295,8 @@ fn failures() {
     gap.instances.truncate(5);
     fails(&[], &bytes(&gap), 3, "has no neighbour");
     let mut bare = wedge().document();
-    for wall in &mut bare.templates[0].walls {
-        if let tmesh::Wall::Mirror(wall) = wall {
-            wall.triangles.clear();
-        }
+    for gluing in &mut bare.templates[0].gluings {
+        gluing.triangle_pairs.clear();
     }
     bare.templates[0].triangles.clear();
     fails(
@@ -411,9 +402,7 @@ fn the_table_of_pairs() {
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let document = chiral().document();
     let input = bytes(&document);
-    let tmesh::Wall::Seam(seam) = &document.templates[0].walls[0] else {
-        panic!("a seam");
-    };
+    let seam = &document.templates[0].gluings[0];
     let (csv, json) = (path("p.csv"), path("p.json"));
     succeeds(&["--sector", "--to", "vtk", "--pairs", &csv], &input);
     let text = fs::read_to_string(csv).unwrap();
@@ -432,7 +421,9 @@ fn the_table_of_pairs() {
         assert!(fields[4].parse::<f64>().unwrap() < 1e-14);
         nodes.push(pair);
     }
-    assert_eq!(nodes, seam.vertex_pairs);
+    let mut pairs: Vec<[u32; 2]> = seam.vertex_pairs.iter().map(|&[b, a]| [a, b]).collect();
+    pairs.sort_unstable();
+    assert_eq!(nodes, pairs);
     assert_eq!(faces, seam.triangle_pairs.len());
 
     // Counted as in the mesh file.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-use tmesh::{Document, MirrorWall, OUTSIDE, Plane, Region, Template, Triangle, Wall};
+use tmesh::{Document, Gluing, OUTSIDE, Region, Template, Triangle};
 
 const TOOL: &str = env!("CARGO_BIN_EXE_tetwedge");
 
@@ -39,32 +39,22 @@ fn wedge() -> Document {
             back: 3,
         })
         .to_vec();
-    let diagonal = std::f64::consts::FRAC_1_SQRT_2;
-    let wall = |name: &str, k, normal, vertices: [u32; 4], triangles: [u32; 2]| {
-        Wall::Mirror(MirrorWall {
-            name: name.to_owned(),
-            plane: Plane {
-                normal,
-                offset: 0.0,
-            },
-            reflection: tmesh::Isometry::reflection(k, 4),
-            vertices: vertices.to_vec(),
-            triangles: triangles.to_vec(),
-        })
+    let wall = |name: &str, k, vertices: [u32; 4], triangles: [u32; 2]| {
+        Gluing::mirror(
+            name,
+            0,
+            tmesh::Isometry::reflection(k, 4),
+            vertices,
+            triangles,
+        )
     };
     let mut document = Document::single(Template {
         vertices,
         triangles,
         tets: Vec::new(),
-        walls: vec![
-            wall("wall-a", 0, -DVec3::Y, [0, 1, 3, 4], [2, 3]),
-            wall(
-                "wall-b",
-                1,
-                DVec3::new(-diagonal, diagonal, 0.0),
-                [0, 2, 3, 5],
-                [6, 7],
-            ),
+        gluings: vec![
+            wall("wall-a", 0, [0, 1, 3, 4], [2, 3]),
+            wall("wall-b", 1, [0, 2, 3, 5], [6, 7]),
         ],
         axis: vec![0, 3],
     });
@@ -266,7 +256,7 @@ fn failures_have_their_exit_codes() {
 
     let mut open = wedge();
     open.templates[0].triangles.swap_remove(1);
-    open.templates[0].walls.clear();
+    open.templates[0].gluings.clear();
     let (output, text) = run(&save(&folder, &open), &[]);
     assert_eq!(output.status.code(), Some(3), "{text}");
     assert!(text.contains("3 open edge(s)"), "{text}");

@@ -170,10 +170,8 @@ fn gmsh_reads_the_couplings_of_a_sector() {
         );
         let size = found["size"].as_f64().expect("a size");
         assert!(link["error"].as_f64() < Some(1e-12 * size), "{link}");
-        let walls = &document.templates[0].walls;
-        let tmesh::Wall::Seam(seam) = &walls[0] else {
-            panic!("a seam was wanted");
-        };
+        let seam = &document.templates[0].gluings[0];
+        assert!(seam.is_seam(0));
         if !second {
             assert_eq!(link["pairs"], seam.vertex_pairs.len());
         } else {

@@ -84,9 +84,8 @@ fn regions_that_are_not_what_the_document_says_are_told() {
     let found = run("symdetect", &[], &encode(&blocks(3, 0.0), EXACT_STL)).success();
     let mut document = tmesh::read(found.as_slice()).expect("valid");
     let symmetry = document.symmetry.as_mut().expect("stated");
-    assert_eq!(symmetry.rotation_regions, [[1, 2], [2, 1]]);
-    symmetry.rotation_regions.clear();
-    symmetry.mirror_regions.clear();
+    assert_eq!(symmetry.rotation_regions().pairs, [[1, 2], [2, 1]]);
+    symmetry.regions.clear();
     let mut wrong = Vec::new();
     tmesh::write(&document, &mut wrong).expect("memory");
     let told = [

@@ -344,7 +344,7 @@ fn a_body_without_symmetry() {
     detect(&body, &[]).fails(1, &["symmetr"]);
     let passed = detect(&body, &["--allow-asymmetric"]).success();
     let document = tmesh::read(passed.as_slice()).expect("valid");
-    assert_eq!(document.symmetry.expect("stated").order, 1);
+    assert_eq!(document.symmetry.expect("stated").group.order, 1);
 }
 
 #[test]
@@ -353,7 +353,7 @@ fn an_order_that_does_not_hold() {
     detect(&gear(), &["--order", "24"]).fails(1, &["24"]);
     let found = detect(&gear(), &["--order", "6"]).success();
     let document = tmesh::read(found.as_slice()).expect("valid");
-    assert_eq!(document.symmetry.expect("stated").order, 6);
+    assert_eq!(document.symmetry.expect("stated").group.order, 6);
     // The cut takes divisors only.
     let found = detect(&gear(), &[]).success();
     run("wedgecut", &["--order", "5"], &found).fails(1, &["5", "12"]);

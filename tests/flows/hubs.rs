@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use serde_json::Value;
 use support::{EXACT_STL, encode, run};
-use tmesh::{Document, Wall};
+use tmesh::Document;
 
 fn read(bytes: &[u8]) -> Document {
     let document = tmesh::read(bytes).expect("a document");
@@ -68,13 +68,11 @@ fn found(body: &Body) -> Vec<u8> {
 
 /// The seams of all templates: pairs equal under the rotation to the bit.
 fn check_seams(name: &str, document: &Document) {
-    for template in &document.templates {
-        for wall in &template.walls {
-            if let Wall::Seam(seam) = wall {
-                for &[a, b] in &seam.vertex_pairs {
-                    let [p, q] = [a, b].map(|v| template.vertices[v as usize]);
-                    assert_eq!(seam.rotation.apply(p), q, "{name}");
-                }
+    for (t, template) in document.templates.iter().enumerate() {
+        for seam in template.gluings.iter().filter(|gluing| gluing.is_seam(t)) {
+            for &[b, a] in &seam.vertex_pairs {
+                let [p, q] = [a, b].map(|v| template.vertices[v as usize]);
+                assert_eq!(seam.step.apply(p), q, "{name}");
             }
         }
     }
@@ -83,8 +81,8 @@ fn check_seams(name: &str, document: &Document) {
 /// The hub's walls meet one copy of the wedge each.
 fn check_hub(name: &str, document: &Document, order: u32) {
     assert_eq!(document.templates.len(), 2, "{name}");
-    let walls = &document.templates[1].walls;
-    let hubs = walls.iter().filter(|w| matches!(w, Wall::Hub(_))).count();
+    let gluings = document.templates[1].gluings.iter();
+    let hubs = gluings.filter(|g| g.other_than(1).is_some()).count();
     let copies = |t: u32| {
         document
             .instances
@@ -320,7 +318,7 @@ fn mirror_planes_across_the_axis_halve_wedges() {
         let flipped = |d: &Document| d.instances.iter().any(|i| i.isometry.flipped());
         assert!(flipped(&halved), "{name}");
         for template in &halved.templates {
-            let level = template.walls.iter().any(|w| w.name() == "wall-level");
+            let level = template.gluings.iter().any(|g| g.name == "wall-level");
             assert!(level, "{name}");
             assert!(template.vertices.iter().all(|p| p.z >= 0.0), "{name}");
         }

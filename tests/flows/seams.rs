@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::collections::HashSet;
 use support::{EXACT_STL, encode, run};
-use tmesh::{Document, Seam, Template, Wall};
+use tmesh::{Document, Gluing, Template};
 
 fn read(bytes: &[u8]) -> Document {
     let document = tmesh::read(bytes).expect("a document");
@@ -15,12 +15,9 @@ fn read(bytes: &[u8]) -> Document {
     document
 }
 
-fn seam(template: &Template) -> &Seam {
-    let seam = template.walls.iter().find_map(|w| match w {
-        Wall::Seam(seam) => Some(seam),
-        _ => None,
-    });
-    seam.unwrap_or_else(|| panic!("{:?}", template.walls))
+fn seam(template: &Template) -> &Gluing {
+    let seam = template.gluings.iter().find(|gluing| gluing.is_seam(0));
+    seam.unwrap_or_else(|| panic!("{:?}", template.gluings))
 }
 
 /// Pairs equal under the rotation to the bit, all of both faces paired, axis vertices with
@@ -30,15 +27,15 @@ fn check_seam(name: &str, document: &Document) {
     let seam = seam(template);
     let at = |v: u32| template.vertices[v as usize];
     let mut image = vec![u32::MAX; template.vertices.len()];
-    for &[a, b] in &seam.vertex_pairs {
-        assert_eq!(seam.rotation.apply(at(a)), at(b), "{name}");
+    for &[b, a] in &seam.vertex_pairs {
+        assert_eq!(seam.step.apply(at(a)), at(b), "{name}");
         image[a as usize] = b;
     }
     for &v in &template.axis {
         assert_eq!(image[v as usize], v, "{name}: axis");
     }
     let mut faces = HashSet::new();
-    for &[a, b] in &seam.triangle_pairs {
+    for &[b, a] in &seam.triangle_pairs {
         let [low, high] = [a, b].map(|t| template.triangles[t as usize]);
         let [i, j, k] = low.vertices.map(|v| image[v as usize]);
         assert!(

@@ -65,7 +65,11 @@ fn facets(document: &Document, wedge: bool, view: DMat3) -> Vec<Facet> {
         let template = &document.templates[instance.template as usize];
         let walls: BTreeSet<u32> = match wedge {
             true => BTreeSet::new(),
-            false => template.walls.iter().flat_map(|w| w.triangles()).collect(),
+            false => template
+                .gluings
+                .iter()
+                .flat_map(|g| g.triangles_of(0))
+                .collect(),
         };
         let placed = instance.isometry.placed();
         for (index, triangle) in template.triangles.iter().enumerate() {

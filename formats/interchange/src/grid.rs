@@ -8,7 +8,7 @@ use crate::{Imported, ReadError, parse_promise, skin, surface};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
-use tmesh::{Axis, Document, Marker, OUTSIDE, Promise, Region, Symmetry, Template, Tet, Triangle};
+use tmesh::{Document, Marker, OUTSIDE, Region, Template, Tet, Triangle};
 
 pub const TRIANGLE: u8 = 5;
 const TRIANGLE_STRIP: u8 = 6;
@@ -285,44 +285,8 @@ pub fn build(grid: Grid, format: &'static str) -> Result<Imported, ReadError> {
             .collect();
         Imported { document, notices }
     };
-    imported.document.symmetry = promise.map(symmetry);
+    imported.document.promise = promise;
     Ok(imported)
-}
-
-/// What a promise says about the symmetry.
-fn symmetry(promise: Promise) -> Symmetry {
-    let r = promise.rotation;
-    let suffix = match (promise.mirror, promise.horizontal_mirror) {
-        (false, false) => "",
-        (false, true) => "h",
-        (true, _) => "v",
-    };
-    let kind = if promise.mirror && promise.horizontal_mirror {
-        format!("D{}h", promise.order)
-    } else {
-        format!("C{}{suffix}", promise.order)
-    };
-    Symmetry {
-        group: kind,
-        order: promise.order,
-        mirror: promise.mirror,
-        horizontal_mirror: promise.horizontal_mirror,
-        axis: Axis {
-            point: promise.origin,
-            direction: [r[0][2], r[1][2], r[2][2]],
-        },
-        mirror_direction: [r[0][0], r[1][0], r[2][0]],
-        residual: 0.0,
-        tolerance: 0.0,
-        axisymmetric: false,
-        radius: 0.0,
-        other_axes: Vec::new(),
-        rejected: Vec::new(),
-        rotation_regions: Vec::new(),
-        mirror_regions: Vec::new(),
-        horizontal_regions: Vec::new(),
-        promise: Some(promise),
-    }
 }
 
 fn name(table: &mut BTreeMap<u32, String>, id: u32, word: &str) {

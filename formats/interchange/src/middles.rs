@@ -5,7 +5,7 @@
 //! welds and couples them without further ado: nothing is matched by distance.
 
 use rustc_hash::FxHashMap;
-use tmesh::{Document, Template, Wall};
+use tmesh::{Document, Gluing, Template};
 
 /// Edges of a tetrahedron in the order of [`crate::TetBlock::middles`].
 const TET_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
@@ -86,11 +86,11 @@ pub fn second_order(mut document: Document) -> Result<(Document, Middles), TooMa
         edges.push(of_edge);
     }
     for t in 0..document.templates.len() {
-        let mut walls = std::mem::take(&mut document.templates[t].walls);
-        for wall in &mut walls {
-            extend(wall, t, &mut document.templates, &middles, &edges);
+        let mut gluings = std::mem::take(&mut document.templates[t].gluings);
+        for gluing in &mut gluings {
+            extend(gluing, t, &mut document.templates, &middles, &edges);
         }
-        document.templates[t].walls = walls;
+        document.templates[t].gluings = gluings;
     }
     Ok((document, middles))
 }
@@ -115,66 +115,40 @@ fn middle(
     Ok(id)
 }
 
-/// Makes the middles of a wall's edges part of it.
+/// Makes the middles of a glued face's edges part of it.
 fn extend(
-    wall: &mut Wall,
+    gluing: &mut Gluing,
     t: usize,
     templates: &mut [Template],
     middles: &Middles,
     edges: &[Edges],
 ) {
-    match wall {
-        Wall::Mirror(wall) => {
-            let all = wall.triangles.iter();
-            let mut added: Vec<u32> = all
-                .flat_map(|&i| middles.triangles[t][i as usize])
-                .collect();
-            added.sort_unstable();
-            added.dedup();
-            wall.vertices.extend(added);
-        }
-        Wall::Seam(wall) => {
-            let lows = wall.triangle_pairs.iter().map(|p| p[0]);
-            let pairs = edge_pairs(lows, [t, t], &wall.vertex_pairs, templates, middles, edges);
-            let rotation = wall.rotation.placed();
-            let vertices = &mut templates[t].vertices;
-            for &[low, high] in pairs.iter().filter(|p| p[0] != p[1]) {
-                vertices[high as usize] = rotation.apply(vertices[low as usize]);
-            }
-            wall.vertex_pairs.extend(pairs);
-        }
-        Wall::Hub(wall) => {
-            let other = wall.other as usize;
-            let here = wall.triangle_pairs.iter().map(|p| p[0]);
-            let pairs = edge_pairs(
-                here,
-                [t, other],
-                &wall.vertex_pairs,
-                templates,
-                middles,
-                edges,
-            );
-            wall.vertex_pairs.extend(pairs);
+    let pairs = edge_pairs(gluing, t, templates, middles, edges);
+    if gluing.is_seam(t) {
+        let step = gluing.step.placed();
+        let vertices = &mut templates[t].vertices;
+        for &[here, there] in pairs.iter().filter(|p| p[0] != p[1]) {
+            vertices[here as usize] = step.apply(vertices[there as usize]);
         }
     }
+    gluing.vertex_pairs.extend(pairs);
 }
 
-/// Pairs of the middles of paired edges, increasing in the first: of the given triangles of the
-/// first template, by pairs of vertices of both.
+/// Pairs of the middles of the edges of paired triangles, increasing in the first.
 fn edge_pairs(
-    triangles: impl Iterator<Item = u32>,
-    [from, to]: [usize; 2],
-    vertex_pairs: &[[u32; 2]],
+    gluing: &Gluing,
+    from: usize,
     templates: &[Template],
     middles: &Middles,
     edges: &[Edges],
 ) -> Vec<[u32; 2]> {
+    let to = gluing.other as usize;
     let image = |v: u32| {
-        let found = vertex_pairs.binary_search_by_key(&v, |p| p[0]);
-        found.ok().map(|i| vertex_pairs[i][1])
+        let found = gluing.vertex_pairs.binary_search_by_key(&v, |p| p[0]);
+        found.ok().map(|i| gluing.vertex_pairs[i][1])
     };
     let mut pairs = Vec::new();
-    for i in triangles {
+    for i in gluing.triangles_here() {
         let corners = templates[from].triangles[i as usize].vertices;
         for ([a, b], id) in TRIANGLE_EDGES
             .iter()

@@ -1,6 +1,6 @@
 //! The document model.
 
-use crate::{Frame, Isometry, Symmetry, Wall};
+use crate::{Frame, Gluing, Isometry, Promise, Search, Symmetry, Wishes};
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -37,12 +37,12 @@ pub struct Tet {
 pub struct Template {
     /// Vertex positions in the canonical frame, model units. All finite.
     pub vertices: Vec<DVec3>,
-    /// Surface: outer boundary, region interfaces and walls.
+    /// Surface: outer boundary, region interfaces and glued faces.
     pub triangles: Vec<Triangle>,
     /// Volume; empty before the mesher ran.
     pub tets: Vec<Tet>,
     /// Where the template meets its images and other templates.
-    pub walls: Vec<Wall>,
+    pub gluings: Vec<Gluing>,
     /// Vertices on the symmetry axis (x = y = 0 exactly), increasing.
     pub axis: Vec<u32>,
 }
@@ -142,7 +142,7 @@ pub struct HistoryEntry {
 }
 
 /// The document that travels through the pipe.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Document {
     /// Pieces of mesh.
     pub templates: Vec<Template>,
@@ -152,8 +152,14 @@ pub struct Document {
     pub region_maps: Vec<RegionMap>,
     /// From canonical to world coordinates.
     pub frame: Frame,
-    /// Symmetry, once `symdetect` ran.
+    /// The symmetry found in the body, once it was searched.
     pub symmetry: Option<Symmetry>,
+    /// The symmetry that an assembled mesh has exactly.
+    pub promise: Option<Promise>,
+    /// How the search for symmetry went.
+    pub search: Option<Search>,
+    /// What is asked of the elements.
+    pub wishes: Wishes,
     /// Materials, increasing in id.
     pub regions: Vec<Region>,
     /// Boundary pieces, increasing in id.
@@ -174,13 +180,7 @@ impl Document {
                 isometry: Isometry::IDENTITY,
                 region_map: 0,
             }],
-            region_maps: Vec::new(),
-            frame: Frame::IDENTITY,
-            symmetry: None,
-            regions: Vec::new(),
-            markers: Vec::new(),
-            source: None,
-            history: Vec::new(),
+            ..Self::default()
         }
     }
 

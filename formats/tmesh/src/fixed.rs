@@ -1,7 +1,6 @@
 //! The points that an isometry leaves where they are.
 
 use crate::Isometry;
-use crate::isometry::cos_sin;
 use glam::DVec3;
 
 /// The set of points that an isometry leaves where they are, canonical frame.
@@ -37,7 +36,7 @@ impl FixedSet {
     pub fn of(isometry: Isometry) -> Self {
         // A mirrored isometry turns by k / n of a turn what was reflected in the x axis: it keeps the direction at half that
         // angle.
-        let (cos, sin) = cos_sin(isometry.k(), 2 * isometry.n());
+        let (cos, sin) = isometry.half_angle();
         match (isometry.mirrored(), isometry.flipped(), isometry.k()) {
             (false, false, 0) => Self::All,
             (false, false, _) => Self::Axis,

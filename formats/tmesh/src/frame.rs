@@ -14,6 +14,12 @@ pub struct Frame {
     pub origin: DVec3,
 }
 
+impl Default for Frame {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
 impl Frame {
     /// The canonical frame is the world.
     pub const IDENTITY: Self = Self {

@@ -36,6 +36,12 @@ impl Isometry {
         ..Self::IDENTITY
     };
 
+    /// The reflection in the plane y = 0.
+    pub const MIRROR: Self = Self {
+        mirrored: true,
+        ..Self::IDENTITY
+    };
+
     /// `R(2 pi k / n) * M^mirrored * H^flipped`; `k` may be any integer.
     ///
     /// # Panics
@@ -62,9 +68,23 @@ impl Isometry {
         Self::new(k, n, false, false)
     }
 
+    /// As [`Isometry::rotation`], and `None` if the denominator exceeds [`MAX_TURN_DENOMINATOR`].
+    pub fn checked_rotation(k: i64, n: u64) -> Option<Self> {
+        let k = k.rem_euclid(i64::try_from(n).ok()?) as u64;
+        let common = gcd(k, n);
+        let (k, n) = (k / common, n / common);
+        (n <= u64::from(MAX_TURN_DENOMINATOR)).then(|| Self::rotation(k as i64, n as u32))
+    }
+
     /// Reflection in the plane that contains the axis and makes the angle `pi k / n` with the x axis.
     pub fn reflection(k: i64, n: u32) -> Self {
         Self::new(k, n, true, false)
+    }
+
+    /// The half turn about the axis through the origin, across the main one, that makes the angle
+    /// `pi k / n` with the x axis.
+    pub fn half_turn(k: i64, n: u32) -> Self {
+        Self::new(k, n, true, true)
     }
 
     /// Numerator of the turn, `0 <= k < n`.
@@ -92,6 +112,11 @@ impl Isometry {
         self.mirrored != self.flipped
     }
 
+    /// Whether the isometry is the reflection in a plane.
+    pub fn is_reflection(self) -> bool {
+        self == Self::FLIP || self.mirrored && !self.flipped
+    }
+
     /// The product `self * other`: first `other`, then `self`.
     ///
     /// Isometries of one valid document have a common denominator in range, so their products stay
@@ -100,6 +125,14 @@ impl Isometry {
     /// # Panics
     /// If the product's denominator exceeds [`MAX_TURN_DENOMINATOR`].
     pub fn compose(self, other: Self) -> Self {
+        match self.checked_compose(other) {
+            Some(product) => product,
+            None => panic!("the turn of {self} times {other} exceeds {MAX_TURN_DENOMINATOR}"),
+        }
+    }
+
+    /// As [`Isometry::compose`], and `None` where that panics.
+    pub fn checked_compose(self, other: Self) -> Option<Self> {
         // M R(a) = R(-a) M, and H commutes with everything.
         let n = lcm(u64::from(self.n), u64::from(other.n));
         let a = u64::from(self.k) * (n / u64::from(self.n));
@@ -107,16 +140,12 @@ impl Isometry {
         let k = if self.mirrored { a + n - b % n } else { a + b } % n;
         let g = gcd(k, n);
         let (k, n) = (k / g, n / g);
-        assert!(
-            n <= u64::from(MAX_TURN_DENOMINATOR),
-            "turn denominator {n} exceeds {MAX_TURN_DENOMINATOR}"
-        );
-        Self {
+        (n <= u64::from(MAX_TURN_DENOMINATOR)).then_some(Self {
             n: n as u32,
             k: k as u32,
             mirrored: self.mirrored != other.mirrored,
             flipped: self.flipped != other.flipped,
-        }
+        })
     }
 
     /// The inverse isometry.
@@ -135,6 +164,19 @@ impl Isometry {
     /// other in an octant. Uses a software implementation, so every machine gets the same bits.
     pub fn cos_sin(self) -> (f64, f64) {
         cos_sin(self.k, self.n)
+    }
+
+    /// Cosine and sine of half the turn: the direction in which the plane of a vertical reflection, or
+    /// the axis of a half turn across the main one, leaves the z axis. As exact as
+    /// [`Isometry::cos_sin`], but for the largest denominators.
+    pub fn half_angle(self) -> (f64, f64) {
+        match Self::checked_rotation(i64::from(self.k), 2 * u64::from(self.n)) {
+            Some(half) => half.cos_sin(),
+            None => {
+                let angle = std::f64::consts::PI * f64::from(self.k) / f64::from(self.n);
+                (libm::cos(angle), libm::sin(angle))
+            }
+        }
     }
 
     /// Image of a point given in the canonical frame.

@@ -1,7 +1,7 @@
 //! The document that travels through the pipe, and its binary form `.tmesh`.
 //!
-//! A [`Document`] holds *templates* (a piece of surface or volume mesh stored once), the *walls*
-//! at which templates meet their images, and *instances* (isometries that place the templates).
+//! A [`Document`] holds *templates* (a piece of surface or volume mesh stored once), the *gluings* at
+//! which templates meet their images, and *instances* (isometries that place the templates).
 //! A plain surface or a whole mesh is the same document with one template and the identity
 //! instance. `SPEC.md` beside this crate is the normative description of the bytes.
 
@@ -11,11 +11,13 @@ mod error;
 mod faces;
 mod fixed;
 mod frame;
+mod gluing;
+mod group;
 mod isometry;
 mod symmetry;
 mod validate;
 mod violation;
-mod wall;
+mod wishes;
 
 pub use codec::{
     ChunkInfo, ChunkWriter, MAGIC, TETS, TRIANGLES, VERSION_MAJOR, VERSION_MINOR, VERTICES, read,
@@ -28,8 +30,10 @@ pub use document::{
 pub use error::DecodeError;
 pub use fixed::FixedSet;
 pub use frame::Frame;
+pub use gluing::{Gluing, Plane};
+pub use group::{Group, Kind, NotAGroup};
 pub use isometry::{Isometry, MAX_TURN_DENOMINATOR, Placed};
-pub use symmetry::{Axis, OtherAxis, Outside, Promise, RejectedOrder, Symmetry};
+pub use symmetry::{Axis, OtherAxis, Outside, Promise, RejectedOrder, Search, Symmetry};
 pub use validate::validate;
 pub use violation::Violation;
-pub use wall::{HubWall, MirrorWall, Plane, Seam, Wall};
+pub use wishes::{Size, Wishes};

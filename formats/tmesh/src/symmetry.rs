@@ -1,5 +1,8 @@
-//! What is known of the symmetry of a body. Serialized as JSON, in the file and in reports alike.
+//! What is known of the symmetry of a body: what was found in it, what its mesh promises, and how the
+//! search went. Three things, each a chunk of JSON.
 
+use crate::{Frame, Group, Isometry, RegionMap};
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 /// A line in space.
@@ -9,6 +12,125 @@ pub struct Axis {
     pub point: [f64; 3],
     /// Unit direction.
     pub direction: [f64; 3],
+}
+
+/// The symmetry found in a body, in the frame of the input.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Symmetry {
+    /// The group about the main axis.
+    pub group: Group,
+    /// The main axis; its point is the centre of the body, which operations that turn the axis over
+    /// leave in place.
+    pub axis: Axis,
+    /// Unit vector orthogonal to the axis, the x axis of the canonical frame: in a mirror plane if any
+    /// contain the axis, else along a half turn's axis if there are any, else a reference for angles.
+    pub reference: [f64; 3],
+    /// Largest deviation found over all verified operations, relative to the radius about the axis.
+    pub residual: f64,
+    /// Tolerance the verification used, relative to the radius about the axis.
+    pub tolerance: f64,
+    /// Whether every order holds within the tolerance: a body of revolution. The group's order is then
+    /// the facet count.
+    pub axisymmetric: bool,
+    /// Largest distance of a surface point from the axis, model units.
+    pub radius: f64,
+    /// How each of [`Group::generators`], in their order, permutes region ids; empty if none does.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub regions: Vec<RegionMap>,
+}
+
+impl Symmetry {
+    /// The canonical frame: z along the axis, x along the reference, the origin at the centre. `None`
+    /// when the directions do not span one.
+    pub fn frame(&self) -> Option<Frame> {
+        let [point, axis, reference] =
+            [self.axis.point, self.axis.direction, self.reference].map(DVec3::from_array);
+        Frame::from_axis(point, axis, reference)
+    }
+
+    /// How the rotation by one step permutes regions.
+    pub fn rotation_regions(&self) -> RegionMap {
+        self.region_map(self.group.rotation())
+    }
+
+    /// How an element of the group renames regions; the identity for other isometries.
+    pub fn region_map(&self, element: Isometry) -> RegionMap {
+        let Some((k, m, f)) = self.group.exponents(element) else {
+            return RegionMap::default();
+        };
+        if self.regions.is_empty() {
+            return RegionMap::default();
+        }
+        let has_rotation = self.group.order > 1;
+        let has_mirror = self.group.has_vertical_mirrors();
+        let of = |index: usize| self.regions.get(index);
+        let rotation = of(0).filter(|_| has_rotation);
+        let mirror = of(usize::from(has_rotation)).filter(|_| m);
+        let over = of(usize::from(has_rotation) + usize::from(has_mirror)).filter(|_| f);
+        let image = |id: u32| {
+            // R^k M^m F^f: the last factor comes first.
+            let id = over.map_or(id, |map| map.get(id));
+            let id = mirror.map_or(id, |map| map.get(id));
+            rotation.map_or(id, |map| power(map, k, id))
+        };
+        let maps = [rotation, mirror, over].into_iter().flatten();
+        let mut pairs: Vec<[u32; 2]> = maps
+            .flat_map(|map| &map.pairs)
+            .map(|&[id, _]| [id, image(id)])
+            .filter(|[from, to]| from != to)
+            .collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        RegionMap { pairs }
+    }
+}
+
+/// Where a renaming that is done `k` times takes a region.
+fn power(map: &RegionMap, k: u32, id: u32) -> u32 {
+    let mut cycle = vec![id];
+    while cycle.len() <= k as usize {
+        let next = map.get(cycle[cycle.len() - 1]);
+        if next == id {
+            return cycle[k as usize % cycle.len()];
+        }
+        cycle.push(next);
+    }
+    cycle[k as usize]
+}
+
+/// The symmetry a mesh promises to have exactly: that of the instances it is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Promise {
+    /// The group, in the frame below.
+    pub group: Group,
+    /// Rows of the rotation matrix of the canonical frame (world = origin + rotation * canonical).
+    pub rotation: [[f64; 3]; 3],
+    /// Origin of the canonical frame in the world.
+    pub origin: [f64; 3],
+    /// The higher symmetry that holds away from the axis, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outside: Option<Outside>,
+}
+
+/// The symmetry of the tetrahedra that reach beyond a cylinder about the axis: those with at least one
+/// vertex farther from the axis than its radius, each as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outside {
+    /// The group; its order is a multiple of that of the whole.
+    pub group: Group,
+    /// Radius of the cylinder, model units.
+    pub radius: f64,
+}
+
+/// How the search for symmetry went, beside what it found.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Search {
+    /// Further symmetry axes, strongest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub other_axes: Vec<OtherAxis>,
+    /// Orders that were tried and do not hold.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rejected: Vec<RejectedOrder>,
 }
 
 /// A symmetry axis beside the main one.
@@ -32,79 +154,63 @@ pub struct RejectedOrder {
     pub residual: f64,
 }
 
-/// The symmetry a mesh promises to have exactly: that of the instances it is made of.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Promise {
-    /// Order of the rotation, at least 1.
-    pub order: u32,
-    /// Whether the mesh is symmetric under the mirror plane through axis and mirror direction.
-    pub mirror: bool,
-    /// Whether the mesh is symmetric under the mirror plane through the origin across the axis.
-    pub horizontal_mirror: bool,
-    /// Rows of the rotation matrix of the canonical frame (world = origin + rotation * canonical).
-    pub rotation: [[f64; 3]; 3],
-    /// Origin of the canonical frame in the world.
-    pub origin: [f64; 3],
-    /// The higher symmetry that holds away from the axis, if there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub outside: Option<Outside>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Kind;
 
-/// The symmetry of the tetrahedra that reach beyond a cylinder about the axis: those with at least one
-/// vertex farther from the axis than its radius, each as a whole.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Outside {
-    /// Order of the rotation, a multiple of that of the whole.
-    pub order: u32,
-    /// Whether the mirror plane through axis and mirror direction maps them onto themselves.
-    pub mirror: bool,
-    /// Radius of the cylinder, model units.
-    pub radius: f64,
-}
+    fn swap(a: u32, b: u32) -> RegionMap {
+        RegionMap {
+            pairs: vec![[a, b], [b, a]],
+        }
+    }
 
-/// The symmetry found in a body, in the frame of the input.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Symmetry {
-    /// Schoenflies symbol with the order written out, such as `C16v`.
-    pub group: String,
-    /// Order of the rotation about the main axis, at least 1.
-    pub order: u32,
-    /// Whether mirror planes contain the axis.
-    pub mirror: bool,
-    /// Whether a mirror plane is orthogonal to the axis.
-    pub horizontal_mirror: bool,
-    /// The main axis; its point is the centre of the body.
-    pub axis: Axis,
-    /// Unit vector orthogonal to the axis that lies in a mirror plane; without mirrors, a reference
-    /// direction for angles.
-    pub mirror_direction: [f64; 3],
-    /// Largest deviation found over all verified operations, relative to the radius about the axis.
-    pub residual: f64,
-    /// Tolerance the verification used, relative to the radius about the axis.
-    pub tolerance: f64,
-    /// Whether every order holds within the tolerance: a body of revolution. `order` is then the
-    /// facet count.
-    pub axisymmetric: bool,
-    /// Largest distance of a surface point from the axis, model units.
-    #[serde(default)]
-    pub radius: f64,
-    /// Further symmetry axes, strongest first.
-    #[serde(default)]
-    pub other_axes: Vec<OtherAxis>,
-    /// Orders that were tried and do not hold.
-    #[serde(default)]
-    pub rejected: Vec<RejectedOrder>,
-    /// How the rotation by one step of `order` permutes region ids, as (from, to) pairs; empty when
-    /// it leaves every region where it is.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub rotation_regions: Vec<[u32; 2]>,
-    /// How the mirror at the mirror direction permutes region ids; empty for none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub mirror_regions: Vec<[u32; 2]>,
-    /// How the horizontal mirror permutes region ids; empty for none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub horizontal_regions: Vec<[u32; 2]>,
-    /// Set on an assembled mesh: the symmetry it has exactly.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub promise: Option<Promise>,
+    fn symmetry(group: Group, regions: Vec<RegionMap>) -> Symmetry {
+        Symmetry {
+            group,
+            axis: Axis {
+                point: [0.0; 3],
+                direction: [0.0, 0.0, 1.0],
+            },
+            reference: [1.0, 0.0, 0.0],
+            residual: 0.0,
+            tolerance: 1e-3,
+            axisymmetric: false,
+            radius: 1.0,
+            regions,
+        }
+    }
+
+    #[test]
+    fn renamings_of_products_are_products_of_renamings() {
+        let cycle = RegionMap {
+            pairs: vec![[1, 2], [2, 3], [3, 1]],
+        };
+        for kind in Kind::ALL {
+            let group = Group::new(kind, 3);
+            let generators = group.generators();
+            // Rotations turn three regions about, what mirrors and what turns over swaps others.
+            let maps = [cycle.clone(), swap(7, 8), swap(5, 6)];
+            let maps: Vec<RegionMap> = generators
+                .iter()
+                .map(|g| match (g.flipped(), g.mirrored()) {
+                    (false, false) => maps[0].clone(),
+                    (false, true) => maps[1].clone(),
+                    (true, _) => maps[2].clone(),
+                })
+                .collect();
+            let symmetry = symmetry(group, maps.clone());
+            for (g, map) in generators.iter().zip(&maps) {
+                assert_eq!(&symmetry.region_map(*g), map, "{group}");
+            }
+            let turned = symmetry.region_map(Isometry::rotation(2, 3));
+            assert_eq!(turned.pairs, [[1, 3], [2, 1], [3, 2]]);
+            if let Some(over) = group.turning_over() {
+                let both = symmetry.region_map(group.rotation().compose(over));
+                assert_eq!(both.pairs, [[1, 2], [2, 3], [3, 1], [5, 6], [6, 5]]);
+            }
+        }
+        let none = symmetry(Group::new(Kind::Cv, 3), Vec::new());
+        assert_eq!(none.region_map(Isometry::MIRROR), RegionMap::default());
+    }
 }

@@ -2,19 +2,17 @@
 
 use crate::isometry::lcm;
 use crate::{
-    Document, Instance, Isometry, MAX_TURN_DENOMINATOR, OUTSIDE, Symmetry, Template, Violation,
-    Wall,
+    Document, Gluing, Instance, Isometry, MAX_TURN_DENOMINATOR, OUTSIDE, Plane, Promise, Symmetry,
+    Template, Violation,
 };
 use glam::DVec3;
 use std::collections::{BTreeSet, HashSet};
 
-/// Distance from a mirror plane, relative to the template's extent, up to which a vertex counts as
-/// on the plane: a few units in the last place of the coordinates.
-const PLANE_ROUNDING: f64 = 1e-14;
-
-/// Distance from its image, relative to the extent, up to which a vertex of a hub wall counts as
-/// equal to it: where two copies of a template meet on another one, a vertex has two images.
-const HUB_ROUNDING: f64 = 1e-14;
+/// Distance, relative to the template's extent, up to which a vertex counts as on its mirror plane, or
+/// as the image of another template's vertex: an isometry rounds each coordinate by at most two units
+/// in the last place of the extent, 4.4e-16 of it; two of them and the square root of three stay below
+/// a tenth of this.
+const ROUNDING: f64 = 1e-14;
 
 /// Deviation from orthonormality up to which a frame counts as a rotation.
 const FRAME_ROUNDING: f64 = 1e-12;
@@ -41,13 +39,26 @@ pub fn validate(document: &Document) -> Vec<Violation> {
     if let Some(symmetry) = &document.symmetry {
         check_symmetry(symmetry, &mut found);
     }
+    if let Some(promise) = &document.promise {
+        check_promise(promise, &mut found);
+    }
     for (index, template) in document.templates.iter().enumerate() {
         check_template(index, template, &regions, &mut found);
     }
-    // Walls compare coordinates of vertices they name: only where all names are in range.
+    // Gluings compare coordinates of vertices they name: only where all names are in range.
     if found.0.is_empty() {
         for (index, template) in document.templates.iter().enumerate() {
-            check_walls(index, template, document, &mut found);
+            check_axis(index, template, &mut found);
+            let extent = extent(template);
+            for gluing in &template.gluings {
+                let side = Side {
+                    document,
+                    index,
+                    gluing,
+                    extent,
+                };
+                side.check(&mut found);
+            }
         }
     }
     if found.0.is_empty() {
@@ -108,8 +119,8 @@ fn check_tables(document: &Document, regions: &HashSet<u32>, found: &mut Collect
 fn check_names(document: &Document, found: &mut Collector) {
     let regions = document.regions.iter().map(|r| ("region", r.name.as_str()));
     let markers = document.markers.iter().map(|m| ("marker", m.name.as_str()));
-    let walls = document.templates.iter().flat_map(|t| &t.walls);
-    let walls = walls.map(|w| ("wall", w.name()));
+    let walls = document.templates.iter().flat_map(|t| &t.gluings);
+    let walls = walls.map(|w| ("wall", w.name.as_str()));
     for (what, name) in regions.chain(markers).chain(walls) {
         if name.chars().any(char::is_control) {
             found.add(Violation::BadName {
@@ -157,16 +168,35 @@ fn check_numbers(document: &Document, found: &mut Collector) {
             check(value, false, &|| format!("the source's {what}"));
         }
     }
-    let Some(symmetry) = &document.symmetry else {
-        return;
-    };
-    let own = [symmetry.residual, symmetry.tolerance, symmetry.radius];
-    let rejected = symmetry.rejected.iter().map(|r| r.residual);
-    let others = symmetry.other_axes.iter();
-    let others = others.flat_map(|o| o.direction.into_iter().chain([o.residual]));
-    let promise = symmetry.promise.iter();
+    let wishes = &document.wishes;
+    let size = wishes.size.map(|size| match size {
+        crate::Size::MaxVolume(x) | crate::Size::EdgeLength(x) => x,
+    });
+    for (value, what) in [
+        (wishes.radius_edge, "radius-edge ratio"),
+        (wishes.optimize, "largest dihedral angle"),
+        (size, "size of elements"),
+    ] {
+        if let Some(value) = value {
+            check(value, true, &|| format!("the {what} wished for"));
+        }
+    }
+    if let Some(value) = wishes.min_dihedral {
+        check(value, false, &|| {
+            "the smallest dihedral angle wished for".to_owned()
+        });
+    }
+    let symmetry = document.symmetry.iter();
+    let symmetry = symmetry.flat_map(|s| [s.residual, s.tolerance, s.radius]);
+    let search = document.search.iter();
+    let search = search.flat_map(|s| {
+        let rejected = s.rejected.iter().map(|r| r.residual);
+        let others = s.other_axes.iter();
+        rejected.chain(others.flat_map(|o| o.direction.into_iter().chain([o.residual])))
+    });
+    let promise = document.promise.iter();
     let promise = promise.flat_map(|p| p.rotation.into_iter().flatten().chain(p.origin));
-    for value in own.into_iter().chain(rejected).chain(others).chain(promise) {
+    for value in symmetry.chain(search).chain(promise) {
         check(value, false, &|| "a number of the symmetry".to_owned());
     }
 }
@@ -174,12 +204,8 @@ fn check_numbers(document: &Document, found: &mut Collector) {
 /// Checks that all isometries belong to one group of bounded order, so that no product of them can
 /// leave the range of [`Isometry`].
 fn check_turns(document: &Document, found: &mut Collector) {
-    let steps = document.templates.iter().flat_map(|t| &t.walls);
-    let steps = steps.map(|wall| match wall {
-        Wall::Mirror(w) => w.reflection,
-        Wall::Seam(w) => w.rotation,
-        Wall::Hub(w) => w.placement,
-    });
+    let steps = document.templates.iter().flat_map(|t| &t.gluings);
+    let steps = steps.map(|gluing| gluing.step);
     let placements = document.instances.iter().map(|i| i.isometry);
     let mut common = 1;
     for isometry in placements.chain(steps) {
@@ -195,34 +221,9 @@ fn check_turns(document: &Document, found: &mut Collector) {
 
 fn check_symmetry(symmetry: &Symmetry, found: &mut Collector) {
     let mut bad = |reason: String| found.add(Violation::BadSymmetry { reason });
-    // Half steps of the order have to be turns too.
-    let most = MAX_TURN_DENOMINATOR / 2;
-    let promise = symmetry.promise.as_ref();
-    let promised = promise.map(|p| p.order);
-    let outside = promise.and_then(|p| p.outside);
-    let orders = [Some(symmetry.order), promised, outside.map(|o| o.order)];
-    for order in orders.into_iter().flatten() {
-        if !(1..=most).contains(&order) {
-            bad(format!("has the order {order}, which is not in 1..={most}"));
-        }
-    }
-    if let (Some(whole), Some(outside)) = (promised, outside) {
-        if !outside.order.is_multiple_of(whole.max(1)) {
-            let order = outside.order;
-            bad(format!(
-                "has the order {order} outside, which is no multiple of the order {whole} of the whole"
-            ));
-        }
-        if !(0.0..f64::INFINITY).contains(&outside.radius) {
-            let radius = outside.radius;
-            bad(format!(
-                "has an order that holds outside of the radius {radius}"
-            ));
-        }
-    }
     let axis = DVec3::from_array(symmetry.axis.direction);
-    let mirror = DVec3::from_array(symmetry.mirror_direction);
-    for (what, direction) in [("axis", axis), ("mirror direction", mirror)] {
+    let reference = DVec3::from_array(symmetry.reference);
+    for (what, direction) in [("axis", axis), ("reference direction", reference)] {
         let length = direction.length();
         // A NaN is not near to anything.
         let is_unit = (length - 1.0).abs() <= DIRECTION_ROUNDING;
@@ -230,14 +231,40 @@ fn check_symmetry(symmetry: &Symmetry, found: &mut Collector) {
             bad(format!("has the {what} {direction}, of length {length}"));
         }
     }
-    let is_orthogonal = axis.dot(mirror).abs() <= DIRECTION_ROUNDING;
+    let is_orthogonal = axis.dot(reference).abs() <= DIRECTION_ROUNDING;
     if !is_orthogonal {
         bad(format!(
-            "has the mirror direction {mirror}, which is not orthogonal to the axis {axis}"
+            "has the reference direction {reference}, which is not orthogonal to the axis {axis}"
         ));
     }
     if !DVec3::from_array(symmetry.axis.point).is_finite() {
         bad("has an axis through a point that is not finite".to_owned());
+    }
+    let (maps, generators) = (symmetry.regions.len(), symmetry.group.generators().len());
+    if maps > 0 && maps != generators {
+        bad(format!(
+            "says of {maps} operations how they permute regions, and {} has {generators} generators",
+            symmetry.group
+        ));
+    }
+}
+
+fn check_promise(promise: &Promise, found: &mut Collector) {
+    let mut bad = |reason: String| found.add(Violation::BadSymmetry { reason });
+    let Some(outside) = promise.outside else {
+        return;
+    };
+    let [whole, order] = [promise.group.order, outside.group.order];
+    if !order.is_multiple_of(whole) {
+        bad(format!(
+            "has the order {order} outside, which is no multiple of the order {whole} of the whole"
+        ));
+    }
+    if !(0.0..f64::INFINITY).contains(&outside.radius) {
+        let radius = outside.radius;
+        bad(format!(
+            "has an order that holds outside of the radius {radius}"
+        ));
     }
 }
 
@@ -281,24 +308,37 @@ fn check_template(
     for (i, &v) in template.axis.iter().enumerate() {
         out_of_range("axis entry", i, v);
     }
-    for wall in &template.walls {
-        let element = format!("wall '{}'", wall.name());
-        // Hub pairs name vertices of two templates; Wall::vertices yields only ours.
-        wall.vertices()
+    for gluing in &template.gluings {
+        let element = format!("wall '{}'", gluing.name);
+        // Pairs may name vertices of two templates; these are only ours.
+        gluing
+            .vertices_of(index)
             .enumerate()
             .for_each(|(i, v)| out_of_range(&element, i, v));
     }
     let triangles = template.triangles.len();
-    for wall in &template.walls {
-        for triangle in wall.triangles().filter(|&t| t as usize >= triangles) {
-            found.add(Violation::TriangleOutOfRange {
-                wall: wall.name().to_owned(),
-                template: index,
-                triangle,
-                count: triangles,
-            });
+    for gluing in &template.gluings {
+        for triangle in gluing.triangles_of(index) {
+            if triangle as usize >= triangles {
+                found.add(Violation::TriangleOutOfRange {
+                    wall: gluing.name.clone(),
+                    template: index,
+                    triangle,
+                    count: triangles,
+                });
+            }
         }
     }
+    check_elements(index, template, regions, found);
+}
+
+/// Checks that elements have different vertices and known regions.
+fn check_elements(
+    index: usize,
+    template: &Template,
+    regions: &HashSet<u32>,
+    found: &mut Collector,
+) {
     // Elements come in long runs of one region: a look-up per change of region.
     let mut known = OUTSIDE;
     let mut unknown = |region: u32| {
@@ -360,11 +400,7 @@ fn check_template(
     }
 }
 
-fn check_walls(index: usize, template: &Template, document: &Document, found: &mut Collector) {
-    let extent = template
-        .vertices
-        .iter()
-        .fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
+fn check_axis(index: usize, template: &Template, found: &mut Collector) {
     for &vertex in &template.axis {
         let p = template.vertices[vertex as usize];
         if p.x != 0.0 || p.y != 0.0 {
@@ -376,178 +412,171 @@ fn check_walls(index: usize, template: &Template, document: &Document, found: &m
             });
         }
     }
-    for wall in &template.walls {
-        match wall {
-            Wall::Mirror(w) => {
-                let unordered = first_unordered(w.vertices.iter().copied())
-                    .map(|i| ("vertices", i))
-                    .or(first_unordered(w.triangles.iter().copied()).map(|i| ("triangles", i)));
-                if let Some((what, i)) = unordered {
-                    found.add(Violation::Unordered {
-                        wall: w.name.clone(),
-                        template: index,
-                        what,
-                        index: i,
-                    });
-                }
-                // A reflection maps the normal to its opposite and fixes the plane.
-                let image = w.reflection.apply(w.plane.normal);
-                let unit = (w.plane.normal.length() - 1.0).abs() <= FRAME_ROUNDING;
-                let opposite = (image + w.plane.normal).length() <= FRAME_ROUNDING;
-                if !(unit && opposite && w.plane.offset == 0.0) {
-                    found.add(Violation::BadPlane {
-                        wall: w.name.clone(),
-                        template: index,
-                    });
-                }
-                for &vertex in &w.vertices {
-                    let distance = w.plane.distance(template.vertices[vertex as usize]).abs();
-                    if distance > PLANE_ROUNDING * extent {
-                        found.add(Violation::OffPlane {
-                            wall: w.name.clone(),
-                            template: index,
-                            vertex,
-                            distance,
-                        });
-                    }
-                }
-                for &triangle in &w.triangles {
-                    let corners = template.triangles[triangle as usize].vertices;
-                    let off = corners
-                        .iter()
-                        .find(|v| w.vertices.binary_search(v).is_err());
-                    if let Some(&vertex) = off {
-                        found.add(Violation::OpenWall {
-                            wall: w.name.clone(),
-                            template: index,
-                            triangle,
-                            vertex,
-                        });
-                    }
-                }
-            }
-            Wall::Seam(w) => {
-                let pairs = Pairs {
-                    wall: &w.name,
-                    index,
-                    vertex_pairs: &w.vertex_pairs,
-                    triangle_pairs: &w.triangle_pairs,
-                };
-                pairs.check(template, template, w.rotation, None, found);
-            }
-            Wall::Hub(w) => {
-                let count = document.templates.len();
-                let Some(other) = document.templates.get(w.other as usize) else {
-                    found.add(Violation::IndexOutOfRange {
-                        what: format!("wall '{}' of template {index}", w.name),
-                        target: "template",
-                        index: w.other as usize,
-                        count,
-                    });
-                    continue;
-                };
-                let vertex = w.vertex_pairs.iter().map(|p| p[1]).max();
-                let triangle = w.triangle_pairs.iter().map(|p| p[1]).max();
-                if let Some(vertex) = vertex.filter(|&v| v as usize >= other.vertices.len()) {
-                    found.add(Violation::VertexOutOfRange {
-                        element: format!("wall '{}'", w.name),
-                        index: 0,
-                        template: w.other as usize,
-                        vertex,
-                        count: other.vertices.len(),
-                    });
-                    continue;
-                }
-                if let Some(triangle) = triangle.filter(|&t| t as usize >= other.triangles.len()) {
-                    found.add(Violation::TriangleOutOfRange {
-                        wall: w.name.clone(),
-                        template: w.other as usize,
-                        triangle,
-                        count: other.triangles.len(),
-                    });
-                    continue;
-                }
-                let pairs = Pairs {
-                    wall: &w.name,
-                    index,
-                    vertex_pairs: &w.vertex_pairs,
-                    triangle_pairs: &w.triangle_pairs,
-                };
-                pairs.check(template, other, w.placement, Some(extent), found);
-            }
-        }
-    }
 }
 
-struct Pairs<'a> {
-    wall: &'a str,
+/// Largest coordinate of a template.
+fn extent(template: &Template) -> f64 {
+    let points = template.vertices.iter();
+    points.fold(0.0_f64, |m, p| m.max(p.abs().max_element()))
+}
+
+/// A gluing, seen from the template that lists it.
+struct Side<'a> {
+    document: &'a Document,
     index: usize,
-    vertex_pairs: &'a [[u32; 2]],
-    triangle_pairs: &'a [[u32; 2]],
+    gluing: &'a Gluing,
+    /// Largest coordinate of the template.
+    extent: f64,
 }
 
-impl Pairs<'_> {
-    /// Checks that second members are images of first ones, or, on a hub wall of a template of the
-    /// given extent, first members images of second ones but for rounding; and that paired triangles
-    /// have paired vertices.
-    fn check(
-        &self,
-        first: &Template,
-        second: &Template,
-        isometry: Isometry,
-        hub: Option<f64>,
-        found: &mut Collector,
-    ) {
-        if let Some(i) = first_unordered(self.vertex_pairs.iter().map(|p| p[0])) {
-            found.add(Violation::Unordered {
-                wall: self.wall.to_owned(),
-                template: self.index,
-                what: "pairs",
-                index: i,
-            });
+impl Side<'_> {
+    fn check(&self, found: &mut Collector) {
+        let Some(other) = self.other(found) else {
             return;
-        }
-        let placed = isometry.placed();
-        for &[a, b] in self.vertex_pairs {
-            let p = first.vertices[a as usize];
-            let q = second.vertices[b as usize];
-            let (image, target, allowed) = match hub {
-                Some(extent) => (placed.apply(q), p, HUB_ROUNDING * extent),
-                None => (placed.apply(p), q, 0.0),
-            };
-            let distance = (image - target).abs().max_element();
-            if distance > allowed {
-                found.add(Violation::NotAnImage {
-                    wall: self.wall.to_owned(),
+        };
+        let orders = [
+            ("vertex pairs", first_unordered(self.gluing.vertices_here())),
+            (
+                "triangle pairs",
+                first_unordered(self.gluing.triangles_here()),
+            ),
+        ];
+        for (what, index) in orders {
+            if let Some(index) = index {
+                found.add(Violation::Unordered {
+                    wall: self.gluing.name.clone(),
                     template: self.index,
-                    first: a,
-                    second: b,
-                    distance: (image - target).length(),
+                    what,
+                    index,
+                });
+                return;
+            }
+        }
+        match Plane::of_reflection(self.gluing.step) {
+            Some(plane) if self.gluing.is_mirror(self.index) => self.check_mirror(plane, found),
+            _ => self.check_images(other, found),
+        }
+        self.check_triangles(other, found);
+    }
+
+    /// The template on the other side, if all that the pairs name of it is there.
+    fn other(&self, found: &mut Collector) -> Option<&Template> {
+        let (gluing, other) = (self.gluing, self.gluing.other as usize);
+        let count = self.document.templates.len();
+        let Some(template) = self.document.templates.get(other) else {
+            found.add(Violation::IndexOutOfRange {
+                what: format!("wall '{}' of template {}", gluing.name, self.index),
+                target: "template",
+                index: other,
+                count,
+            });
+            return None;
+        };
+        let (vertices, triangles) = (template.vertices.len(), template.triangles.len());
+        if let Some(vertex) = gluing.vertices_there().max()
+            && vertex as usize >= vertices
+        {
+            found.add(Violation::VertexOutOfRange {
+                element: format!("wall '{}'", gluing.name),
+                index: 0,
+                template: other,
+                vertex,
+                count: vertices,
+            });
+            return None;
+        }
+        if let Some(triangle) = gluing.triangles_there().max()
+            && triangle as usize >= triangles
+        {
+            found.add(Violation::TriangleOutOfRange {
+                wall: gluing.name.clone(),
+                template: other,
+                triangle,
+                count: triangles,
+            });
+            return None;
+        }
+        Some(template)
+    }
+
+    /// Checks that a reflection pairs everything with itself, and vertices lie on its plane.
+    fn check_mirror(&self, plane: Plane, found: &mut Collector) {
+        let template = &self.document.templates[self.index];
+        for (what, pairs) in [
+            ("vertices", &self.gluing.vertex_pairs),
+            ("triangles", &self.gluing.triangle_pairs),
+        ] {
+            if let Some(&[first, second]) = pairs.iter().find(|p| p[0] != p[1]) {
+                found.add(Violation::NotItself {
+                    wall: self.gluing.name.clone(),
+                    template: self.index,
+                    what,
+                    first,
+                    second,
+                });
+                return;
+            }
+        }
+        for vertex in self.gluing.vertices_here() {
+            let distance = plane.distance(template.vertices[vertex as usize]).abs();
+            if distance > ROUNDING * self.extent {
+                found.add(Violation::OffPlane {
+                    wall: self.gluing.name.clone(),
+                    template: self.index,
+                    vertex,
+                    distance,
                 });
             }
         }
-        let partner = |v: u32| {
-            self.vertex_pairs
-                .binary_search_by_key(&v, |p| p[0])
-                .ok()
-                .map(|i| self.vertex_pairs[i][1])
+    }
+
+    /// Checks that first members are images of second ones.
+    fn check_images(&self, other: &Template, found: &mut Collector) {
+        let template = &self.document.templates[self.index];
+        let allowed = match self.gluing.is_seam(self.index) {
+            true => 0.0,
+            false => ROUNDING * self.extent,
         };
-        for &[a, b] in self.triangle_pairs {
-            let low = first.triangles[a as usize].vertices.map(partner);
-            let [x, y, z] = second.triangles[b as usize].vertices;
-            // Once placed the two faces face each other, in reverse orientation; the placement may
-            // itself reverse it.
-            let facing = if isometry.reverses_orientation() {
+        let placed = self.gluing.step.placed();
+        for &[here, there] in &self.gluing.vertex_pairs {
+            let image = placed.apply(other.vertices[there as usize]);
+            let off = image - template.vertices[here as usize];
+            if off.abs().max_element() > allowed {
+                found.add(Violation::NotAnImage {
+                    wall: self.gluing.name.clone(),
+                    template: self.index,
+                    first: here,
+                    second: there,
+                    distance: off.length(),
+                });
+            }
+        }
+    }
+
+    /// Checks that paired triangles have paired vertices and face each other.
+    fn check_triangles(&self, other: &Template, found: &mut Collector) {
+        let template = &self.document.templates[self.index];
+        let pairs = &self.gluing.vertex_pairs;
+        let partner = |v: u32| {
+            let at = pairs.binary_search_by_key(&v, |p| p[0]);
+            at.ok().map(|i| pairs[i][1])
+        };
+        for &[here, there] in &self.gluing.triangle_pairs {
+            let partners = template.triangles[here as usize].vertices.map(partner);
+            let [x, y, z] = other.triangles[there as usize].vertices;
+            // Once placed the two faces face each other, in reverse orientation; the step may itself
+            // reverse it.
+            let facing = if self.gluing.step.reverses_orientation() {
                 [[x, y, z], [y, z, x], [z, x, y]]
             } else {
                 [[x, z, y], [z, y, x], [y, x, z]]
             };
-            if !facing.map(|r| r.map(Some)).contains(&low) {
+            if !facing.map(|r| r.map(Some)).contains(&partners) {
                 found.add(Violation::TrianglesDiffer {
-                    wall: self.wall.to_owned(),
+                    wall: self.gluing.name.clone(),
                     template: self.index,
-                    first: a,
-                    second: b,
+                    first: here,
+                    second: there,
                 });
             }
         }
@@ -603,20 +632,15 @@ fn check_instances(document: &Document, found: &mut Collector) {
         return;
     }
     for (index, template) in document.templates.iter().enumerate() {
-        for wall in &template.walls {
-            let (target, step) = match wall {
-                Wall::Mirror(w) => (index, w.reflection),
-                Wall::Seam(w) => (index, w.rotation),
-                Wall::Hub(w) => (w.other as usize, w.placement),
-            };
+        for gluing in &template.gluings {
             for &isometry in &placed[index] {
-                let neighbour = isometry.compose(step);
-                if !placed[target].contains(&neighbour) {
+                let neighbour = isometry.compose(gluing.step);
+                if !placed[gluing.other as usize].contains(&neighbour) {
                     found.add(Violation::MissingNeighbour {
                         template: index,
                         isometry,
                         neighbour,
-                        wall: wall.name().to_owned(),
+                        wall: gluing.name.clone(),
                     });
                 }
             }

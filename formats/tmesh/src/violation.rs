@@ -112,20 +112,27 @@ pub enum Violation {
         wall: String,
         /// Template index.
         template: usize,
-        /// `vertices`, `triangles` or `pairs`.
+        /// `vertex pairs` or `triangle pairs`.
         what: &'static str,
         /// First entry that is not larger than the one before.
         index: usize,
     },
-    /// A mirror wall's plane is not that of its reflection.
+    /// A reflection pairs a vertex or a triangle with another one of the same template.
     #[error(
-        "wall '{wall}' of template {template}: the plane is not the mirror plane of its reflection"
+        "wall '{wall}' of template {template}: {what} {first} and {second} are paired by a reflection, \
+         which pairs each with itself"
     )]
-    BadPlane {
+    NotItself {
         /// The wall's name.
         wall: String,
         /// Template index.
         template: usize,
+        /// `vertices` or `triangles`.
+        what: &'static str,
+        /// First member of the pair.
+        first: u32,
+        /// Second member.
+        second: u32,
     },
     /// A vertex listed on a mirror wall is away from its plane.
     #[error(
@@ -141,9 +148,9 @@ pub enum Violation {
         /// Its distance, model units.
         distance: f64,
     },
-    /// A pair of a seam or hub wall whose members are not images of each other.
+    /// A pair whose first member is not the image of the second.
     #[error(
-        "wall '{wall}' of template {template}: vertex {second} is not the image of vertex {first} (distance {distance:e})"
+        "wall '{wall}' of template {template}: vertex {first} is not the image of vertex {second} (distance {distance:e})"
     )]
     NotAnImage {
         /// The wall's name.
@@ -183,7 +190,7 @@ pub enum Violation {
         /// Its distance, model units.
         distance: f64,
     },
-    /// An instance or a hub wall names something that is not there.
+    /// An instance or a gluing names something that is not there.
     #[error("{what} names {target} {index}, and there are {count}")]
     IndexOutOfRange {
         /// Who names it.
@@ -217,30 +224,16 @@ pub enum Violation {
         /// The wall's name.
         wall: String,
     },
-    /// A triangle listed on a mirror wall has a vertex that is not.
-    #[error(
-        "wall '{wall}' of template {template} lists triangle {triangle}, but not its vertex {vertex}"
-    )]
-    OpenWall {
-        /// The wall's name.
-        wall: String,
-        /// Template index.
-        template: usize,
-        /// The triangle.
-        triangle: u32,
-        /// Its vertex.
-        vertex: u32,
-    },
     /// The turns of the document's isometries have no common denominator in the allowed range.
     #[error(
-        "the turns of its instances and walls have {denominator} for common denominator, and {} is the largest allowed",
+        "the turns of its instances and gluings have {denominator} for common denominator, and {} is the largest allowed",
         crate::MAX_TURN_DENOMINATOR
     )]
     TurnsTooFine {
         /// Least common multiple of the denominators up to the first that leaves the range.
         denominator: u64,
     },
-    /// The symmetry makes no sense.
+    /// The symmetry found or promised makes no sense.
     #[error("the symmetry {reason}")]
     BadSymmetry {
         /// What is wrong with it.

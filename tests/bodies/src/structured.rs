@@ -4,8 +4,7 @@
 
 use glam::DVec3;
 use tmesh::{
-    Document, Instance, Isometry, Marker, MirrorWall, OUTSIDE, Plane, Region, Seam, Template, Tet,
-    Triangle, Wall,
+    Document, Gluing, Instance, Isometry, Marker, OUTSIDE, Region, Template, Tet, Triangle,
 };
 
 /// A wedge of a prism over a ring or a disc, and the group that makes the prism of it.
@@ -254,47 +253,33 @@ impl Structured {
             on.dedup();
             on
         };
-        let mut walls = Vec::new();
-        let mut mirror = |name: &str, normal: DVec3, reflection: Isometry, triangles: Vec<u32>| {
-            walls.push(Wall::Mirror(MirrorWall {
-                name: name.to_owned(),
-                plane: Plane {
-                    normal,
-                    offset: 0.0,
-                },
+        let mut gluings = Vec::new();
+        let mut mirror = |name: &str, reflection: Isometry, triangles: Vec<u32>| {
+            gluings.push(Gluing::mirror(
+                name,
+                0,
                 reflection,
-                vertices: on(&triangles),
+                on(&triangles),
                 triangles,
-            }));
+            ));
         };
         if self.mirror {
-            let (c, s) = Isometry::rotation(1, 2 * self.order).cos_sin();
-            mirror(
-                "wall-a",
-                -DVec3::Y,
-                Isometry::reflection(0, self.order),
-                low.clone(),
-            );
-            let normal = DVec3::new(-s, c, 0.0);
-            mirror(
-                "wall-b",
-                normal,
-                Isometry::reflection(1, self.order),
-                high.clone(),
-            );
+            mirror("wall-a", Isometry::reflection(0, self.order), low.clone());
+            mirror("wall-b", Isometry::reflection(1, self.order), high.clone());
         }
         if self.flip {
-            mirror("floor", -DVec3::Z, Isometry::new(0, 1, false, true), floor);
+            mirror("floor", Isometry::FLIP, floor);
         }
         if !self.mirror {
-            walls.push(Wall::Seam(Seam {
-                name: "seam".to_owned(),
-                rotation: Isometry::rotation(1, self.order),
-                vertex_pairs: self.seam_pairs().into_iter().map(|(a, b)| [a, b]).collect(),
-                triangle_pairs: low.into_iter().zip(high).map(|(a, b)| [a, b]).collect(),
-            }));
+            gluings.push(Gluing::seam(
+                "seam",
+                0,
+                Isometry::rotation(1, self.order),
+                self.seam_pairs().into_iter().map(|(a, b)| [a, b]),
+                low.into_iter().zip(high).map(|(a, b)| [a, b]),
+            ));
         }
-        template.walls = walls;
+        template.gluings = gluings;
         if self.bore == 0.0 {
             template.axis = (0..=nz).collect();
         }

@@ -5,7 +5,7 @@ use interchange::{Format, WriteOptions};
 use meshqual::{Params, analyse};
 use rotassemble::{Assembled, TableFormat, sector, write_expanded, write_pairs};
 use std::io::sink;
-use tmesh::{Document, Template, Violation, Wall};
+use tmesh::{Document, Template, Violation};
 
 /// Decoder and [`tmesh::validate`] agree on the document; if it is valid, it keeps what a valid one
 /// promises, and everything that works on documents works on it. `turn` says which of the outputs is
@@ -47,30 +47,22 @@ fn keeps_its_promises(document: &Document) -> bool {
     let inside = |t: &Template, v: u32| (v as usize) < t.vertices.len();
     let on = |t: &Template, v: u32| (v as usize) < t.triangles.len();
     document.templates.iter().all(|t| {
-        let walls = t.walls.iter().all(|wall| match wall {
-            Wall::Mirror(w) => {
-                w.vertices.iter().all(|&v| inside(t, v)) && w.triangles.iter().all(|&f| on(t, f))
-            }
-            Wall::Seam(w) => {
-                let image = |&[low, high]: &[u32; 2]| {
-                    inside(t, low)
-                        && inside(t, high)
-                        && w.rotation.apply(t.vertices[low as usize]) == t.vertices[high as usize]
+        let glued = t.gluings.iter().all(|gluing| {
+            let other = document.templates.get(gluing.other as usize);
+            other.is_some_and(|o| {
+                let image = |&[here, there]: &[u32; 2]| {
+                    let exact = std::ptr::eq(t, o) && here != there;
+                    inside(t, here)
+                        && inside(o, there)
+                        && (!exact
+                            || gluing.step.apply(o.vertices[there as usize])
+                                == t.vertices[here as usize])
                 };
-                w.vertex_pairs.iter().all(image)
-                    && w.triangle_pairs.as_flattened().iter().all(|&f| on(t, f))
-            }
-            Wall::Hub(w) => {
-                let other = document.templates.get(w.other as usize);
-                other.is_some_and(|o| {
-                    w.vertex_pairs
-                        .iter()
-                        .all(|p| inside(t, p[0]) && inside(o, p[1]))
-                        && w.triangle_pairs.iter().all(|p| on(t, p[0]) && on(o, p[1]))
-                })
-            }
+                gluing.vertex_pairs.iter().all(image)
+                    && (gluing.triangle_pairs.iter()).all(|p| on(t, p[0]) && on(o, p[1]))
+            })
         });
-        walls
+        glued
             && t.vertices.iter().all(|p| p.is_finite())
             && t.triangles
                 .iter()

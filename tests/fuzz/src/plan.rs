@@ -3,8 +3,8 @@
 use arbitrary::Arbitrary;
 use glam::DVec3;
 use tmesh::{
-    Axis, Document, HubWall, Instance, Isometry, MAX_TURN_DENOMINATOR, Marker, MirrorWall, OUTSIDE,
-    Outside, Plane, Promise, Region, RegionMap, Seam, Symmetry, Template, Tet, Triangle, Wall,
+    Axis, Document, Gluing, Group, Instance, Isometry, Kind, MAX_TURN_DENOMINATOR, Marker, OUTSIDE,
+    Outside, Promise, Region, RegionMap, Symmetry, Template, Tet, Triangle,
 };
 
 const BASES: [&[u8]; 2] = [
@@ -187,38 +187,32 @@ impl Edit {
             19 => {
                 let symmetry = document.symmetry.get_or_insert_with(symmetry);
                 match place % 8 {
-                    0 => symmetry.order = value.integer(),
+                    0 => symmetry.group = group(self.part, value.integer()),
                     1 => symmetry.axis.direction[usize::from(self.part) % 3] = value.number(),
                     2 => symmetry.axis.point[usize::from(self.part) % 3] = value.number(),
-                    3 => symmetry.mirror_direction[usize::from(self.part) % 3] = value.number(),
+                    3 => symmetry.reference[usize::from(self.part) % 3] = value.number(),
                     4 => symmetry.residual = value.number(),
                     5 => symmetry.radius = value.number(),
                     6 => symmetry.tolerance = value.number(),
-                    _ => symmetry
-                        .rotation_regions
-                        .push([u32::from(self.part), value.integer()]),
+                    _ => symmetry.regions.push(RegionMap {
+                        pairs: vec![[u32::from(self.part), value.integer()]],
+                    }),
                 }
             }
             20 => {
-                let symmetry = document.symmetry.get_or_insert_with(symmetry);
-                let promise = symmetry.promise.get_or_insert(Promise {
-                    order: 1,
-                    mirror: false,
-                    horizontal_mirror: false,
+                let promise = document.promise.get_or_insert(Promise {
+                    group: Group::TRIVIAL,
                     rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
                     origin: [0.0; 3],
                     outside: None,
                 });
-                match place % 6 {
-                    0 => promise.order = value.integer(),
-                    1 => promise.mirror ^= true,
-                    2 => promise.horizontal_mirror ^= true,
-                    3 => promise.rotation[usize::from(self.part) % 3][0] = value.number(),
-                    4 => promise.origin[usize::from(self.part) % 3] = value.number(),
+                match place % 4 {
+                    0 => promise.group = group(self.part, value.integer()),
+                    1 => promise.rotation[usize::from(self.part) % 3][0] = value.number(),
+                    2 => promise.origin[usize::from(self.part) % 3] = value.number(),
                     _ => {
                         promise.outside = Some(Outside {
-                            order: u32::from(self.part),
-                            mirror: false,
+                            group: group(place / 4, u32::from(self.part)),
                             radius: value.number(),
                         });
                     }
@@ -277,16 +271,16 @@ impl Edit {
             11 => template.tets.clear(),
             12 => template.axis.push(value.integer()),
             13 => template.axis.clear(),
-            14 => remove(&mut template.walls, place),
+            14 => remove(&mut template.gluings, place),
             15 => {
-                if let Some(wall) = nth(&mut template.walls, place).cloned() {
-                    template.walls.push(wall);
+                if let Some(gluing) = nth(&mut template.gluings, place).cloned() {
+                    template.gluings.push(gluing);
                 }
             }
-            16 => template.walls.push(new_wall(place, self.part, value)),
+            16 => template.gluings.push(new_gluing(place, self.part, value)),
             17 => template.triangles.reverse(),
-            _ => set(nth(&mut template.walls, place), |wall| {
-                alter_wall(wall, self.template, self.part, value);
+            _ => set(nth(&mut template.gluings, place), |gluing| {
+                alter_gluing(gluing, self.template, self.part, value);
             }),
         }
     }
@@ -304,86 +298,54 @@ fn remove<T>(list: &mut Vec<T>, at: u8) {
     }
 }
 
-fn new_wall(place: u8, part: u8, value: &Value) -> Wall {
+/// A group as a document can name one.
+fn group(kind: u8, order: u32) -> Group {
+    let kind = Kind::ALL[usize::from(kind) % Kind::ALL.len()];
+    Group::new(kind, 1 + order % kind.max_order())
+}
+
+fn new_gluing(place: u8, part: u8, value: &Value) -> Gluing {
+    let pair = [u32::from(part); 2];
     match place % 3 {
-        0 => Wall::Mirror(MirrorWall {
-            name: String::new(),
-            plane: Plane {
-                normal: DVec3::NEG_Z,
-                offset: 0.0,
-            },
-            reflection: Isometry::FLIP,
-            vertices: vec![u32::from(part)],
-            triangles: Vec::new(),
-        }),
-        1 => Wall::Seam(Seam {
-            name: "seam".to_owned(),
-            rotation: value.isometry(part),
-            vertex_pairs: vec![[u32::from(part); 2]],
-            triangle_pairs: Vec::new(),
-        }),
-        _ => Wall::Hub(HubWall {
+        0 => Gluing::mirror("", 0, Isometry::FLIP, [u32::from(part)], []),
+        1 => Gluing::seam("seam", 0, value.isometry(part), [pair], []),
+        _ => Gluing {
             name: "hub".to_owned(),
             other: u32::from(part) % 3,
-            placement: value.isometry(part),
-            vertex_pairs: vec![[u32::from(part); 2]],
+            step: value.isometry(part),
+            vertex_pairs: vec![pair],
             triangle_pairs: Vec::new(),
-        }),
+        },
     }
 }
 
-fn alter_wall(wall: &mut Wall, at: u8, part: u8, value: &Value) {
+fn alter_gluing(gluing: &mut Gluing, at: u8, part: u8, value: &Value) {
     let id = value.integer();
-    match wall {
-        Wall::Mirror(w) => match part % 7 {
-            0 => set(nth(&mut w.vertices, at), |v| *v = id),
-            1 => set(nth(&mut w.triangles, at), |t| *t = id),
-            2 => w.reflection = value.isometry(at),
-            3 => w.plane.normal[usize::from(at) % 3] = value.number(),
-            4 => w.plane.offset = value.number(),
-            5 => w.vertices.push(id),
-            _ => w.triangles.push(id),
-        },
-        Wall::Seam(w) => match part % 6 {
-            0 => set(nth(w.vertex_pairs.as_flattened_mut(), at), |v| *v = id),
-            1 => set(nth(w.triangle_pairs.as_flattened_mut(), at), |t| *t = id),
-            2 => w.rotation = value.isometry(at),
-            3 => w.vertex_pairs.push([id, u32::from(at)]),
-            4 => w.triangle_pairs.push([id, u32::from(at)]),
-            _ => remove(&mut w.triangle_pairs, at),
-        },
-        Wall::Hub(w) => match part % 7 {
-            0 => set(nth(w.vertex_pairs.as_flattened_mut(), at), |v| *v = id),
-            1 => set(nth(w.triangle_pairs.as_flattened_mut(), at), |t| *t = id),
-            2 => w.placement = value.isometry(at),
-            3 => w.other = id,
-            4 => w.vertex_pairs.push([id, u32::from(at)]),
-            5 => w.triangle_pairs.push([id, u32::from(at)]),
-            _ => remove(&mut w.triangle_pairs, at),
-        },
+    match part % 7 {
+        0 => set(nth(gluing.vertex_pairs.as_flattened_mut(), at), |v| *v = id),
+        1 => set(nth(gluing.triangle_pairs.as_flattened_mut(), at), |t| {
+            *t = id
+        }),
+        2 => gluing.step = value.isometry(at),
+        3 => gluing.other = id,
+        4 => gluing.vertex_pairs.push([id, u32::from(at)]),
+        5 => gluing.triangle_pairs.push([id, u32::from(at)]),
+        _ => remove(&mut gluing.triangle_pairs, at),
     }
 }
 
 fn symmetry() -> Symmetry {
     Symmetry {
-        group: "C2".to_owned(),
-        order: 2,
-        mirror: false,
-        horizontal_mirror: false,
+        group: Group::new(Kind::C, 2),
         axis: Axis {
             point: [0.0; 3],
             direction: [0.0, 0.0, 1.0],
         },
-        mirror_direction: [1.0, 0.0, 0.0],
+        reference: [1.0, 0.0, 0.0],
         residual: 0.0,
         tolerance: 1e-3,
         axisymmetric: false,
         radius: 1.0,
-        other_axes: Vec::new(),
-        rejected: Vec::new(),
-        rotation_regions: Vec::new(),
-        mirror_regions: Vec::new(),
-        horizontal_regions: Vec::new(),
-        promise: None,
+        regions: Vec::new(),
     }
 }

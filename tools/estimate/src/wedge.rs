@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tmesh::{Template, Wall};
+use tmesh::Template;
 
 /// A wedge and its cut faces.
 pub struct Wedge<'a> {
@@ -33,34 +33,22 @@ impl<'a> Wedge<'a> {
         };
         let mut bits = (0..8).cycle().map(|i| 1_u8 << i);
         let mut next = || bits.next().unwrap_or(1);
-        for wall in &template.walls {
-            match wall {
-                Wall::Mirror(m) => {
-                    let bit = next();
-                    m.vertices
-                        .iter()
-                        .for_each(|&v| wedge.faces[v as usize] |= bit);
-                    wedge.sections.push(m.triangles.clone());
-                    m.triangles
-                        .iter()
-                        .for_each(|&t| wedge.is_cut[t as usize] = true);
+        // The wedge is the document's first template, and faces of a hub are none of the body's sections.
+        for gluing in template.gluings.iter().filter(|g| g.other == 0) {
+            // The low face of a seam; a mirror wall is its own partner.
+            wedge.sections.push(gluing.triangles_there().collect());
+            for t in gluing.triangles_of(0) {
+                wedge.is_cut[t as usize] = true;
+            }
+            let low = next();
+            let high = if gluing.is_mirror(0) { low } else { next() };
+            for &[here, there] in &gluing.vertex_pairs {
+                wedge.faces[there as usize] |= low;
+                wedge.faces[here as usize] |= high;
+                if low != high {
+                    wedge.partner.insert(here, there);
+                    wedge.partner.insert(there, here);
                 }
-                Wall::Seam(s) => {
-                    let bits = [next(), next()];
-                    for &pair in &s.vertex_pairs {
-                        for (v, bit) in pair.into_iter().zip(bits) {
-                            wedge.faces[v as usize] |= bit;
-                        }
-                        wedge.partner.insert(pair[0], pair[1]);
-                        wedge.partner.insert(pair[1], pair[0]);
-                    }
-                    wedge
-                        .sections
-                        .push(s.triangle_pairs.iter().map(|p| p[0]).collect());
-                    let both = s.triangle_pairs.iter().flatten();
-                    both.for_each(|&t| wedge.is_cut[t as usize] = true);
-                }
-                Wall::Hub(_) => {}
             }
         }
         wedge

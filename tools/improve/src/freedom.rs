@@ -3,7 +3,7 @@
 use geom::edges::Edges;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tmesh::{FixedSet, Isometry, Template, Wall};
+use tmesh::{FixedSet, Isometry, Template};
 
 /// Directions in which a vertex may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,88 +55,98 @@ pub struct Flats<'a> {
 pub struct Freedoms {
     of_vertex: Vec<Freedom>,
     exact: FxHashMap<u32, Exact>,
-    /// Low vertex of a seam's high one.
-    low_of: FxHashMap<u32, u32>,
-    /// High vertex of a seam's low one, with the rotation that takes one to the other.
-    high_of: FxHashMap<u32, (u32, Isometry)>,
+    /// Master of a vertex that is an image.
+    master_of: FxHashMap<u32, u32>,
+    /// Image of a master, with the step that takes one to the other.
+    image_of: FxHashMap<u32, (u32, Isometry)>,
 }
 
 /// Of a plane and a line in it, the sine of the angle between them is below this.
 const ALONG: f64 = 1e-6;
 
 impl Freedoms {
-    /// Finds what each vertex of a filled template may do. Linear.
-    pub fn new(template: &Template, flats: &Flats<'_>) -> Self {
-        let mut of_vertex = surface(template, flats);
-        let mut exact: FxHashMap<u32, Exact> = FxHashMap::default();
-        let mut low_of = FxHashMap::default();
-        let mut high_of = FxHashMap::default();
-        let fix = |list: &mut [Freedom], v: u32| list[v as usize] = Freedom::Fixed;
-        flats.fixed.iter().for_each(|&v| fix(&mut of_vertex, v));
-        for wall in &template.walls {
-            match wall {
-                Wall::Mirror(mirror) => {
-                    let projection = FixedSet::of(mirror.reflection);
-                    for &v in &mirror.vertices {
-                        let exact = exact.entry(v).or_default();
-                        match projection {
-                            FixedSet::Horizontal => exact.level = true,
-                            _ => exact.vertical = Some(projection),
-                        }
-                    }
-                }
-                Wall::Hub(hub) => {
-                    for &[v, _] in &hub.vertex_pairs {
-                        fix(&mut of_vertex, v);
-                    }
-                }
-                Wall::Seam(seam) => {
-                    for &[low, high] in &seam.vertex_pairs {
-                        if low == high {
-                            continue;
-                        }
-                        exact.entry(low).or_default().vertical = Some(LOW);
-                        let turned = (high, seam.rotation);
-                        let once = high_of.insert(low, turned).is_none()
-                            && low_of.insert(high, low).is_none();
-                        let free = once && alike(&of_vertex, low, high, seam.rotation);
-                        if !free {
-                            fix(&mut of_vertex, low);
-                        }
-                        fix(&mut of_vertex, high);
-                    }
+    /// Finds what each vertex of a filled template, number `own`, may do. Linear.
+    pub fn new((template, own): (&Template, usize), flats: &Flats<'_>) -> Self {
+        let mut freedoms = Self {
+            of_vertex: surface(template, flats),
+            exact: FxHashMap::default(),
+            master_of: FxHashMap::default(),
+            image_of: FxHashMap::default(),
+        };
+        flats.fixed.iter().for_each(|&v| freedoms.fix(v));
+        for gluing in &template.gluings {
+            if gluing.other_than(own).is_some() {
+                gluing.vertices_here().for_each(|v| freedoms.fix(v));
+                continue;
+            }
+            for &[here, there] in &gluing.vertex_pairs {
+                if here == there {
+                    freedoms.keep_on(here, FixedSet::of(gluing.step));
+                } else {
+                    freedoms.pair(there, here, gluing.step);
                 }
             }
         }
         for &v in &template.axis {
-            exact.entry(v).or_default().axis = true;
-            let freedom = &mut of_vertex[v as usize];
+            freedoms.exact.entry(v).or_default().axis = true;
+            let freedom = &mut freedoms.of_vertex[v as usize];
             if !matches!(freedom, Freedom::Line(d) if d.x.hypot(d.y) <= ALONG) {
                 *freedom = Freedom::Fixed;
             }
         }
-        Self {
-            of_vertex,
-            exact,
-            low_of,
-            high_of,
+        freedoms
+    }
+
+    fn fix(&mut self, v: u32) {
+        self.of_vertex[v as usize] = Freedom::Fixed;
+    }
+
+    /// Keeps a vertex that is its own image on what the step leaves where it is.
+    fn keep_on(&mut self, v: u32, set: FixedSet) {
+        let exact = self.exact.entry(v).or_default();
+        match set {
+            FixedSet::All => {}
+            FixedSet::Horizontal => exact.level = true,
+            FixedSet::Vertical { .. } => exact.vertical = Some(set),
+            FixedSet::Axis => exact.axis = true,
+            FixedSet::Radial { cos, sin } => {
+                exact.level = true;
+                exact.vertical = Some(FixedSet::Vertical { cos, sin });
+                let along = DVec3::new(cos, sin, 0.0);
+                let freedom = &mut self.of_vertex[v as usize];
+                if !matches!(freedom, Freedom::Line(d) if d.cross(along).length() <= ALONG) {
+                    *freedom = Freedom::Fixed;
+                }
+            }
+            FixedSet::Origin => self.fix(v),
         }
     }
 
-    /// The vertex to move for `v` to move: the low one of a seam for its high one.
-    pub fn mover(&self, v: u32) -> u32 {
-        self.low_of.get(&v).copied().unwrap_or(v)
+    /// Has a vertex and its image move as one, if both may move alike and neither has another partner.
+    fn pair(&mut self, master: u32, image: u32, step: Isometry) {
+        self.exact.entry(master).or_default().vertical = Some(FixedSet::of_master(step));
+        let once = self.image_of.insert(master, (image, step)).is_none()
+            && self.master_of.insert(image, master).is_none();
+        if !(once && alike(&self.of_vertex, master, image, step)) {
+            self.fix(master);
+        }
+        self.fix(image);
     }
 
-    /// Freedom of a vertex, the low one if it has a partner on a seam. Vertices that have come since are inside.
+    /// The vertex to move for `v` to move: the master for its image.
+    pub fn mover(&self, v: u32) -> u32 {
+        self.master_of.get(&v).copied().unwrap_or(v)
+    }
+
+    /// Freedom of a vertex, of the master if it has a partner. Vertices that have come since are inside.
     pub fn of(&self, v: u32) -> Freedom {
         let known = self.of_vertex.get(v as usize);
         known.copied().unwrap_or(Freedom::Free)
     }
 
-    /// The vertex that moves with `v`, and by which rotation.
+    /// The vertex that moves with `v`, and by which step.
     pub fn partner(&self, v: u32) -> Option<(u32, Isometry)> {
-        self.high_of.get(&v).copied()
+        self.image_of.get(&v).copied()
     }
 
     /// The nearest place to `p` that is exactly on what `v` belongs to.
@@ -157,13 +167,10 @@ impl Freedoms {
     }
 }
 
-/// The plane of a seam's low face.
-const LOW: FixedSet = FixedSet::Vertical { cos: 1.0, sin: 0.0 };
-
-/// Whether two partners on a seam have the same freedom.
-fn alike(of_vertex: &[Freedom], low: u32, high: u32, rotation: Isometry) -> bool {
-    match [low, high].map(|v| of_vertex[v as usize]) {
-        [Freedom::Line(a), Freedom::Line(b)] => rotation.apply(a).cross(b).length() <= ALONG,
+/// Whether two partners have the same freedom.
+fn alike(of_vertex: &[Freedom], master: u32, image: u32, step: Isometry) -> bool {
+    match [master, image].map(|v| of_vertex[v as usize]) {
+        [Freedom::Line(a), Freedom::Line(b)] => step.apply(a).cross(b).length() <= ALONG,
         [Freedom::Plane(..), Freedom::Plane(..)] => true,
         _ => false,
     }

@@ -9,7 +9,7 @@ use geom::measure::tet_volume;
 use geom::tet::TetMeasures;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tmesh::{Isometry, OUTSIDE, Seam, Template, Tet, Triangle, Wall};
+use tmesh::{Gluing, Isometry, OUTSIDE, Template, Tet, Triangle};
 
 /// Does what is found to replace a tetrahedron, if anything.
 fn flip(mesh: &mut Mesh<'_>, tet: u32) -> bool {
@@ -161,7 +161,7 @@ fn facets(template: &Template) -> (Vec<u32>, Vec<DVec3>) {
 
 fn freedoms(template: &Template, of_triangle: &[u32], normals: &[DVec3]) -> Freedoms {
     Freedoms::new(
-        template,
+        (template, 0),
         &Flats {
             of_triangle,
             normals,
@@ -352,12 +352,13 @@ fn partners_on_a_seam_move_as_one() {
         face(0, 3, 2),
         face(1, 2, 3),
     ];
-    template.walls = vec![Wall::Seam(Seam {
-        name: "seam".to_owned(),
+    template.gluings = vec![Gluing::seam(
+        "seam",
+        0,
         rotation,
-        vertex_pairs: vec![[0, 0], [1, 1], [2, 3], [4, 5]],
-        triangle_pairs: vec![[0, 3], [1, 4], [2, 5]],
-    })];
+        [[0, 0], [1, 1], [2, 3], [4, 5]],
+        [[0, 3], [1, 4], [2, 5]],
+    )];
     template.axis = vec![0, 1];
     let outer = |d: DVec3| d.normalize();
     let normals = [
@@ -461,7 +462,7 @@ fn threads_make_no_difference() {
         })
         .collect();
     let freedoms = Freedoms::new(
-        &cubes,
+        (&cubes, 0),
         &Flats {
             of_triangle: &[],
             normals: &[],

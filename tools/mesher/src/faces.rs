@@ -1,6 +1,6 @@
 //! What a template's walls mean for its triangles: which face of which wall they are on, and what must be preserved.
 
-use tmesh::{Document, FixedSet, Template, Wall};
+use tmesh::{Document, FixedSet, Template};
 
 /// Not on any wall.
 pub const NO_FACE: u32 = 0;
@@ -13,8 +13,8 @@ pub fn face_key(wall: usize, second: bool) -> u32 {
 /// Whether a template may refine the faces that others list as hub walls: what lists them is given
 /// the result. A template with a seam has its surface settled before, a listed face is not its own.
 pub fn leads(document: &Document, index: usize) -> bool {
-    let walls = &document.templates[index].walls;
-    walls.iter().all(|w| matches!(w, Wall::Mirror(_)))
+    let gluings = &document.templates[index].gluings;
+    gluings.iter().all(|gluing| gluing.is_mirror(index))
 }
 
 /// A plane through the axis with a face of a wall in it.
@@ -47,54 +47,40 @@ impl Faces {
         let n = template.triangles.len();
         let mut of_triangle = vec![NO_FACE; n];
         let mut preserved = vec![false; n];
-        for (w, wall) in template.walls.iter().enumerate() {
-            match wall {
-                Wall::Mirror(m) => {
-                    for &t in &m.triangles {
-                        of_triangle[t as usize] = face_key(w, false);
-                    }
-                }
-                Wall::Seam(s) => {
-                    for &[low, high] in &s.triangle_pairs {
-                        of_triangle[low as usize] = face_key(w, false);
-                        of_triangle[high as usize] = face_key(w, true);
-                    }
-                }
-                Wall::Hub(h) => {
-                    for &[here, _] in &h.triangle_pairs {
-                        of_triangle[here as usize] = face_key(w, false);
-                    }
+        for (w, gluing) in template.gluings.iter().enumerate() {
+            let is_seam = gluing.is_seam(index);
+            for &[here, there] in &gluing.triangle_pairs {
+                of_triangle[here as usize] = face_key(w, is_seam);
+                if is_seam {
+                    of_triangle[there as usize] = face_key(w, false);
                 }
             }
-            if !matches!(wall, Wall::Mirror(_)) {
-                for t in wall.triangles() {
+            if !gluing.is_mirror(index) {
+                for t in gluing.triangles_of(index) {
                     preserved[t as usize] = true;
                 }
             }
         }
-        let mut key = face_key(template.walls.len(), false);
+        let mut key = face_key(template.gluings.len(), false);
         let free = leads(document, index);
-        for other in &document.templates {
-            for wall in &other.walls {
-                if let Wall::Hub(h) = wall
-                    && h.other as usize == index
-                {
-                    for &[_, t] in &h.triangle_pairs {
-                        preserved[t as usize] |= !free;
-                        if of_triangle[t as usize] == NO_FACE {
-                            of_triangle[t as usize] = key;
-                        }
+        for (o, other) in document.templates.iter().enumerate() {
+            let named = other.gluings.iter();
+            for gluing in named.filter(|gluing| gluing.other_than(o) == Some(index)) {
+                for t in gluing.triangles_there() {
+                    preserved[t as usize] |= !free;
+                    if of_triangle[t as usize] == NO_FACE {
+                        of_triangle[t as usize] = key;
                     }
-                    key += 1;
                 }
+                key += 1;
             }
         }
         Self {
             of_triangle,
             preserved,
-            planes: planes(template),
-            own: (template.walls.iter())
-                .map(|w| !matches!(w, Wall::Hub(_)))
+            planes: planes(template, index),
+            own: (template.gluings.iter())
+                .map(|gluing| gluing.other_than(index).is_none())
                 .collect(),
         }
     }
@@ -111,28 +97,22 @@ impl Faces {
     }
 }
 
-/// Planes through the axis that contain faces of a template's walls, each with its vertices.
-fn planes(template: &Template) -> Vec<Upright> {
-    let mut planes = Vec::new();
-    for wall in &template.walls {
-        match wall {
-            Wall::Mirror(mirror) => {
-                if let FixedSet::Vertical { cos, sin } = FixedSet::of(mirror.reflection) {
-                    planes.push(Upright {
-                        direction: [cos, sin],
-                        vertices: mirror.vertices.clone(),
-                    });
-                }
-            }
-            // The low face of a seam is at angle 0 in the canonical frame.
-            Wall::Seam(seam) => {
-                planes.push(Upright {
-                    direction: seam.rotation.cos_sin().into(),
-                    vertices: seam.vertex_pairs.iter().map(|p| p[1]).collect(),
-                });
-            }
-            Wall::Hub(_) => {}
-        }
-    }
-    planes
+/// Planes through the axis that contain faces of a template's walls, each with its vertices: a mirror's own, that of both
+/// halves of a face that a half turn exchanges, else that of the image under the step, since the master is at angle 0.
+fn planes(template: &Template, own: usize) -> Vec<Upright> {
+    let gluings = template.gluings.iter();
+    let own_faces = gluings.filter(|gluing| gluing.other_than(own).is_none());
+    own_faces
+        .filter_map(|gluing| match FixedSet::of(gluing.step) {
+            FixedSet::Vertical { cos, sin } | FixedSet::Radial { cos, sin } => Some(Upright {
+                direction: [cos, sin],
+                vertices: gluing.vertices_of(own).collect(),
+            }),
+            FixedSet::Axis | FixedSet::Origin => Some(Upright {
+                direction: gluing.step.cos_sin().into(),
+                vertices: gluing.vertices_here().collect(),
+            }),
+            FixedSet::Horizontal | FixedSet::All => None,
+        })
+        .collect()
 }

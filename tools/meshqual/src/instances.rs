@@ -1,8 +1,13 @@
 //! What the instances make of the templates, without placing a single copy.
+//!
+//! The instance algebra here is the referee's own: it shares nothing with the numbering by which
+//! meshes are assembled, so that an error there cannot hide itself here.
 
 use rustc_hash::{FxHashMap, FxHashSet};
+use serde::Serialize;
+use serde::ser::{SerializeStruct, Serializer};
 use std::collections::BTreeMap;
-use tmesh::{Document, Isometry, OUTSIDE, Outside, Template, Wall};
+use tmesh::{Document, Group, Isometry, OUTSIDE, Outside, Template};
 
 /// Counts over the instances of a document.
 pub struct Copies {
@@ -34,7 +39,7 @@ impl Copies {
 /// walls are open faces.
 pub fn is_sector(document: &Document) -> bool {
     let copies = Copies::of(document).of_template;
-    copies.iter().all(|&n| n <= 1) && document.templates.iter().any(|t| !t.walls.is_empty())
+    copies.iter().all(|&n| n <= 1) && document.templates.iter().any(|t| !t.gluings.is_empty())
 }
 
 /// For each triangle of a template, whether it is on a wall, be it the template's own or another
@@ -46,12 +51,10 @@ pub fn wall_triangles(document: &Document) -> Vec<Vec<bool>> {
         .map(|t| vec![false; t.triangles.len()])
         .collect();
     for (index, template) in document.templates.iter().enumerate() {
-        for wall in &template.walls {
-            wall.triangles().for_each(|t| on[index][t as usize] = true);
-            if let Wall::Hub(hub) = wall {
-                for pair in &hub.triangle_pairs {
-                    on[hub.other as usize][pair[1] as usize] = true;
-                }
+        for gluing in &template.gluings {
+            for &[here, there] in &gluing.triangle_pairs {
+                on[index][here as usize] = true;
+                on[gluing.other as usize][there as usize] = true;
             }
         }
     }
@@ -172,24 +175,13 @@ fn links(document: &Document) -> Vec<FxHashMap<u32, Vec<Link>>> {
     };
     for (index, template) in document.templates.iter().enumerate() {
         let t = index as u32;
-        for wall in &template.walls {
-            match wall {
-                Wall::Mirror(w) => {
-                    for &v in &w.vertices {
-                        add((t, v), w.reflection, (t, v));
-                    }
-                }
-                Wall::Seam(w) => {
-                    for &[low, high] in &w.vertex_pairs {
-                        add((t, high), w.rotation, (t, low));
-                        add((t, low), w.rotation.inverse(), (t, high));
-                    }
-                }
-                Wall::Hub(w) => {
-                    for &[here, there] in &w.vertex_pairs {
-                        add((t, here), w.placement, (w.other, there));
-                        add((w.other, there), w.placement.inverse(), (t, here));
-                    }
+        for gluing in &template.gluings {
+            let (other, step) = (gluing.other, gluing.step);
+            for &[here, there] in &gluing.vertex_pairs {
+                add((t, here), step, (other, there));
+                // A reflection is its own inverse, and a second link would say nothing new.
+                if !gluing.is_mirror(index) {
+                    add((other, there), step.inverse(), (t, here));
                 }
             }
         }
@@ -235,19 +227,42 @@ fn names(
     (seen.len() as u64, one_template)
 }
 
-/// The symmetry that the instances give the whole: largest order of a rotation that maps them onto
-/// themselves, and whether mirrors do.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+/// The symmetry that the instances give the whole, or that a plain mesh promises.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Realized {
-    /// Order of the rotation about the axis.
-    pub order: u32,
-    /// Whether a mirror plane contains the axis.
-    pub mirror: bool,
-    /// Whether the plane through the origin across the axis is a mirror.
-    pub horizontal_mirror: bool,
+    /// The group about the axis.
+    pub group: Group,
     /// The higher symmetry away from the axis, if there is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub outside: Option<Outside>,
+}
+
+impl Serialize for Realized {
+    /// The group by its symbol, and what it has: `order`, `mirror` for planes that contain the axis,
+    /// `horizontal_mirror` for the one across it.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Beyond {
+            group: Group,
+            order: u32,
+            mirror: bool,
+            radius: f64,
+        }
+        let mut map = serializer.serialize_struct("symmetry", 5)?;
+        map.serialize_field("group", &self.group)?;
+        map.serialize_field("order", &self.group.order)?;
+        map.serialize_field("mirror", &self.group.has_vertical_mirrors())?;
+        map.serialize_field("horizontal_mirror", &self.group.has_horizontal_mirror())?;
+        if let Some(Outside { group, radius }) = self.outside {
+            let beyond = Beyond {
+                group,
+                order: group.order,
+                mirror: group.has_vertical_mirrors(),
+                radius,
+            };
+            map.serialize_field("outside", &beyond)?;
+        }
+        map.end()
+    }
 }
 
 /// The symmetry of the instances, with their region maps: each operation has to permute the regions.
@@ -256,13 +271,11 @@ pub fn realized(document: &Document) -> Realized {
     let placed: Vec<u32> = (0..document.templates.len() as u32)
         .filter(|&t| placements.copies[t as usize] > 0)
         .collect();
-    let (order, mirror) = placements.group(&placed);
+    let group = placements.group(&placed).0;
     let outside = placements.outside(&placed);
     Realized {
-        order,
-        mirror: mirror.is_some(),
-        horizontal_mirror: placements.keep(&placed, Isometry::new(0, 1, false, true)),
-        outside: outside.filter(|o| (o.order, o.mirror) != (order, mirror.is_some())),
+        group,
+        outside: outside.filter(|o| o.group != group),
     }
 }
 
@@ -296,9 +309,9 @@ impl<'a> Placements<'a> {
         }
     }
 
-    /// Largest order of a rotation that keeps the instances of some templates, and a mirror that
-    /// contains the axis and does.
-    fn group(&self, templates: &[u32]) -> (u32, Option<Isometry>) {
+    /// The group of the operations that keep the instances of some templates, and the mirror that
+    /// contains the axis which stands for all of them.
+    fn group(&self, templates: &[u32]) -> (Group, Option<Isometry>) {
         let copies = templates.iter().map(|&t| self.copies[t as usize]);
         let shared = copies
             .fold(0, gcd)
@@ -326,7 +339,11 @@ impl<'a> Placements<'a> {
                 .filter(|m| u64::from(m.k()) * u64::from(order) < u64::from(m.n()))
                 .find(|&m| self.keep(templates, m))
         });
-        (order, mirror)
+        let group = Group::of(order, |g| match g == Isometry::MIRROR {
+            true => mirror.is_some(),
+            false => self.keep(templates, g),
+        });
+        (group, mirror)
     }
 
     /// The symmetry of the template that reaches farthest from the axis, and the radius beyond which
@@ -339,19 +356,19 @@ impl<'a> Placements<'a> {
         let reach: Vec<f64> = templates.map(Template::reach).collect();
         let far = |&a: &u32, &b: &u32| reach[a as usize].total_cmp(&reach[b as usize]);
         let farthest = placed.iter().copied().max_by(far)?;
-        let (order, mirror) = self.group(&[farthest]);
+        let (group, mirror) = self.group(&[farthest]);
         let shared_by = |templates: &[u32]| {
-            let operations = [Some(Isometry::rotation(1, order)), mirror];
-            let mut operations = operations.into_iter().flatten();
+            let generators = group.generators().into_iter();
+            let mut operations = generators.map(|g| match g == Isometry::MIRROR {
+                true => mirror.unwrap_or(g),
+                false => g,
+            });
             operations.all(|g| self.keep(templates, g))
         };
         let (outer, inner): (Vec<u32>, Vec<u32>) = placed.iter().partition(|&&t| shared_by(&[t]));
         let radius = inner.iter().map(|&t| reach[t as usize]).fold(0.0, f64::max);
-        (radius < reach[farthest as usize] && shared_by(&outer)).then_some(Outside {
-            order,
-            mirror: mirror.is_some(),
-            radius,
-        })
+        (radius < reach[farthest as usize] && shared_by(&outer))
+            .then_some(Outside { group, radius })
     }
 
     /// Whether an operation maps the instances of some templates onto such, and permutes their regions.
@@ -362,8 +379,9 @@ impl<'a> Placements<'a> {
         let mut compared = FxHashSet::default();
         let instances = self.document.instances.iter();
         for instance in instances.filter(|i| templates.contains(&i.template)) {
-            let image = (instance.template, operation.compose(instance.isometry));
-            let Some(&map) = self.by_place.get(&image) else {
+            let image = operation.checked_compose(instance.isometry);
+            let map = image.and_then(|image| self.by_place.get(&(instance.template, image)));
+            let Some(&map) = map else {
                 return false;
             };
             if !compared.insert((instance.template, instance.region_map, map)) {
@@ -434,6 +452,6 @@ mod tests {
         };
         document.instances = (0..3).map(place).collect();
         assert_eq!(tmesh::validate(&document), []);
-        assert_eq!(realized(&document).order, 1);
+        assert_eq!(realized(&document).group, Group::TRIVIAL);
     }
 }

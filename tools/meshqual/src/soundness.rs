@@ -13,13 +13,11 @@ pub fn usable(document: &Document) -> Result<Vec<Violation>, Error> {
     let usable = |v: &Violation| {
         matches!(
             v,
-            Violation::BadPlane { .. }
-                | Violation::OffPlane { .. }
+            Violation::OffPlane { .. }
                 | Violation::OffAxis { .. }
                 | Violation::NotAnImage { .. }
                 | Violation::TrianglesDiffer { .. }
                 | Violation::MissingNeighbour { .. }
-                | Violation::OpenWall { .. }
                 | Violation::RepeatedInstance { .. }
         )
     };

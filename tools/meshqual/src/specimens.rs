@@ -4,8 +4,8 @@ use geom::tet::FACES;
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tmesh::{
-    Axis, Document, Frame, Instance, Isometry, MirrorWall, OUTSIDE, Plane, Promise, Region, Seam,
-    Source, Symmetry, Template, Tet, Triangle, Wall,
+    Axis, Document, Frame, Gluing, Group, Instance, Isometry, Kind, OUTSIDE, Promise, Region,
+    Source, Symmetry, Template, Tet, Triangle,
 };
 
 /// Radial, angular and axial cells of a wedge.
@@ -87,35 +87,18 @@ pub fn wedge(n: u32, mirror: bool) -> Document {
             .collect()
     };
     let (low_faces, high_faces) = (faces(&low), faces(&high));
-    let walls = if mirror {
-        let (c, s) = turn.cos_sin();
-        let wall = |name: &str, normal, reflection, vertices: &Vec<u32>, triangles: &Vec<u32>| {
-            Wall::Mirror(MirrorWall {
-                name: name.to_owned(),
-                plane: Plane {
-                    normal,
-                    offset: 0.0,
-                },
-                reflection,
-                vertices: vertices.clone(),
-                triangles: triangles.clone(),
-            })
+    let gluings = if mirror {
+        let wall = |name: &str, reflection, vertices: &[u32], triangles: &[u32]| {
+            let [vertices, triangles] = [vertices, triangles].map(|ids| {
+                let mut ids = ids.to_vec();
+                ids.sort_unstable();
+                ids
+            });
+            Gluing::mirror(name, 0, reflection, vertices, triangles)
         };
         vec![
-            wall(
-                "wall-a",
-                DVec3::NEG_Y,
-                Isometry::reflection(0, 1),
-                &low,
-                &low_faces,
-            ),
-            wall(
-                "wall-b",
-                DVec3::new(-s, c, 0.0),
-                Isometry::reflection(1, n),
-                &high,
-                &high_faces,
-            ),
+            wall("wall-a", Isometry::reflection(0, 1), &low, &low_faces),
+            wall("wall-b", Isometry::reflection(1, n), &high, &high_faces),
         ]
     } else {
         let partner = |v: u32| high[low.iter().position(|&l| l == v).unwrap()];
@@ -131,19 +114,20 @@ pub fn wedge(n: u32, mirror: bool) -> Document {
                 })
                 .unwrap()
         };
-        vec![Wall::Seam(Seam {
-            name: "seam".to_owned(),
-            rotation: turn,
-            vertex_pairs: low.iter().map(|&v| [v, partner(v)]).collect(),
-            triangle_pairs: low_faces.iter().map(|&t| [t, image(t)]).collect(),
-        })]
+        vec![Gluing::seam(
+            "seam",
+            0,
+            turn,
+            low.iter().map(|&v| [v, partner(v)]),
+            low_faces.iter().map(|&t| [t, image(t)]),
+        )]
     };
     let axis = (0..=LAYERS).map(|k| (k * per_layer) as u32).collect();
     let mut document = Document::single(Template {
         vertices,
         triangles,
         tets,
-        walls,
+        gluings,
         axis,
     });
     document.instances = (0..i64::from(n))
@@ -162,25 +146,17 @@ pub fn wedge(n: u32, mirror: bool) -> Document {
     )
     .unwrap();
     document.symmetry = Some(Symmetry {
-        group: format!("C{n}{}", if mirror { "v" } else { "" }),
-        order: n,
-        mirror,
-        horizontal_mirror: false,
+        group: Group::new(if mirror { Kind::Cv } else { Kind::C }, n),
         axis: Axis {
             point: document.frame.origin.to_array(),
             direction: document.frame.rotation.z_axis.to_array(),
         },
-        mirror_direction: document.frame.rotation.x_axis.to_array(),
+        reference: document.frame.rotation.x_axis.to_array(),
         residual: 0.0,
         tolerance: 1e-3,
         axisymmetric: false,
         radius: 3.0,
-        other_axes: Vec::new(),
-        rejected: Vec::new(),
-        rotation_regions: Vec::new(),
-        mirror_regions: Vec::new(),
-        horizontal_regions: Vec::new(),
-        promise: None,
+        regions: Vec::new(),
     });
     // Area of a regular polygon with 2n corners for mirror wedges (the far corners of two halves are
     // at the same distance), n corners for seams.
@@ -212,7 +188,11 @@ pub fn assembled(wedge: &Document) -> Document {
     let template = &wedge.templates[0];
     let mut ids: BTreeMap<[i64; 3], u32> = BTreeMap::new();
     let mut whole = Template::default();
-    let on_wall: Vec<u32> = template.walls.iter().flat_map(|w| w.triangles()).collect();
+    let on_wall: Vec<u32> = template
+        .gluings
+        .iter()
+        .flat_map(|g| g.triangles_of(0))
+        .collect();
     for instance in &wedge.instances {
         let placed = instance.isometry.placed();
         let names: Vec<u32> = template
@@ -253,11 +233,8 @@ pub fn assembled(wedge: &Document) -> Document {
     document.regions = wedge.regions.clone();
     document.source = wedge.source.clone();
     document.symmetry = wedge.symmetry.clone();
-    let symmetry = document.symmetry.as_mut().unwrap();
-    symmetry.promise = Some(Promise {
-        order: symmetry.order,
-        mirror: symmetry.mirror,
-        horizontal_mirror: false,
+    document.promise = wedge.symmetry.as_ref().map(|symmetry| Promise {
+        group: symmetry.group,
         rotation: wedge.frame.rotation.transpose().to_cols_array_2d(),
         origin: wedge.frame.origin.to_array(),
         outside: None,

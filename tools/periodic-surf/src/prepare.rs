@@ -3,7 +3,7 @@
 use crate::SurfaceError;
 use crate::surface::{Other, impose, make};
 use mesher::{Climb, Deadline, LADDER, Log, Params, Sizes, TetGen};
-use tmesh::{Document, Template, Wall};
+use tmesh::{Document, Template};
 
 /// Sentences about what was done, for the history and the user.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,7 +30,12 @@ pub fn prepare(
     // Names of regions are wrong whatever the walls are.
     let sizes = Sizes::new(&document, params)?;
     let mut report = Report::default();
-    let seams: Vec<bool> = document.templates.iter().map(has_seam).collect();
+    let seams: Vec<bool> = document
+        .templates
+        .iter()
+        .enumerate()
+        .map(|(index, template)| has_seam(template, index))
+        .collect();
     let remake = |document: &Document, template: usize| {
         make(&Climb {
             document,
@@ -48,7 +53,7 @@ pub fn prepare(
         if !seam || !params.quality {
             continue;
         }
-        if others(&document.templates[index]).next().is_some() {
+        if others(&document.templates[index], index).next().is_some() {
             // It follows another one.
             continue;
         }
@@ -56,7 +61,7 @@ pub fn prepare(
         document.templates[index] = made.template;
         report.add(index, &document.templates[index]);
         for follower in 0..document.templates.len() {
-            if others(&document.templates[follower]).any(|o| o == index) {
+            if others(&document.templates[follower], follower).any(|o| o == index) {
                 let other = Other {
                     template: &document.templates[index],
                     vertices: &made.vertices,
@@ -82,51 +87,31 @@ pub fn prepare(
         };
         report.facts.push(why.to_owned());
     }
+    if seams.contains(&true) {
+        document.wishes.keep_surface = Some(true);
+    }
     Ok((document, report))
 }
 
-fn has_seam(template: &Template) -> bool {
-    template.walls.iter().any(|w| matches!(w, Wall::Seam(_)))
+fn has_seam(template: &Template, own: usize) -> bool {
+    template.gluings.iter().any(|gluing| gluing.is_seam(own))
 }
 
-/// Templates that a template shares a hub wall with.
-fn others(template: &Template) -> impl Iterator<Item = usize> {
-    template.walls.iter().filter_map(|w| match w {
-        Wall::Hub(hub) => Some(hub.other as usize),
-        _ => None,
-    })
+/// Other templates that a template shares a face with.
+fn others(template: &Template, own: usize) -> impl Iterator<Item = usize> {
+    let gluings = template.gluings.iter();
+    gluings.filter_map(move |gluing| gluing.other_than(own))
 }
 
 impl Report {
     fn add(&mut self, index: usize, made: &Template) {
+        let seams = || made.gluings.iter().filter(|gluing| gluing.is_seam(index));
         self.facts.push(format!(
             "template {index}: {} triangles, seam of {} vertex pairs and {} triangle pairs",
             made.triangles.len(),
-            pairs(made),
-            seam_triangles(made),
+            seams().map(|s| s.vertex_pairs.len()).sum::<usize>(),
+            seams().map(|s| s.triangle_pairs.len()).sum::<usize>(),
         ));
         self.remade += 1;
     }
-}
-
-fn pairs(template: &Template) -> usize {
-    template
-        .walls
-        .iter()
-        .map(|w| match w {
-            Wall::Seam(s) => s.vertex_pairs.len(),
-            _ => 0,
-        })
-        .sum()
-}
-
-fn seam_triangles(template: &Template) -> usize {
-    template
-        .walls
-        .iter()
-        .map(|w| match w {
-            Wall::Seam(s) => s.triangle_pairs.len(),
-            _ => 0,
-        })
-        .sum()
 }

@@ -1,7 +1,7 @@
 //! The whole mesh, as a stream: nothing of it is in memory but the templates.
 
 use crate::numbering::{Numbering, NumberingError};
-use crate::promise::{is_trivial, promise};
+use crate::promise::promise;
 use glam::DVec3;
 use interchange::sides::{by_label, face_tets, marker_label};
 use interchange::{
@@ -13,7 +13,9 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::Range;
-use tmesh::{Document, Instance, Isometry, Marker, OUTSIDE, Promise, Region, Tet, Triangle, Wall};
+use tmesh::{
+    Document, Gluing, Instance, Isometry, Marker, OUTSIDE, Promise, Region, Tet, Triangle,
+};
 
 /// Elements per block.
 const BLOCK: usize = 8192;
@@ -206,15 +208,13 @@ impl<'a> Assembled<'a> {
             .map(|t| vec![false; t.triangles.len()])
             .collect();
         for (t, template) in templates.iter().enumerate() {
-            for (w, wall) in template.walls.iter().enumerate() {
+            for (w, gluing) in template.gluings.iter().enumerate() {
                 if !self.numbering.is_closed(t, w) {
                     continue;
                 }
-                wall.triangles().for_each(|i| on_wall[t][i as usize] = true);
-                if let Wall::Hub(hub) = wall {
-                    for pair in &hub.triangle_pairs {
-                        on_wall[hub.other as usize][pair[1] as usize] = true;
-                    }
+                for &[here, there] in &gluing.triangle_pairs {
+                    on_wall[t][here as usize] = true;
+                    on_wall[gluing.other as usize][there as usize] = true;
                 }
             }
         }
@@ -237,42 +237,30 @@ impl<'a> Assembled<'a> {
         let document = self.document;
         let here = document.instances[instance];
         let template = &document.templates[here.template as usize];
-        for (w, wall) in template.walls.iter().enumerate() {
+        for (w, gluing) in template.gluings.iter().enumerate() {
             let Some(beyond) = self.numbering.neighbour(instance, w) else {
                 continue;
             };
             let there = document.instances[beyond];
             let other = &document.templates[there.template as usize];
-            let mut look = |a: u32, b: u32| {
+            // A face that two gluings state is looked at by the one of the lower template, and a mirror
+            // wall by the lower of the instances that meet there.
+            let back = |g: &Gluing| g.other == here.template && g.step == gluing.step.inverse();
+            let stated_twice = gluing.other != here.template && other.gluings.iter().any(back);
+            let skipped = match gluing.is_mirror(here.template as usize) {
+                true => beyond < instance || here.region_map == there.region_map,
+                false => stated_twice && gluing.other < here.template,
+            };
+            if skipped {
+                continue;
+            }
+            for &[a, b] in &gluing.triangle_pairs {
                 let inner = inner_region(&template.triangles[a as usize]);
                 let outer = inner_region(&other.triangles[b as usize]);
                 let inner = document.placed_region(&here, inner);
                 let outer = document.placed_region(&there, outer);
                 if inner != outer {
                     each(a, inner, outer);
-                }
-            };
-            match wall {
-                Wall::Mirror(wall) => {
-                    if instance < beyond && here.region_map != there.region_map {
-                        wall.triangles.iter().for_each(|&t| look(t, t));
-                    }
-                }
-                Wall::Seam(wall) => {
-                    // The neighbour across the high face touches with its low face.
-                    wall.triangle_pairs
-                        .iter()
-                        .for_each(|&[low, high]| look(high, low));
-                }
-                Wall::Hub(hub) => {
-                    let back = |w: &Wall| {
-                        matches!(w, Wall::Hub(b) if b.other == here.template
-                            && b.placement == hub.placement.inverse())
-                    };
-                    let stated_twice = hub.other != here.template && other.walls.iter().any(back);
-                    if !(stated_twice && hub.other < here.template) {
-                        hub.triangle_pairs.iter().for_each(|&[a, b]| look(a, b));
-                    }
                 }
             }
         }
@@ -486,7 +474,7 @@ fn inner_region(triangle: &Triangle) -> u32 {
 
 impl MeshStream for Assembled<'_> {
     fn title(&self) -> String {
-        if is_trivial(&self.promise) {
+        if self.promise.group.is_trivial() {
             "symtet mesh".to_owned()
         } else {
             promise_title(&self.promise)

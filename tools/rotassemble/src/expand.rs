@@ -1,7 +1,6 @@
 //! The assembled mesh as a tmesh document with one template, streamed.
 
 use crate::assembled::Assembled;
-use crate::promise::{assembled_symmetry, is_trivial};
 use interchange::MeshStream;
 use std::io::{self, Write};
 use tmesh::{
@@ -10,8 +9,8 @@ use tmesh::{
 };
 
 /// Writes the assembled mesh of `document`: one template in world coordinates with the identity
-/// instance. Regions, markers, source and history are those of `document`; the symmetry says what
-/// the mesh promises.
+/// instance. Regions, markers, source and history are those of `document`, as is the symmetry found; the
+/// promise is that of the mesh.
 ///
 /// # Errors
 /// Fails when writing fails.
@@ -61,11 +60,10 @@ pub fn write_expanded(
 /// All of the expanded document but its template.
 fn metadata(mesh: &Assembled<'_>, document: &Document) -> Document {
     let mut metadata = Document::single(Template::default());
-    metadata.symmetry = if is_trivial(mesh.promise()) {
-        document.symmetry.clone()
-    } else {
-        Some(assembled_symmetry(document, mesh.promise().clone()))
-    };
+    metadata.symmetry = document.symmetry.clone();
+    metadata.search = document.search.clone();
+    let promise = mesh.promise();
+    metadata.promise = (!promise.group.is_trivial()).then(|| promise.clone());
     metadata.regions = document.regions.clone();
     metadata.markers = document.markers.clone();
     metadata.source = document.source.clone();

@@ -14,7 +14,7 @@ use crate::orbit::{Orbits, SetId};
 use geom::sets::DisjointSets;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
-use tmesh::{Document, Instance, Isometry, Wall};
+use tmesh::{Document, Gluing, Instance, Isometry};
 
 /// Why the copies of a document cannot be numbered.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -118,8 +118,8 @@ impl Numbering {
                 instances: places.of_template[t].clone(),
                 ..TemplateIds::default()
             };
-            for wall in &template.walls {
-                let beyond = neighbours(document, &places, t, wall)?;
+            for gluing in &template.gluings {
+                let beyond = neighbours(document, &places, t, gluing)?;
                 ids.neighbours.push(beyond);
             }
             templates.push(ids);
@@ -253,28 +253,19 @@ impl Places {
     }
 }
 
-/// Template beyond a wall, and the isometry that leads there.
-fn step(template: usize, wall: &Wall) -> (usize, Isometry) {
-    match wall {
-        Wall::Mirror(w) => (template, w.reflection),
-        Wall::Seam(w) => (template, w.rotation),
-        Wall::Hub(w) => (w.other as usize, w.placement),
-    }
-}
-
 fn neighbours(
     document: &Document,
     places: &Places,
     template: usize,
-    wall: &Wall,
+    gluing: &Gluing,
 ) -> Result<Option<Vec<u32>>, NumberingError> {
-    let (target, step) = step(template, wall);
+    let target = gluing.other as usize;
     let instances = &places.of_template[template];
     let mut beyond = Vec::with_capacity(instances.len());
     let mut missing = None;
     for &i in instances {
         let isometry = document.instances[i as usize].isometry;
-        match places.slot_of(target, isometry.compose(step)) {
+        match places.slot_of(target, isometry.compose(gluing.step)) {
             Some(slot) => beyond.push(places.of_template[target][slot as usize]),
             None => missing = missing.or(Some(isometry)),
         }
@@ -284,7 +275,7 @@ fn neighbours(
         Some(isometry) if !beyond.is_empty() => Err(NumberingError::MissingNeighbour {
             template,
             isometry,
-            wall: wall.name().to_owned(),
+            wall: gluing.name.clone(),
         }),
         _ => Ok(None),
     }
@@ -321,31 +312,14 @@ impl Nodes {
             *entry
         };
         for (t, template) in document.templates.iter().enumerate() {
-            for (w, wall) in template.walls.iter().enumerate() {
+            for (w, gluing) in template.gluings.iter().enumerate() {
                 if templates[t].neighbours[w].is_none() {
                     continue;
                 }
-                match wall {
-                    Wall::Mirror(wall) => {
-                        for &v in &wall.vertices {
-                            let v = node(&mut nodes, t, v);
-                            nodes.orbits.relate(v, wall.reflection, v);
-                        }
-                    }
-                    Wall::Seam(wall) => {
-                        for &[low, high] in &wall.vertex_pairs {
-                            let low = node(&mut nodes, t, low);
-                            let high = node(&mut nodes, t, high);
-                            nodes.orbits.relate(high, wall.rotation, low);
-                        }
-                    }
-                    Wall::Hub(wall) => {
-                        for &[here, there] in &wall.vertex_pairs {
-                            let here = node(&mut nodes, t, here);
-                            let there = node(&mut nodes, wall.other as usize, there);
-                            nodes.orbits.relate(here, wall.placement, there);
-                        }
-                    }
+                for &[here, there] in &gluing.vertex_pairs {
+                    let here = node(&mut nodes, t, here);
+                    let there = node(&mut nodes, gluing.other as usize, there);
+                    nodes.orbits.relate(here, gluing.step, there);
                 }
             }
         }

@@ -5,7 +5,7 @@ use interchange::{Coupling, MeshStream};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
-use tmesh::{Document, Wall};
+use tmesh::Document;
 
 /// How the table is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,18 +81,15 @@ pub fn write_pairs(
         })
     });
     let frame = document.frame;
-    let mirrors = document.templates.iter().flat_map(|t| &t.walls);
-    let mirrors = mirrors.filter_map(|wall| match wall {
-        Wall::Mirror(wall) => {
-            let point = frame.to_world(wall.plane.normal * wall.plane.offset);
-            let normal = frame.rotation * wall.plane.normal;
-            Some(json!({
-                "name": wall.name,
-                "point": point.to_array(),
-                "normal": normal.to_array(),
-            }))
-        }
-        _ => None,
+    let templates = document.templates.iter().enumerate();
+    let gluings = templates.flat_map(|(t, template)| template.gluings.iter().map(move |g| (t, g)));
+    let mirrors = gluings.filter_map(|(t, gluing)| {
+        let normal = frame.rotation * gluing.mirror_plane(t)?.normal;
+        Some(json!({
+            "name": gluing.name,
+            "point": frame.origin.to_array(),
+            "normal": normal.to_array(),
+        }))
     });
     let axis: BTreeSet<u32> = mesh.axis_edges().iter().flatten().copied().collect();
     let table: Value = json!({

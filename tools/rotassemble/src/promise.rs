@@ -1,7 +1,7 @@
 //! The symmetry that a mesh has by the way it is made of instances.
 
 use std::collections::BTreeSet;
-use tmesh::{Axis, Document, Isometry, Outside, Promise, Symmetry, Template};
+use tmesh::{Document, Group, Isometry, Outside, Promise, Template};
 
 /// The symmetry that the placements of the instances have among themselves: multiplied from the
 /// left, they map the instances of each template onto instances of the same template.
@@ -12,23 +12,20 @@ pub fn promise(document: &Document) -> Promise {
     for instance in &document.instances {
         places[instance.template as usize].insert(instance.isometry);
     }
-    let order = rotations_of(&places);
-    let mirror = keeps(&places, canonical_mirror());
+    let group = group_of(&places);
     let frame = &document.frame;
     let rows = frame.rotation.transpose().to_cols_array_2d();
     Promise {
-        order,
-        mirror,
-        horizontal_mirror: keeps(&places, Isometry::new(0, 1, false, true)),
+        group,
         rotation: rows,
         origin: frame.origin.to_array(),
-        outside: outside(document, &places).filter(|o| (o.order, o.mirror) != (order, mirror)),
+        outside: outside(document, &places).filter(|o| o.group != group),
     }
 }
 
-/// The mirror at the canonical half plane.
-fn canonical_mirror() -> Isometry {
-    Isometry::reflection(0, 1)
+/// The group of the isometries that map the placements of each template onto such.
+fn group_of(templates: &[Places]) -> Group {
+    Group::of(rotations_of(templates), |g| keeps(templates, g))
 }
 
 /// Placements of a template.
@@ -36,7 +33,11 @@ type Places = BTreeSet<Isometry>;
 
 /// Whether an isometry maps all placements of each template onto such.
 fn keeps(templates: &[Places], g: Isometry) -> bool {
-    let kept = |set: &Places| set.iter().all(|&p| set.contains(&g.compose(p)));
+    let image = |p: Isometry| g.checked_compose(p);
+    let kept = |set: &Places| {
+        let mut images = set.iter().map(|&p| image(p));
+        images.all(|p| p.is_some_and(|p| set.contains(&p)))
+    };
     templates.iter().all(kept)
 }
 
@@ -71,19 +72,14 @@ fn outside(document: &Document, places: &[Places]) -> Option<Outside> {
     }
     let reach: Vec<f64> = document.templates.iter().map(Template::reach).collect();
     let (farthest, own) = placed().max_by(|a, b| reach[a.0].total_cmp(&reach[b.0]))?;
-    let own = std::slice::from_ref(own);
-    let (order, mirror) = (rotations_of(own), keeps(own, canonical_mirror()));
+    let group = group_of(std::slice::from_ref(own));
     let shares = |set: &Places| {
-        let set = std::slice::from_ref(set);
-        keeps(set, Isometry::rotation(1, order)) && (!mirror || keeps(set, canonical_mirror()))
+        let mut generators = group.generators().into_iter();
+        generators.all(|g| keeps(std::slice::from_ref(set), g))
     };
     let others = placed().filter(|(_, set)| !shares(set));
     let radius = rounded_up(others.map(|(t, _)| reach[t]).fold(0.0, f64::max));
-    (radius < reach[farthest]).then_some(Outside {
-        order,
-        mirror,
-        radius,
-    })
+    (radius < reach[farthest]).then_some(Outside { group, radius })
 }
 
 /// A radius in six digits, not below `x` but by rounding: short enough for titles, and what holds outside
@@ -105,55 +101,11 @@ fn rounded_up(x: f64) -> f64 {
     }
 }
 
-/// Whether the promise is more than that the mesh is its own image under the identity.
-pub fn is_trivial(promise: &Promise) -> bool {
-    promise.order == 1 && !promise.mirror && !promise.horizontal_mirror
-}
-
-/// What is known of the symmetry of the assembled mesh: what `symdetect` found, if it did, and the
-/// promise.
-pub fn assembled_symmetry(document: &Document, promise: Promise) -> Symmetry {
-    if let Some(found) = &document.symmetry {
-        return Symmetry {
-            promise: Some(promise),
-            ..found.clone()
-        };
-    }
-    let column = |i: usize| promise.rotation.map(|row| row[i]);
-    let symbol = match (promise.mirror, promise.horizontal_mirror) {
-        (false, false) => format!("C{}", promise.order),
-        (true, false) => format!("C{}v", promise.order),
-        (false, true) => format!("C{}h", promise.order),
-        (true, true) => format!("D{}h", promise.order),
-    };
-    Symmetry {
-        group: symbol,
-        order: promise.order,
-        mirror: promise.mirror,
-        horizontal_mirror: promise.horizontal_mirror,
-        axis: Axis {
-            point: promise.origin,
-            direction: column(2),
-        },
-        mirror_direction: column(0),
-        residual: 0.0,
-        tolerance: 0.0,
-        axisymmetric: false,
-        radius: 0.0,
-        other_axes: Vec::new(),
-        rejected: Vec::new(),
-        rotation_regions: Vec::new(),
-        mirror_regions: Vec::new(),
-        horizontal_regions: Vec::new(),
-        promise: Some(promise),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use glam::DVec3;
-    use tmesh::Instance;
+    use tmesh::{Instance, Kind};
 
     fn document(placements: &[(u32, Isometry)]) -> Document {
         let mut document = Document::single(Template::default());
@@ -169,31 +121,18 @@ mod tests {
         document
     }
 
-    fn found(placements: &[(u32, Isometry)]) -> (u32, bool, bool) {
-        let p = promise(&document(placements));
-        (p.order, p.mirror, p.horizontal_mirror)
+    fn found(placements: &[(u32, Isometry)]) -> Group {
+        promise(&document(placements)).group
     }
 
     #[test]
     fn full_groups_promise_themselves() {
         for n in [1, 2, 3, 7, 16] {
-            let all = |mirrors: &[bool], flips: &[bool]| {
-                let mut list = Vec::new();
-                for k in 0..n {
-                    for &m in mirrors {
-                        for &f in flips {
-                            list.push((0, Isometry::new(k, n as u32, m, f)));
-                        }
-                    }
-                }
-                found(&list)
-            };
-            let both = [false, true];
-            let n = n as u32;
-            assert_eq!(all(&[false], &[false]), (n, false, false));
-            assert_eq!(all(&both, &[false]), (n, true, false));
-            assert_eq!(all(&[false], &both), (n, false, true));
-            assert_eq!(all(&both, &both), (n, true, true));
+            for kind in Kind::ALL {
+                let group = Group::new(kind, n);
+                let all: Vec<_> = group.elements().map(|g| (0, g)).collect();
+                assert_eq!(found(&all), group);
+            }
         }
     }
 
@@ -201,7 +140,7 @@ mod tests {
     fn a_hub_of_lower_order_lowers_the_promise() {
         let mut list: Vec<_> = (0..12).map(|k| (0, Isometry::rotation(k, 12))).collect();
         list.extend((0..4).map(|k| (1, Isometry::rotation(k, 4))));
-        assert_eq!(found(&list), (4, false, false));
+        assert_eq!(found(&list), Group::new(Kind::C, 4));
     }
 
     #[test]
@@ -214,10 +153,9 @@ mod tests {
         document.templates[0].vertices = vec![DVec3::new(0.0, 3.0, 9.0), DVec3::X];
         document.templates[1].vertices = vec![DVec3::new(0.6, 0.8, -7.0), DVec3::ZERO];
         let found = promise(&document);
-        assert_eq!((found.order, found.mirror), (4, true));
+        assert_eq!(found.group, Group::new(Kind::Cv, 4));
         let expected = Outside {
-            order: 12,
-            mirror: true,
+            group: Group::new(Kind::Cv, 12),
             radius: 1.0,
         };
         assert_eq!(found.outside, Some(expected));
@@ -231,7 +169,7 @@ mod tests {
         };
         document.instances.extend((0..12).map(turned));
         let found = promise(&document);
-        assert_eq!((found.order, found.mirror), (4, false));
+        assert_eq!(found.group, Group::new(Kind::C, 4));
         assert_eq!(found.outside.map(|o| o.radius), Some(2.0));
         // Farther out is less symmetry, not more.
         document.templates[1].vertices[1].x = 5.0;
@@ -258,6 +196,6 @@ mod tests {
     #[test]
     fn copies_that_do_not_close_up_promise_nothing() {
         let list: Vec<_> = (0..3).map(|k| (0, Isometry::rotation(k, 12))).collect();
-        assert_eq!(found(&list), (1, false, false));
+        assert_eq!(found(&list), Group::TRIVIAL);
     }
 }

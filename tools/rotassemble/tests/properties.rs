@@ -7,7 +7,7 @@ use common::{Mesh, gather};
 use glam::DVec3;
 use interchange::Plain;
 use rotassemble::Assembled;
-use tmesh::{Document, Frame, HubWall, Instance, Isometry, Wall};
+use tmesh::{Document, Frame, Gluing, Group, Instance, Isometry, Kind};
 
 fn wedges() -> Vec<Structured> {
     let mut all = Vec::new();
@@ -87,10 +87,13 @@ fn meshes_have_the_promised_symmetry() {
         placed(&mut document);
         let assembled = Assembled::new(&document).unwrap();
         let promise = assembled.promise();
-        assert_eq!(
-            (promise.order, promise.mirror, promise.horizontal_mirror),
-            (wedge.order, wedge.mirror, wedge.flip)
-        );
+        let kind = match (wedge.mirror, wedge.flip) {
+            (false, false) => Kind::C,
+            (true, false) => Kind::Cv,
+            (false, true) => Kind::Ch,
+            (true, true) => Kind::Dh,
+        };
+        assert_eq!(promise.group, Group::new(kind, wedge.order));
         let mesh = gather(&assembled);
         let frame = document.frame;
         let mut generators = vec![Isometry::rotation(1, wedge.order)];
@@ -200,20 +203,24 @@ fn with_hub(order: u32, hub: u32, mirror: bool) -> Document {
     };
     let inner = faces(&document.templates[0], 4);
     let outer = faces(&other.templates[0], 3);
+    let mut hubs = Vec::new();
     for (part, outer) in (0..parts).zip(outer.chunks(inner.len())) {
         let grid = (0..=2).flat_map(|j| (0..=2).map(move |k| (j, k)));
         let mut vertex_pairs: Vec<[u32; 2]> = grid
             .map(|(j, k)| [column.vertex([2, 2 * part + j, k]), ring.vertex([0, j, k])])
             .collect();
         vertex_pairs.sort_unstable();
-        other.templates[0].walls.push(Wall::Hub(HubWall {
+        hubs.push(Gluing {
             name: format!("hub-{part}"),
             other: 0,
-            placement: Isometry::rotation(i64::from(part), order),
+            step: Isometry::rotation(i64::from(part), order),
             vertex_pairs,
             triangle_pairs: outer.iter().zip(&inner).map(|(&a, &b)| [a, b]).collect(),
-        }));
+        });
     }
+    let gluings = &mut other.templates[0].gluings;
+    gluings.iter_mut().for_each(|own| own.other = 1);
+    gluings.extend(hubs);
     document.templates.append(&mut other.templates);
     document.instances.extend(
         other
@@ -237,10 +244,8 @@ fn rings_and_hubs_of_other_orders_become_one() {
         let mut document = with_hub(order, hub, mirror);
         placed(&mut document);
         let assembled = Assembled::new(&document).unwrap();
-        assert_eq!(
-            (assembled.promise().order, assembled.promise().mirror),
-            (hub, mirror)
-        );
+        let kind = if mirror { Kind::Cv } else { Kind::C };
+        assert_eq!(assembled.promise().group, Group::new(kind, hub));
         let mesh = gather(&assembled);
         mesh.assert_conforming();
         mesh.assert_closed();

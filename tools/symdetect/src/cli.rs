@@ -212,6 +212,7 @@ impl Command for Cli {
             write_text(path, &svg(&document, &found, &title))?;
         }
         document.symmetry = Some(found.symmetry);
+        document.search = Some(found.search);
         document.history.push(session.history_entry(found.notes));
         session.write(&document)
     }

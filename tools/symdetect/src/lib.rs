@@ -12,9 +12,7 @@ mod cli;
 mod detect;
 mod error;
 mod group;
-mod numbers;
 mod params;
-mod point_group;
 mod report;
 mod rotation;
 mod shape;
@@ -30,7 +28,6 @@ mod tests;
 pub use cli::Cli;
 pub use detect::detect;
 pub use error::{Closest, Error};
-pub use numbers::At;
 pub use params::Params;
 pub use report::{Defects, Detection, OrderResidual, Places, Report, svg};
 
@@ -40,5 +37,6 @@ use tmesh::Document;
 pub fn run(mut document: Document, params: &Params) -> Result<Document, Error> {
     let detection = detect(&document, params, &mut |_| ())?;
     document.symmetry = Some(detection.symmetry);
+    document.search = Some(detection.search);
     Ok(document)
 }

@@ -5,14 +5,47 @@ use crate::shape::Random;
 use crate::{Error, Params, detect};
 use glam::DVec3;
 use std::f64::consts::TAU;
-use tmesh::{Document, Symmetry, Template};
+use tmesh::{Axis, Document, Isometry, OtherAxis, Template};
+
+/// What was found, spelled out.
+#[derive(Debug, PartialEq)]
+struct Symmetry {
+    group: String,
+    order: u32,
+    mirror: bool,
+    axis: Axis,
+    mirror_direction: [f64; 3],
+    residual: f64,
+    axisymmetric: bool,
+    other_axes: Vec<OtherAxis>,
+    rotation_regions: Vec<[u32; 2]>,
+    mirror_regions: Vec<[u32; 2]>,
+}
+
+impl From<crate::Detection> for Symmetry {
+    fn from(found: crate::Detection) -> Self {
+        let symmetry = found.symmetry;
+        Self {
+            group: symmetry.group.symbol(),
+            order: symmetry.group.order,
+            mirror: symmetry.group.has_vertical_mirrors(),
+            rotation_regions: symmetry.rotation_regions().pairs,
+            mirror_regions: symmetry.region_map(Isometry::MIRROR).pairs,
+            axis: symmetry.axis,
+            mirror_direction: symmetry.reference,
+            residual: symmetry.residual,
+            axisymmetric: symmetry.axisymmetric,
+            other_axes: found.search.other_axes,
+        }
+    }
+}
 
 fn find(body: &Document) -> Symmetry {
     find_with(body, &Params::default()).unwrap()
 }
 
 fn find_with(body: &Document, params: &Params) -> Result<Symmetry, Error> {
-    detect(body, params, &mut |_| ()).map(|d| d.symmetry)
+    detect(body, params, &mut |_| ()).map(Symmetry::from)
 }
 
 #[test]
@@ -337,10 +370,10 @@ fn polyhedra_and_their_axes() {
     let mut random = Random(6);
     let body = bodies::place(&bodies::hull(&points), &mut random, 1.0, 0.0);
     let detection = detect(&body, &Params::default(), &mut |_| ()).unwrap();
-    let found = detection.symmetry;
+    assert!(detection.notes.iter().any(|n| n.contains("Ih")));
+    let found = Symmetry::from(detection);
     assert_eq!(found.group, "D5d");
     assert_eq!([5, 3, 2].map(|n| count(&found, n)), [5, 10, 15]);
-    assert!(detection.notes.iter().any(|n| n.contains("Ih")));
 
     let corners = [
         [1.0, 1.0, 1.0],
@@ -350,7 +383,7 @@ fn polyhedra_and_their_axes() {
     ];
     let body = bodies::hull(&corners.map(DVec3::from_array));
     let detection = detect(&body, &Params::default(), &mut |_| ()).unwrap();
-    assert_eq!(detection.symmetry.group, "C3v");
+    assert_eq!(detection.symmetry.group.symbol(), "C3v");
     assert!(detection.notes.iter().any(|n| n.contains("Td")));
 }
 

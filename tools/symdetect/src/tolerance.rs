@@ -20,16 +20,6 @@ pub const SINGLE: f64 = ROUNDINGS * f32::EPSILON as f64;
 /// pivot or an eigenvalue that is smaller than this share of the largest one.
 pub const VANISHING: f64 = 1.0 / (1_u64 << 26) as f64;
 
-/// Angle, in radians, below which two directions are the same axis. An axis is found to about half the tolerance
-/// relative to the radius (an angle displaces images by up to twice that), which is 5e-4 by default; different axes
-/// of one body are at least pi / 1024 = 3.1e-3 apart up to the highest order tried by default. In between.
-const SAME_AXIS: f64 = 2e-3;
-
-/// Whether two unit vectors are, either way round, the direction of the same axis.
-pub fn same_axis(a: DVec3, b: DVec3) -> bool {
-    a.cross(b).length() < SAME_AXIS
-}
-
 /// Compares two directions by their components along three axes in turn, leaving out differences that rounding may
 /// have made: positive if the first has the larger component, zero for equals.
 pub fn compare_along_axes(a: DVec3, b: DVec3, axes: [DVec3; 3]) -> f64 {

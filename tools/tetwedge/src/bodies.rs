@@ -1,10 +1,7 @@
 //! Wedges made in code, for the tests.
 
 use glam::DVec3;
-use tmesh::{
-    Document, HubWall, Instance, Isometry, MirrorWall, OUTSIDE, Plane, Region, Seam, Template,
-    Triangle, Wall,
-};
+use tmesh::{Document, Gluing, Instance, Isometry, OUTSIDE, Region, Template, Triangle};
 
 /// A grid of cells in cylindrical coordinates: radii, `turns` equal steps over the wedge's angle,
 /// heights. Its surface separates cells of different regions.
@@ -163,28 +160,13 @@ impl Grid<'_> {
             v.dedup();
             v
         };
-        let walls = if self.mirror {
-            let (cos, sin) = Isometry::rotation(1, 2 * self.order).cos_sin();
+        let gluings = if self.mirror {
             [
-                ("wall-a", low, -DVec3::Y, Isometry::reflection(0, 1)),
-                (
-                    "wall-b",
-                    high,
-                    DVec3::new(-sin, cos, 0.0),
-                    Isometry::reflection(1, self.order),
-                ),
+                ("wall-a", low, Isometry::reflection(0, 1)),
+                ("wall-b", high, Isometry::reflection(1, self.order)),
             ]
-            .map(|(name, list, normal, reflection)| {
-                Wall::Mirror(MirrorWall {
-                    name: name.to_owned(),
-                    plane: Plane {
-                        normal,
-                        offset: 0.0,
-                    },
-                    reflection,
-                    vertices: vertices_of(&list),
-                    triangles: list,
-                })
+            .map(|(name, list, reflection)| {
+                Gluing::mirror(name, 0, reflection, vertices_of(&list), list)
             })
             .to_vec()
         } else {
@@ -197,19 +179,19 @@ impl Grid<'_> {
                     }
                 }
             }
-            vertex_pairs.sort_unstable();
-            vec![Wall::Seam(Seam {
-                name: "seam".to_owned(),
-                rotation: Isometry::rotation(1, self.order),
+            vec![Gluing::seam(
+                "seam",
+                0,
+                Isometry::rotation(1, self.order),
                 vertex_pairs,
-                triangle_pairs: low.iter().zip(&high).map(|(&a, &b)| [a, b]).collect(),
-            })]
+                low.iter().zip(&high).map(|(&a, &b)| [a, b]),
+            )]
         };
         Template {
             vertices,
             triangles,
             tets: Vec::new(),
-            walls,
+            gluings,
             axis: on_axis,
         }
     }
@@ -322,13 +304,15 @@ pub fn with_hub(order: u32) -> Document {
     vertex_pairs.sort_unstable();
     vertex_pairs.dedup();
     // Levels inside the shared face: the hub's triangles face the other way, so pairs match.
-    document.templates[0].walls.push(Wall::Hub(HubWall {
+    triangle_pairs.sort_unstable();
+    document.templates[0].gluings.push(Gluing {
         name: "hub".to_owned(),
         other: 1,
-        placement: Isometry::IDENTITY,
+        step: Isometry::IDENTITY,
         vertex_pairs,
         triangle_pairs,
-    }));
+    });
+    hub.gluings.iter_mut().for_each(|own| own.other = 1);
     hub.tets.clear();
     document.templates.push(hub);
     add_instances(&mut document, 1, order, true);

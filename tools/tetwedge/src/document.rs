@@ -6,7 +6,7 @@ use crate::leads::leader;
 use crate::template::{Done, Job, template};
 use mesher::{Deadline, Error, LADDER, Log, Params, Sizes};
 use rayon::prelude::*;
-use tmesh::{Document, Template, Wall};
+use tmesh::{Document, Template};
 
 /// A document that was filled, and what there is to say about it.
 pub struct Meshed {
@@ -41,7 +41,7 @@ pub fn tetrahedralize(
         let mut template = std::mem::take(&mut done[index].filled.template);
         // A follower has the new numbers already.
         if leaders[index].is_none() {
-            renumber(&mut template, &done)?;
+            renumber(index, &mut template, &done)?;
         }
         document.templates[index] = template;
     }
@@ -107,7 +107,7 @@ fn templates(
 /// What the user should know or do otherwise.
 fn advice(document: &Document, leaders: &[Option<usize>], done: &[Done]) -> Vec<String> {
     let mut advice = Vec::new();
-    let refined = document.history.iter().any(|h| h.tool == "periodic-surf");
+    let refined = document.wishes.keep_surface();
     let as_cut = |(d, lead): (&Done, &Option<usize>)| d.preserved && lead.is_none();
     if !refined && done.iter().zip(leaders).any(as_cut) {
         advice.push(
@@ -142,17 +142,17 @@ fn facts(done: &[Done]) -> Vec<String> {
     facts
 }
 
-/// Gives the second members of a template's walls to others the new numbers.
-fn renumber(template: &mut Template, done: &[Done]) -> Result<(), Error> {
-    for wall in &mut template.walls {
-        if let Wall::Hub(hub) = wall {
-            let other = &done[hub.other as usize].filled;
-            let lost = renumber_second(&mut hub.vertex_pairs, &other.vertices)
-                || renumber_second(&mut hub.triangle_pairs, &other.triangles);
+/// Gives the second members of the pairs with other templates the new numbers.
+fn renumber(index: usize, template: &mut Template, done: &[Done]) -> Result<(), Error> {
+    for gluing in &mut template.gluings {
+        if let Some(other) = gluing.other_than(index) {
+            let filled = &done[other].filled;
+            let lost = renumber_second(&mut gluing.vertex_pairs, &filled.vertices)
+                || renumber_second(&mut gluing.triangle_pairs, &filled.triangles);
             if lost {
                 return Err(Error::Unusable {
-                    template: hub.other as usize,
-                    what: format!("it lost a part of wall '{}'", hub.name),
+                    template: other,
+                    what: format!("it lost a part of wall '{}'", gluing.name),
                 });
             }
         }

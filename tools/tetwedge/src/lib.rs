@@ -5,7 +5,6 @@
 //! face. Seams and faces shared with another template are preserved. Afterwards every wall, volume
 //! and orientation is checked again.
 
-mod check;
 mod cli;
 mod document;
 mod fill;
@@ -13,7 +12,6 @@ mod follow;
 mod judge;
 mod leads;
 mod template;
-mod walls;
 
 pub use cli::Cli;
 pub use document::{Meshed, tetrahedralize};

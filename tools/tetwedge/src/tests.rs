@@ -10,7 +10,7 @@ use mesher::{
 };
 use periodic_surf::failure;
 use std::time::Duration;
-use tmesh::{Document, OUTSIDE, Template, Wall, validate};
+use tmesh::{Document, OUTSIDE, Template, validate};
 
 fn mesh(document: Document, params: &Params) -> Result<Document, Error> {
     assert_eq!(validate(&document), []);
@@ -44,7 +44,8 @@ fn volume(template: &Template, region: u32) -> f64 {
 fn check(before: &Document, after: &Document) {
     assert_eq!(validate(after), []);
     assert_eq!(before.instances, after.instances);
-    for (old, new) in before.templates.iter().zip(&after.templates) {
+    let templates = before.templates.iter().zip(&after.templates);
+    for (index, (old, new)) in templates.enumerate() {
         assert!(!new.tets.is_empty());
         for t in &new.tets {
             let [a, b, c, d] = t.vertices.map(|v| new.vertices[v as usize]);
@@ -71,21 +72,21 @@ fn check(before: &Document, after: &Document) {
             assert!(!corner || new.vertices[v] == old.vertices[v], "{v}");
         }
         // Exactly the vertices on a wall's plane are on the wall; the same for the axis.
-        for wall in &new.walls {
-            if let Wall::Mirror(m) = wall {
+        for m in &new.gluings {
+            if let Some(plane) = m.mirror_plane(index) {
                 let extent = new
                     .vertices
                     .iter()
                     .fold(0.0_f64, |e, p| e.max(p.abs().max_element()));
                 for (v, &p) in new.vertices.iter().enumerate() {
-                    let listed = m.vertices.binary_search(&(v as u32)).is_ok();
-                    let near = m.plane.distance(p).abs() <= 1e-13 * extent;
+                    let listed = m.vertex_pairs.binary_search(&[v as u32; 2]).is_ok();
+                    let near = plane.distance(p).abs() <= 1e-13 * extent;
                     // The two walls of a half space lie in one plane.
-                    if m.reflection.n() > 1 || after.instances.len() > 2 {
+                    if m.step.n() > 1 || after.instances.len() > 2 {
                         assert_eq!(listed, near, "vertex {v} at {p} and {}", m.name);
                     }
                     assert!(near || !listed);
-                    if m.reflection.k() == 0 && listed {
+                    if m.step.k() == 0 && listed {
                         assert_eq!(p.y, 0.0);
                     }
                 }
@@ -278,24 +279,15 @@ fn seams_are_preserved() {
         let done = tetrahedralize(before.clone(), &sized(1e-3), &|_| ()).unwrap();
         assert!(done.advice[0].contains("periodic-surf"));
         check(&before, &done.document);
-        let (Wall::Seam(old), Wall::Seam(new)) = (
-            &before.templates[0].walls[0],
-            &done.document.templates[0].walls[0],
-        ) else {
-            panic!("no seam");
-        };
+        let (old, new) = (
+            &before.templates[0].gluings[0],
+            &done.document.templates[0].gluings[0],
+        );
         assert_eq!(old.vertex_pairs, new.vertex_pairs);
         assert_eq!(old.triangle_pairs.len(), new.triangle_pairs.len());
+        // Whoever settles the surface says so.
         let mut refined = before;
-        let mut entry = tmesh::HistoryEntry {
-            tool: "periodic-surf".to_owned(),
-            version: String::new(),
-            arguments: Vec::new(),
-            notes: Vec::new(),
-        };
-        refined.history.push(entry.clone());
-        entry.tool = "tetwedge".to_owned();
-        refined.history.push(entry);
+        refined.wishes.keep_surface = Some(true);
         let done = tetrahedralize(refined, &sized(1e-3), &|_| ()).unwrap();
         assert!(done.advice.is_empty());
     }
@@ -312,9 +304,7 @@ fn faces_between_templates_are_refined_alike() {
     });
     assert_eq!(one.templates, four.templates);
     for done in [one, four] {
-        let Wall::Hub(hub) = &done.templates[0].walls[2] else {
-            panic!("no hub wall");
-        };
+        let hub = &done.templates[0].gluings[2];
         assert!(hub.triangle_pairs.len() > 8);
         assert!(tmesh::validate(&done).is_empty());
     }
@@ -341,13 +331,11 @@ fn any_scale_gives_the_same_mesh() {
             *p *= scale;
         }
         // Scaling rounds: put the high face back onto the image of the low one.
-        let Wall::Seam(seam) = document.templates[0].walls[0].clone() else {
-            panic!("no seam");
-        };
-        for [a, b] in seam.vertex_pairs {
-            document.templates[0].vertices[b as usize] = seam
-                .rotation
-                .apply(document.templates[0].vertices[a as usize]);
+        let seam = document.templates[0].gluings[0].clone();
+        for [high, low] in seam.vertex_pairs {
+            document.templates[0].vertices[high as usize] = seam
+                .step
+                .apply(document.templates[0].vertices[low as usize]);
         }
         mesh(document, &sized(1e-3 * scale * scale * scale)).unwrap();
     }
@@ -384,7 +372,7 @@ fn open_surfaces_are_refused() {
         .position(|t| t.marker == LEVEL)
         .unwrap();
     document.templates[0].triangles.remove(removed);
-    document.templates[0].walls.clear();
+    document.templates[0].gluings.clear();
     let error = tetrahedralize(document, &sized(0.01), &|_| ())
         .err()
         .unwrap();
@@ -417,7 +405,7 @@ fn inconsistent_regions_are_refused() {
 
     let mut document = prism(6);
     document.templates[0].triangles.clear();
-    document.templates[0].walls.clear();
+    document.templates[0].gluings.clear();
     let error = tetrahedralize(document, &sized(0.01), &|_| ())
         .err()
         .unwrap();

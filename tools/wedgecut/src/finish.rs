@@ -1,14 +1,14 @@
 //! From the clipped surface and its caps to the wedge template.
 
 use crate::error::CutError;
-use crate::opening::{Class, Opening, Side};
+use crate::opening::{Class, Side};
 use crate::plan::Plan;
 use crate::seam::Matched;
 use crate::surface::Surface;
 use geom::edges::Edges;
 use glam::DVec3;
 use std::ops::Range;
-use tmesh::{Frame, Isometry, MirrorWall, Plane, Seam, Template, Triangle, Wall};
+use tmesh::{Frame, Gluing, Isometry, Template, Triangle};
 
 /// A wedge, and what the hub has to know about it.
 pub struct Wedge {
@@ -40,8 +40,6 @@ pub struct Caps {
 pub struct Context<'a> {
     /// The copies.
     pub plan: &'a Plan,
-    /// The planes.
-    pub opening: &'a Opening,
     /// Where the input is.
     pub frame: &'a Frame,
 }
@@ -58,11 +56,7 @@ pub fn mirror_wedge(
     hub: &[Triangle],
     context: &Context<'_>,
 ) -> Result<Wedge, CutError> {
-    let Context {
-        plan,
-        opening,
-        frame,
-    } = *context;
+    let Context { plan, frame } = *context;
     let sides = caps.sides.iter();
     let ranges: Vec<Range<u32>> = sides.map(|cap| append(&mut faces, cap)).collect();
     let level = caps.level.as_ref().map(|cap| append(&mut faces, cap));
@@ -76,10 +70,10 @@ pub fn mirror_wedge(
             Side::A => Isometry::reflection(0, 1),
             _ => Isometry::reflection(1, plan.order),
         };
-        mirror_wall(&mut wedge, opening, side, reflection, range);
+        mirror_wall(&mut wedge, side, reflection, range);
     }
     if let Some(range) = level {
-        mirror_wall(&mut wedge, opening, Side::Level, LEVEL, range);
+        mirror_wall(&mut wedge, Side::Level, LEVEL, range);
     }
     Ok(wedge)
 }
@@ -87,31 +81,16 @@ pub fn mirror_wedge(
 /// Reflection in the plane z = 0.
 pub const LEVEL: Isometry = Isometry::FLIP;
 
-fn mirror_wall(
-    wedge: &mut Wedge,
-    opening: &Opening,
-    side: Side,
-    reflection: Isometry,
-    triangles: Range<u32>,
-) {
+fn mirror_wall(wedge: &mut Wedge, side: Side, reflection: Isometry, triangles: Range<u32>) {
     let name = match side {
         Side::A => "wall-a",
         Side::B => "wall-b",
         Side::Level | Side::Hub => LEVEL_WALL,
     };
-    let vertices = (0..wedge.classes.len() as u32)
-        .filter(|&v| wedge.classes[v as usize].of(side) == 0)
-        .collect();
-    wedge.template.walls.push(Wall::Mirror(MirrorWall {
-        name: name.to_owned(),
-        plane: Plane {
-            normal: -opening.inward(side),
-            offset: 0.0,
-        },
-        reflection,
-        vertices,
-        triangles: triangles.collect(),
-    }));
+    let on = |v: &u32| wedge.classes[*v as usize].of(side) == 0;
+    let vertices = (0..wedge.classes.len() as u32).filter(on);
+    let gluing = Gluing::mirror(name, 0, reflection, vertices, triangles);
+    wedge.template.gluings.push(gluing);
 }
 
 fn append(faces: &mut Vec<Triangle>, cap: &[Triangle]) -> Range<u32> {
@@ -130,11 +109,7 @@ pub fn rotation_wedge(
     matched: &Matched,
     context: &Context<'_>,
 ) -> Result<Wedge, CutError> {
-    let Context {
-        plan,
-        opening,
-        frame,
-    } = *context;
+    let Context { plan, frame } = *context;
     let cap = &caps.sides[0];
     let partner = |v: u32| {
         let i = matched.pairs.binary_search_by_key(&v, |p| p[0]);
@@ -159,21 +134,21 @@ pub fn rotation_wedge(
         ..compact(surface, faces, frame)?
     };
     let new = |v: u32| wedge.renumbered[v as usize];
-    let mut vertex_pairs: Vec<[u32; 2]> = matched
+    let vertex_pairs = matched
         .pairs
         .iter()
         .map(|&[v, w]| [new(v), new(w)])
-        .filter(|pair| !pair.contains(&u32::MAX))
-        .collect();
-    vertex_pairs.sort_unstable();
-    wedge.template.walls.push(Wall::Seam(Seam {
-        name: "seam".to_owned(),
-        rotation: Isometry::rotation(1, plan.order),
+        .filter(|pair| !pair.contains(&u32::MAX));
+    let seam = Gluing::seam(
+        "seam",
+        0,
+        Isometry::rotation(1, plan.order),
         vertex_pairs,
-        triangle_pairs: low.zip(high).map(|(a, b)| [a, b]).collect(),
-    }));
+        low.zip(high).map(|(a, b)| [a, b]),
+    );
+    wedge.template.gluings.push(seam);
     if let Some(range) = level {
-        mirror_wall(&mut wedge, opening, Side::Level, LEVEL, range);
+        mirror_wall(&mut wedge, Side::Level, LEVEL, range);
     }
     Ok(wedge)
 }

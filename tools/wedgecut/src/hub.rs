@@ -14,9 +14,7 @@ use crate::surface::Surface;
 use geom::fan::{Fan, Joint, Lies};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tmesh::{
-    Frame, HubWall, Isometry, MirrorWall, Plane, RegionMap, Seam, Template, Triangle, Wall,
-};
+use tmesh::{Frame, Gluing, Isometry, RegionMap, Template, Triangle};
 
 /// The part of the wedge in front of the hub's plane.
 pub struct Inner<'a> {
@@ -56,21 +54,21 @@ pub fn unite(
         joint: Joint::default(),
         template: Template::default(),
     };
+    let mut hub_walls = Vec::new();
     for j in 0..fan.images() {
         let wall = maker.add_image(j, wedge, plan.regions_of(fan.image(j)));
-        maker.template.walls.push(Wall::Hub(wall));
+        hub_walls.push(wall);
     }
-    let hub_walls = std::mem::take(&mut maker.template.walls);
     maker.close(plan, hub);
     if let Some(level) = inner.level {
         let mut triangles = Vec::new();
         for j in 0..fan.images() {
             triangles.extend(maker.side(level, j, plan));
         }
-        maker.mirror_wall(LEVEL_WALL, -DVec3::Z, LEVEL, triangles);
+        maker.mirror_wall(LEVEL_WALL, LEVEL, triangles);
     }
     let mut template = maker.template;
-    template.walls.extend(hub_walls);
+    template.gluings.extend(hub_walls);
     template.axis.sort_unstable();
     check_closed(&template.vertices, &template.triangles, frame)?;
     Ok(template)
@@ -151,7 +149,7 @@ impl Maker<'_> {
     }
 
     /// Adds image `j` without the sides; returns its wall towards the wedge.
-    fn add_image(&mut self, j: u32, wedge: &Wedge, regions: Option<&RegionMap>) -> HubWall {
+    fn add_image(&mut self, j: u32, wedge: &Wedge, regions: Option<&RegionMap>) -> Gluing {
         let inner = self.inner;
         for t in inner.faces {
             self.triangle(t, j, regions);
@@ -171,10 +169,10 @@ impl Maker<'_> {
         }
         vertex_pairs.sort_unstable();
         vertex_pairs.dedup();
-        HubWall {
+        Gluing {
             name: format!("hub-{j}"),
             other: 0,
-            placement: self.fan.image(j),
+            step: self.fan.image(j),
             vertex_pairs,
             triangle_pairs,
         }
@@ -212,12 +210,13 @@ impl Maker<'_> {
             vertex_pairs.extend(self.template.axis.iter().map(|&v| [v, v]));
             vertex_pairs.sort_unstable();
             vertex_pairs.dedup();
-            self.template.walls.push(Wall::Seam(Seam {
-                name: "seam".to_owned(),
-                rotation: Isometry::rotation(1, hub.order),
+            self.template.gluings.push(Gluing::seam(
+                "seam",
+                1,
+                Isometry::rotation(1, hub.order),
                 vertex_pairs,
-                triangle_pairs: low.into_iter().zip(high).map(|(a, b)| [a, b]).collect(),
-            }));
+                low.into_iter().zip(high).map(|(a, b)| [a, b]),
+            ));
             return;
         }
         // The last image is turned or reflected: which of the wedge's sides is at its end?
@@ -229,13 +228,10 @@ impl Maker<'_> {
         let high = self.side(far, last, plan);
         if hub.order == 1 {
             let both = [low, high].concat();
-            self.mirror_wall("wall-a", -DVec3::Y, Isometry::reflection(0, 1), both);
+            self.mirror_wall("wall-a", Isometry::reflection(0, 1), both);
         } else {
-            let (cos, sin) = Isometry::rotation(1, 2 * hub.order).cos_sin();
-            let normal = DVec3::new(-sin, cos, 0.0);
-            self.mirror_wall("wall-a", -DVec3::Y, Isometry::reflection(0, 1), low);
-            let reflection = Isometry::reflection(1, hub.order);
-            self.mirror_wall("wall-b", normal, reflection, high);
+            self.mirror_wall("wall-a", Isometry::reflection(0, 1), low);
+            self.mirror_wall("wall-b", Isometry::reflection(1, hub.order), high);
         }
     }
 
@@ -244,13 +240,7 @@ impl Maker<'_> {
         cap.iter().map(|t| self.triangle(t, j, regions)).collect()
     }
 
-    fn mirror_wall(
-        &mut self,
-        name: &str,
-        normal: DVec3,
-        reflection: Isometry,
-        triangles: Vec<u32>,
-    ) {
+    fn mirror_wall(&mut self, name: &str, reflection: Isometry, mut triangles: Vec<u32>) {
         let template = &self.template;
         let corners = |&t: &u32| template.triangles[t as usize].vertices;
         let mut vertices: Vec<u32> = triangles.iter().flat_map(corners).collect();
@@ -259,15 +249,8 @@ impl Maker<'_> {
         }
         vertices.sort_unstable();
         vertices.dedup();
-        self.template.walls.push(Wall::Mirror(MirrorWall {
-            name: name.to_owned(),
-            plane: Plane {
-                normal,
-                offset: 0.0,
-            },
-            reflection,
-            vertices,
-            triangles,
-        }));
+        triangles.sort_unstable();
+        let gluing = Gluing::mirror(name, 1, reflection, vertices, triangles);
+        self.template.gluings.push(gluing);
     }
 }

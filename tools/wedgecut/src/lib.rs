@@ -41,7 +41,7 @@ use plan::{HubPlan, Plan};
 use section::{Borders, Extent, Section};
 use std::collections::BTreeMap;
 use surface::Surface;
-use tmesh::{Document, Frame, Region, Source, Symmetry, Template, Triangle, Wall};
+use tmesh::{Document, Frame, Region, Source, Symmetry, Template, Triangle};
 
 /// Multiple of the input's precision within which values count as equal: rotation into the axis
 /// frame adds up three coordinates' errors, and the axis has an error of its own.
@@ -105,7 +105,7 @@ pub fn cut(document: Document, params: &Params) -> Result<(Document, Report), Cu
         None => orders(&symmetry, params, plan.mirror),
     };
     let (first, report) = loop {
-        let order = orders.pop().unwrap_or(symmetry.order);
+        let order = orders.pop().unwrap_or(symmetry.group.order);
         let with = Params {
             order: Some(order),
             ..params.clone()
@@ -221,12 +221,12 @@ fn cut_as_chosen(
 fn orders(symmetry: &Symmetry, params: &Params, mirror: bool) -> Vec<u32> {
     // A mesh without symmetry is not what a symmetric body is cut for.
     let least = match params.hub {
-        _ if symmetry.order == 1 => 1,
+        _ if symmetry.group.order == 1 => 1,
         Hub::Radius(_) => plan::HUB_LEAST_ORDER,
         _ if mirror => 1,
         _ => 2,
     };
-    let mut orders = plan::divisors(symmetry.order);
+    let mut orders = plan::divisors(symmetry.group.order);
     orders.retain(|&n| n >= least);
     orders
 }
@@ -246,7 +246,8 @@ fn choose(
     params: &Params,
     uncut: &Uncut,
 ) -> Option<(Choice, String)> {
-    let mirror = matches!(wedge.templates[0].walls.first(), Some(Wall::Mirror(_)));
+    let first = wedge.templates[0].gluings.first();
+    let mirror = first.is_some_and(|gluing| gluing.is_mirror(0));
     let max_volume = |region: u32| params.max_volume_of(&wedge.regions, region);
     let mut orders = match params.order {
         Some(order) => vec![order],
@@ -258,7 +259,7 @@ fn choose(
         DVec3::from(symmetry.axis.point),
         DVec3::from(symmetry.axis.direction),
     );
-    let level = params.level && symmetry.horizontal_mirror && keeps_names;
+    let level = params.level && symmetry.group.has_horizontal_mirror() && keeps_names;
     let levels: &[bool] = if level { &[false, true] } else { &[false] };
     let harm = report.harm;
     let cut = |order: u32, across: bool| {
@@ -319,7 +320,7 @@ fn choose(
         "order {} of {}{}: the fastest that costs few elements; estimated elements over those of the whole body by \
          order: {}",
         cuts[choice.cut].order,
-        symmetry.order,
+        symmetry.group.order,
         planes(&choice),
         list.join(", "),
     );
@@ -617,7 +618,7 @@ fn places(
     let body = &document.templates[0];
     let axis = DVec3::from(symmetry.axis.direction);
     let origin = DVec3::from(symmetry.axis.point);
-    let reference = DVec3::from(symmetry.mirror_direction);
+    let reference = DVec3::from(symmetry.reference);
     let bad = || CutError::BadAxis(axis.x, axis.y, axis.z);
     let base = Frame::from_axis(origin, axis, reference)
         .filter(|f| f.rotation.is_finite() && f.origin.is_finite())
@@ -628,11 +629,11 @@ fn places(
     };
     let mut warning = None;
     let angles = if plan.mirror {
-        let step = std::f64::consts::PI / f64::from(symmetry.order);
+        let step = std::f64::consts::PI / f64::from(symmetry.group.order);
         // Both walls are images of the same mirror plane, and there are others to choose, unless they rename
         // regions differently.
-        let choice =
-            (symmetry.order / plan.order).is_multiple_of(2) && symmetry.rotation_regions.is_empty();
+        let choice = (symmetry.group.order / plan.order).is_multiple_of(2)
+            && symmetry.rotation_regions().pairs.is_empty();
         let angle = params.start_angle.unwrap_or_else(|| {
             if !choice {
                 return 0.0;
@@ -730,11 +731,7 @@ impl Cutter<'_> {
             .with_axis(tolerances.axis)
             .with_hub(plane)
             .with_level(plan.level);
-        let context = finish::Context {
-            plan,
-            opening: &opening,
-            frame,
-        };
+        let context = finish::Context { plan, frame };
         let mut surface = Surface::new(
             body.vertices,
             body.triangles,

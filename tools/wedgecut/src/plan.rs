@@ -123,7 +123,7 @@ impl Plan {
     /// # Errors
     /// An order that does not divide the order found; mirror walls without mirror planes.
     pub fn new(symmetry: &Symmetry, params: &Params, level: bool) -> Result<Self, CutError> {
-        let found = symmetry.order;
+        let found = symmetry.group.order;
         let order = params.order.unwrap_or(found);
         if order == 0 || !found.is_multiple_of(order) {
             let divisors: Vec<_> = divisors(found).iter().map(u32::to_string).collect();
@@ -140,10 +140,10 @@ impl Plan {
             });
         }
         let mirror = match params.domain {
-            Domain::Auto => symmetry.mirror,
+            Domain::Auto => symmetry.group.has_vertical_mirrors(),
             Domain::Rotation => false,
-            Domain::Mirror if symmetry.mirror => true,
-            Domain::Mirror => return Err(CutError::NoMirror(symmetry.group.clone())),
+            Domain::Mirror if symmetry.group.has_vertical_mirrors() => true,
+            Domain::Mirror => return Err(CutError::NoMirror(symmetry.group.symbol())),
         };
         let opening = Isometry::rotation(1, if mirror { 2 * order } else { order });
         let mut plan = Self {
@@ -218,8 +218,7 @@ impl Plan {
     }
 
     fn add_instances(&mut self, symmetry: &Symmetry) {
-        let step = symmetry.order / self.order;
-        let regions = Permutations::new(symmetry);
+        let step = symmetry.group.order / self.order;
         let list = [(false, false), (true, false), (false, true), (true, true)];
         for k in 0..self.order {
             for (mirrored, flipped) in list {
@@ -228,14 +227,15 @@ impl Plan {
                 }
                 // The reflection in the first side is that in the plane along x, then steps of the rotation.
                 let first = match mirrored {
-                    true => self.first_plane.rem_euclid(i64::from(symmetry.order)) as u32,
+                    true => self.first_plane.rem_euclid(i64::from(symmetry.group.order)) as u32,
                     false => 0,
                 };
-                let pairs = regions.of(k * step + first, mirrored, flipped);
-                let region_map = if pairs.is_empty() {
+                let turn = i64::from(k * step + first);
+                let element = Isometry::new(turn, symmetry.group.order, mirrored, flipped);
+                let map = symmetry.region_map(element);
+                let region_map = if map.pairs.is_empty() {
                     0
                 } else {
-                    let map = RegionMap { pairs };
                     let at = self.region_maps.iter().position(|m| *m == map);
                     1 + at.unwrap_or_else(|| {
                         self.region_maps.push(map);
@@ -250,60 +250,6 @@ impl Plan {
                 });
             }
         }
-    }
-}
-
-/// How group elements rename regions.
-struct Permutations {
-    rotation: RegionMap,
-    mirror: RegionMap,
-    flip: RegionMap,
-    ids: Vec<u32>,
-}
-
-impl Permutations {
-    fn new(symmetry: &Symmetry) -> Self {
-        let map = |pairs: &[[u32; 2]]| {
-            let mut pairs = pairs.to_vec();
-            pairs.sort_unstable();
-            RegionMap { pairs }
-        };
-        let (rotation, mirror, flip) = (
-            map(&symmetry.rotation_regions),
-            map(&symmetry.mirror_regions),
-            map(&symmetry.horizontal_regions),
-        );
-        let mut ids: Vec<u32> = [&rotation, &mirror, &flip]
-            .into_iter()
-            .flat_map(|map| &map.pairs)
-            .map(|p| p[0])
-            .collect();
-        ids.sort_unstable();
-        ids.dedup();
-        Self {
-            rotation,
-            mirror,
-            flip,
-            ids,
-        }
-    }
-
-    /// Renaming by `R^steps M^mirrored`, pairs of ids that change.
-    fn of(&self, steps: u32, mirrored: bool, flipped: bool) -> Vec<[u32; 2]> {
-        let image = |id: u32| {
-            let start = if flipped { self.flip.get(id) } else { id };
-            let start = if mirrored {
-                self.mirror.get(start)
-            } else {
-                start
-            };
-            (0..steps).fold(start, |id, _| self.rotation.get(id))
-        };
-        self.ids
-            .iter()
-            .map(|&id| [id, image(id)])
-            .filter(|p| p[0] != p[1])
-            .collect()
     }
 }
 

@@ -3,7 +3,8 @@
 use crate::{CutError, Domain, Params, Report};
 use glam::{DMat3, DVec3};
 use tmesh::{
-    Axis, Document, Marker, OUTSIDE, Region, Source, Symmetry, Template, Triangle, Wall, validate,
+    Axis, Document, Group, Kind, Marker, OUTSIDE, Region, Source, Symmetry, Template, Triangle,
+    validate,
 };
 
 const DEFAULT: Params = Params {
@@ -21,7 +22,7 @@ const DEFAULT: Params = Params {
 
 /// Cuts at the order found unless the parameters have another.
 fn cut(document: Document, params: &Params) -> Result<(Document, Report), CutError> {
-    let found = document.symmetry.as_ref().map(|s| s.order);
+    let found = document.symmetry.as_ref().map(|s| s.group.order);
     let params = Params {
         order: params.order.or(found),
         ..params.clone()
@@ -184,25 +185,17 @@ impl Body {
             precision: 1e-15 * scale,
         });
         document.symmetry = Some(Symmetry {
-            group: format!("C{}{}", group.0, if group.1 { "v" } else { "" }),
-            order: group.0,
-            mirror: group.1,
-            horizontal_mirror: false,
+            group: Group::new(if group.1 { Kind::Cv } else { Kind::C }, group.0),
             axis: Axis {
                 point: (shift * scale).to_array(),
                 direction: rotation.z_axis.to_array(),
             },
-            mirror_direction: rotation.x_axis.to_array(),
+            reference: rotation.x_axis.to_array(),
             residual: 1e-14,
             tolerance: 1e-3,
             axisymmetric: false,
             radius: scale,
-            other_axes: Vec::new(),
-            rejected: Vec::new(),
-            rotation_regions: Vec::new(),
-            mirror_regions: Vec::new(),
-            horizontal_regions: Vec::new(),
-            promise: None,
+            regions: Vec::new(),
         });
         document
     }
@@ -309,9 +302,10 @@ fn seams_of_chiral_bodies() {
                 let body = Body::ratchet(n, bore).document((n as u32, false), place, 1.0);
                 let wedge = check(&body, &DEFAULT, n);
                 let t = &wedge.templates[0];
-                let [Wall::Seam(seam)] = &t.walls[..] else {
+                let [seam] = &t.gluings[..] else {
                     panic!("one seam")
                 };
+                assert!(seam.is_seam(0));
                 assert!(!seam.triangle_pairs.is_empty());
                 let fixed = seam.vertex_pairs.iter().filter(|p| p[0] == p[1]).count();
                 assert_eq!(fixed, if bore { 0 } else { 2 });
@@ -389,8 +383,7 @@ fn wrong_documents_are_refused() {
     // Stated order 5 on a hexagon: the sections or the volume give it away.
     let mut wrong = body;
     let symmetry = wrong.symmetry.as_mut().unwrap();
-    symmetry.order = 5;
-    symmetry.mirror = false;
+    symmetry.group = Group::new(Kind::C, 5);
     assert!(cut(wrong, &DEFAULT).is_err());
 }
 
@@ -471,7 +464,7 @@ fn sections_with_different_points_are_reconciled() {
 fn a_body_without_symmetry_passes_whole() {
     let body = single_precision(Body::ratchet(5, true).document((1, false), Some(2), 1.0));
     let whole = check_to(&body, &DEFAULT, 1, 1e-4);
-    assert!(whole.templates[0].walls.is_empty());
+    assert!(whole.templates[0].gluings.is_empty());
     assert_eq!(
         whole.templates[0].triangles.len(),
         body.templates[0].triangles.len()

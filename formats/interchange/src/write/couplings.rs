@@ -4,7 +4,7 @@ use super::plain::WallNames;
 use crate::{Coupling, Middles};
 use glam::{DMat3, DVec3};
 use rustc_hash::FxHashSet;
-use tmesh::{Document, Isometry, Wall};
+use tmesh::{Document, Isometry};
 
 /// The couplings of all seams and hubs. Template `t` is placed by `shown[t]`, its points begin at
 /// `first[t]`. Seams of several templates with the same faces are one coupling.
@@ -18,54 +18,41 @@ pub fn couplings(document: &Document, shown: &[Isometry], first: &[u32]) -> Vec<
         count += template.triangles.len() as u64;
     }
     for (t, template) in document.templates.iter().enumerate() {
-        for wall in &template.walls {
-            let faces = names.of(t, wall);
-            match wall {
-                Wall::Mirror(_) => {}
-                Wall::Seam(seam) => {
-                    let turn = shown[t].compose(seam.rotation).compose(shown[t].inverse());
-                    let (point, triangle) = (first[t], first_triangle[t]);
-                    let points = seam.vertex_pairs.iter().map(|p| p.map(|v| point + v));
-                    let triangles = seam
-                        .triangle_pairs
-                        .iter()
-                        .map(|p| p.map(|i| triangle + u64::from(i)));
-                    let same = all.iter().position(|c| [c.low, c.high] == faces);
-                    let at = same.unwrap_or_else(|| {
-                        all.push(coupling(document, &seam.name, faces, turn));
-                        all.len() - 1
-                    });
-                    all[at].points.extend(points);
-                    all[at].triangles.extend(triangles);
-                }
-                Wall::Hub(hub) => {
-                    let other = hub.other as usize;
-                    let turn = shown[t]
-                        .compose(hub.placement)
-                        .compose(shown[other].inverse());
-                    let pairs = hub.triangle_pairs.iter();
-                    let mut points: Vec<[u32; 2]> = hub
-                        .vertex_pairs
-                        .iter()
-                        .map(|&[here, there]| [first[other] + there, first[t] + here])
-                        .collect();
-                    points.sort_unstable();
-                    all.push(Coupling {
-                        points,
-                        triangles: pairs
-                            .map(|&[here, there]| {
-                                [
-                                    first_triangle[other] + u64::from(there),
-                                    first_triangle[t] + u64::from(here),
-                                ]
-                            })
-                            .collect(),
-                        sectors: None,
-                        ..coupling(document, &hub.name, faces, turn)
-                    });
-                }
+        for gluing in &template.gluings {
+            let faces = names.of(t, gluing);
+            if gluing.is_mirror(t) {
+                continue;
             }
+            let other = gluing.other as usize;
+            let turn = shown[t]
+                .compose(gluing.step)
+                .compose(shown[other].inverse());
+            let points = gluing
+                .vertex_pairs
+                .iter()
+                .map(|&[here, there]| [first[other] + there, first[t] + here]);
+            let triangles = gluing.triangle_pairs.iter().map(|&[here, there]| {
+                [
+                    first_triangle[other] + u64::from(there),
+                    first_triangle[t] + u64::from(here),
+                ]
+            });
+            // Faces of several templates that have one name are one face, but for those of hubs.
+            let own = gluing.is_seam(t);
+            let same = all.iter().position(|c| [c.low, c.high] == faces && own);
+            let at = same.unwrap_or_else(|| {
+                let mut coupling = coupling(document, &gluing.name, faces, turn);
+                coupling.sectors = coupling.sectors.filter(|_| own);
+                all.push(coupling);
+                all.len() - 1
+            });
+            all[at].points.extend(points);
+            all[at].triangles.extend(triangles);
         }
+    }
+    for coupling in &mut all {
+        coupling.points.sort_unstable();
+        coupling.triangles.sort_unstable();
     }
     all
 }

@@ -137,9 +137,7 @@ pub fn write_document(
 #[cfg(test)]
 fn test_document() -> Document {
     use glam::DVec3;
-    use tmesh::{
-        Isometry, Marker, MirrorWall, OUTSIDE, Plane, Region, Template, Tet, Triangle, Wall,
-    };
+    use tmesh::{Gluing, Isometry, Marker, OUTSIDE, Region, Template, Tet, Triangle};
     let triangle = |vertices, marker| Triangle {
         vertices,
         marker,
@@ -158,16 +156,7 @@ fn test_document() -> Document {
             vertices: [0, 1, 2, 3],
             region: 7,
         }],
-        walls: vec![Wall::Mirror(MirrorWall {
-            name: "floor".to_owned(),
-            plane: Plane {
-                normal: -DVec3::Z,
-                offset: 0.0,
-            },
-            reflection: Isometry::new(0, 1, false, true),
-            vertices: vec![0, 1, 2],
-            triangles: vec![0],
-        })],
+        gluings: vec![Gluing::mirror("floor", 0, Isometry::FLIP, [0, 1, 2], [0])],
         axis: vec![0, 3],
     });
     document.frame.origin = DVec3::X;

@@ -13,7 +13,7 @@ use glam::DVec3;
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use tmesh::{Document, Instance, Isometry, Marker, OUTSIDE, Region, Wall};
+use tmesh::{Document, Gluing, Instance, Isometry, Marker, OUTSIDE, Region};
 
 /// Elements per block.
 const BLOCK: usize = 8192;
@@ -216,27 +216,13 @@ fn label_walls(document: &Document) -> (Vec<String>, Vec<Vec<u32>>) {
         .collect();
     let mut names = WallNames::default();
     for (t, template) in document.templates.iter().enumerate() {
-        for wall in &template.walls {
-            let [low, high] = names.of(t, wall).map(|label| label + 1);
-            match wall {
-                Wall::Mirror(w) => {
-                    w.triangles
-                        .iter()
-                        .for_each(|&i| labels[t][i as usize] = low);
-                }
-                Wall::Seam(w) => {
-                    for &[a, b] in &w.triangle_pairs {
-                        labels[t][a as usize] = low;
-                        labels[t][b as usize] = high;
-                    }
-                }
-                Wall::Hub(w) => {
-                    // The face as each of the two templates sees it.
-                    for &[here, there] in &w.triangle_pairs {
-                        labels[t][here as usize] = low;
-                        labels[w.other as usize][there as usize] = low;
-                    }
-                }
+        for gluing in &template.gluings {
+            let [there, here] = names.of(t, gluing).map(|label| label + 1);
+            // The face of another template as each of the two templates sees it.
+            let other = gluing.other as usize;
+            for &[i, j] in &gluing.triangle_pairs {
+                labels[other][j as usize] = there;
+                labels[t][i as usize] = here;
             }
         }
     }
@@ -248,10 +234,10 @@ fn wall_normals(document: &Document, shown: &[Isometry], count: usize) -> Vec<Op
     let mut normals = vec![None; count];
     let mut names = WallNames::default();
     for (t, template) in document.templates.iter().enumerate() {
-        for wall in &template.walls {
-            let [at, _] = names.of(t, wall);
-            if let Wall::Mirror(mirror) = wall {
-                let placed = shown[t].matrix() * mirror.plane.normal;
+        for gluing in &template.gluings {
+            let [at, _] = names.of(t, gluing);
+            if let Some(plane) = gluing.mirror_plane(t) {
+                let placed = shown[t].matrix() * plane.normal;
                 normals[at as usize] = Some((document.frame.rotation * placed).normalize());
             }
         }
@@ -268,26 +254,26 @@ pub struct WallNames {
 }
 
 impl WallNames {
-    /// Positions among the names of the low and the high face of a wall, which are the same for all
-    /// but seams. To be asked for all walls of all templates in order.
-    pub fn of(&mut self, template: usize, wall: &Wall) -> [u32; 2] {
-        // Hub walls of different templates are different faces.
-        let (isometry, owner) = match wall {
-            Wall::Mirror(w) => (w.reflection, 0),
-            Wall::Seam(w) => (w.rotation, 0),
-            Wall::Hub(w) => (w.placement, template as u32 + 1),
+    /// Positions among the names of the face there and the face here, which are the same for all but
+    /// seams. To be asked for all gluings of all templates in order.
+    pub fn of(&mut self, template: usize, gluing: &Gluing) -> [u32; 2] {
+        // Faces of other templates that are listed by different ones are different faces.
+        let owner = match gluing.other_than(template) {
+            Some(_) => template as u32 + 1,
+            None => 0,
         };
-        let faces = match wall {
-            Wall::Seam(w) => {
-                let base = if w.name == "seam" { "wall" } else { &w.name };
+        let name = &gluing.name;
+        let faces = match gluing.is_seam(template) {
+            true => {
+                let base = if name == "seam" { "wall" } else { name };
                 [format!("{base}-a"), format!("{base}-b")]
             }
-            other => [other.name().to_owned(), other.name().to_owned()],
+            false => [name.clone(), name.clone()],
         };
         faces.map(|name| {
             *self
                 .known
-                .entry((name.clone(), isometry, owner))
+                .entry((name.clone(), gluing.step, owner))
                 .or_insert_with(|| {
                     let mut unique = name.clone();
                     let mut number = template + 1;

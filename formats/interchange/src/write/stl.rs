@@ -130,7 +130,7 @@ mod tests {
     fn no_surface_is_an_error() {
         let mut document = test_document();
         document.templates[0].triangles.clear();
-        document.templates[0].walls.clear();
+        document.templates[0].gluings.clear();
         let plain = Plain::new(&document).unwrap();
         let mut bytes = Vec::new();
         let error = write(&plain, Surface::All, &mut bytes).unwrap_err();

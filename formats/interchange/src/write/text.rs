@@ -3,7 +3,9 @@
 use glam::DVec3;
 use std::fmt::Write as _;
 use std::io::{self, Write};
-use tmesh::{ChunkInfo, Document, Isometry, OUTSIDE, Template, VERSION_MAJOR, VERSION_MINOR, Wall};
+use tmesh::{
+    ChunkInfo, Document, Isometry, OUTSIDE, Size, Template, VERSION_MAJOR, VERSION_MINOR, Wishes,
+};
 
 /// Writes the listing. `chunks` are those the document was read from; without them they are not
 /// listed.
@@ -98,6 +100,10 @@ fn listing(document: &Document, chunks: &[ChunkInfo]) -> String {
     list_instances(document, &mut text);
     list_frame(document, &mut text);
     list_symmetry(document, &mut text);
+    if let Some(promise) = &document.promise {
+        let _ = writeln!(text, "promised exactly: {}", super::promise_title(promise));
+    }
+    list_wishes(&document.wishes, &mut text);
     list_tables(document, &mut text);
     list_origin(document, &mut text);
     text
@@ -124,7 +130,11 @@ fn list_chunks(chunks: &[ChunkInfo], text: &mut String) {
 fn list_template(index: usize, template: &Template, document: &Document, text: &mut String) {
     let _ = writeln!(text, "\ntemplate {index}");
     let sides = |t: &&tmesh::Triangle| (t.front == OUTSIDE) != (t.back == OUTSIDE);
-    let on_walls: usize = template.walls.iter().map(|w| w.triangles().count()).sum();
+    let on_walls: usize = template
+        .gluings
+        .iter()
+        .map(|g| g.triangles_of(index).count())
+        .sum();
     let boundary = template.triangles.iter().filter(sides).count();
     let mut lines = vec![
         ("vertices", template.vertices.len().to_string()),
@@ -144,52 +154,34 @@ fn list_template(index: usize, template: &Template, document: &Document, text: &
     }
     print_pairs(&lines, text);
     list_template_regions(template, document, text);
-    if template.walls.is_empty() {
+    if template.gluings.is_empty() {
         return;
     }
-    let _ = writeln!(text, "  walls: {}", template.walls.len());
+    let _ = writeln!(text, "  glued faces: {}", template.gluings.len());
     let head = [
         "name",
-        "kind",
-        "isometry",
-        "vertices",
-        "triangles",
-        "plane or other template",
+        "step",
+        "to",
+        "vertex pairs",
+        "triangle pairs",
+        "mirror plane",
     ];
     let mut table = Table::new(&head);
-    for wall in &template.walls {
-        let (kind, step, vertices, triangles, what) = match wall {
-            Wall::Mirror(w) => {
-                let plane = format!(
-                    "normal {}, offset {}",
-                    point(w.plane.normal.to_array()),
-                    number(w.plane.offset)
-                );
-                (
-                    "mirror",
-                    w.reflection,
-                    w.vertices.len(),
-                    w.triangles.len(),
-                    plane,
-                )
-            }
-            Wall::Seam(w) => {
-                let (vertices, triangles) = (w.vertex_pairs.len(), w.triangle_pairs.len());
-                ("seam", w.rotation, vertices, triangles, "pairs".to_owned())
-            }
-            Wall::Hub(w) => {
-                let (vertices, triangles) = (w.vertex_pairs.len(), w.triangle_pairs.len());
-                let other = format!("pairs with template {}", w.other);
-                ("hub", w.placement, vertices, triangles, other)
-            }
+    for gluing in &template.gluings {
+        let other = match gluing.other_than(index) {
+            Some(other) => format!("template {other}"),
+            None if gluing.is_mirror(index) => "itself".to_owned(),
+            None => "another face".to_owned(),
         };
+        let plane = gluing.mirror_plane(index);
+        let plane = plane.map(|p| format!("normal {}", point(p.normal.to_array())));
         table.row(vec![
-            wall.name().to_owned(),
-            kind.to_owned(),
-            isometry(step),
-            vertices.to_string(),
-            triangles.to_string(),
-            what,
+            gluing.name.clone(),
+            isometry(gluing.step),
+            other,
+            gluing.vertex_pairs.len().to_string(),
+            gluing.triangle_pairs.len().to_string(),
+            plane.unwrap_or_default(),
         ]);
     }
     table.print(text);
@@ -299,16 +291,10 @@ fn list_symmetry(document: &Document, text: &mut String) {
     };
     text.push_str("\nsymmetry\n");
     let mut lines = vec![
-        ("group", s.group.clone()),
-        ("order", s.order.to_string()),
-        ("mirror planes through the axis", yes(s.mirror).to_owned()),
-        (
-            "mirror plane across the axis",
-            yes(s.horizontal_mirror).to_owned(),
-        ),
+        ("group", s.group.symbol()),
         ("axis point", point(s.axis.point)),
         ("axis direction", point(s.axis.direction)),
-        ("mirror direction", point(s.mirror_direction)),
+        ("canonical x axis", point(s.reference)),
         (
             "residual",
             format!("{} (tolerance {})", number(s.residual), number(s.tolerance)),
@@ -316,7 +302,7 @@ fn list_symmetry(document: &Document, text: &mut String) {
         ("radius", number(s.radius)),
         ("body of revolution", yes(s.axisymmetric).to_owned()),
     ];
-    for other in &s.other_axes {
+    for other in document.search.iter().flat_map(|s| &s.other_axes) {
         let (order, residual) = (other.order, number(other.residual));
         let line = format!(
             "{}, order {order}, residual {residual}",
@@ -324,25 +310,46 @@ fn list_symmetry(document: &Document, text: &mut String) {
         );
         lines.push(("other axis", line));
     }
-    for rejected in &s.rejected {
+    for rejected in document.search.iter().flat_map(|s| &s.rejected) {
         let line = format!("{}, residual {}", rejected.order, number(rejected.residual));
         lines.push(("rejected order", line));
     }
-    let permutations = [
-        ("regions under rotation", &s.rotation_regions),
-        ("regions under mirror", &s.mirror_regions),
-        ("regions under horizontal mirror", &s.horizontal_regions),
-    ];
-    for (what, pairs) in permutations {
-        if !pairs.is_empty() {
-            let pairs: Vec<_> = pairs.iter().map(|[a, b]| format!("{a} to {b}")).collect();
-            lines.push((what, pairs.join(", ")));
+    for (generator, map) in s.group.generators().into_iter().zip(&s.regions) {
+        if !map.pairs.is_empty() {
+            let pairs: Vec<_> = map
+                .pairs
+                .iter()
+                .map(|[a, b]| format!("{a} to {b}"))
+                .collect();
+            let line = format!("{}: {}", isometry(generator), pairs.join(", "));
+            lines.push(("regions under", line));
         }
     }
-    if let Some(promise) = &s.promise {
-        lines.push(("exactly", super::promise_title(promise)));
-    }
     print_pairs(&lines, text);
+}
+
+fn list_wishes(wishes: &Wishes, text: &mut String) {
+    let mut lines: Vec<(&str, String)> = Vec::new();
+    let mut add = |what, value: Option<String>| lines.extend(value.map(|v| (what, v)));
+    add("improved", wishes.quality.map(|q| yes(q).to_owned()));
+    add("radius-edge ratio", wishes.radius_edge.map(number));
+    add("smallest dihedral angle", wishes.min_dihedral.map(number));
+    add("optimized above", wishes.optimize.map(number));
+    add(
+        "size",
+        wishes.size.map(|size| match size {
+            Size::MaxVolume(volume) => format!("volume {}", number(volume)),
+            Size::EdgeLength(edge) => format!("edges {}", number(edge)),
+        }),
+    );
+    add(
+        "surface kept",
+        wishes.keep_surface.map(|k| yes(k).to_owned()),
+    );
+    if !lines.is_empty() {
+        text.push_str("\nelements wished for\n");
+        print_pairs(&lines, text);
+    }
 }
 
 fn list_tables(document: &Document, text: &mut String) {
@@ -439,8 +446,8 @@ chunks read: 10
   TRIS      0     528     96
   TETS      0     656     20
   AXIS      0     712      8
-  WALL      0     752     88
-  INST      0     872     24
+  GLUE      0     752     72
+  INST      0     856     24
 
 template 0
   vertices      4
@@ -454,9 +461,9 @@ template 0
   marker  name        triangles
        0  not listed          1
        2  top                 3
-  walls: 1
-  name   kind    isometry     vertices  triangles  plane or other template
-  floor  mirror  0/1 flipped         3          1  normal (0, 0, -1), offset 0
+  glued faces: 1
+  name   step         to      vertex pairs  triangle pairs  mirror plane
+  floor  0/1 flipped  itself             3               1  normal (0, 0, -1)
 
 instances: 1
   index  template  isometry  orientation  region map

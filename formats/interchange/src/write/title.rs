@@ -1,7 +1,7 @@
 //! The title line, which carries the promised symmetry through formats that have no place for it.
 
 use glam::DVec3;
-use tmesh::{Document, MAX_TURN_DENOMINATOR, Outside, Promise};
+use tmesh::{Document, Group, Outside, Promise};
 
 /// Longest title of a legacy VTK file, without the line end.
 pub const MAX_TITLE: usize = 255;
@@ -9,40 +9,22 @@ pub const MAX_TITLE: usize = 255;
 /// The title of a mesh that promises a symmetry:
 ///
 /// ```text
-/// symtet C4v order=4 mirror=1 axis=px,py,pz,dx,dy,dz,mx,my,mz outside=16,1,0.14
+/// symtet C4v axis=px,py,pz,dx,dy,dz,mx,my,mz outside=C16v,0.14
 /// ```
 ///
-/// The Schoenflies symbol, then words `key=value` in this order: `order`, the order of the
-/// rotation; `mirror`, 1 when the plane through the axis and the mirror direction is a mirror;
-/// `horizontal=1` when the plane through the point across the axis is one (else left out); `axis`,
-/// nine numbers: a point of the axis, the axis's direction, the mirror direction, in world
-/// coordinates; `outside` if a higher symmetry holds there: order, mirror, and radius. Numbers are
-/// the shortest that read back the same. At most 255 characters: where that would be exceeded,
-/// directions are rounded, to 15 decimals at least; where that is not enough, `outside` is left out.
+/// The group, then words `key=value` in this order: `axis`, nine numbers: a point of the axis that all
+/// operations leave in place, the axis's direction, the direction of the canonical x axis, in world
+/// coordinates; `outside` if a higher symmetry holds there: group and radius. Numbers are the
+/// shortest that read back the same. At most 255 characters: where that would be exceeded,
+/// directions are rounded, to 15 decimals at least, with which every promise fits.
 pub fn promise_title(promise: &Promise) -> String {
     let Promise {
-        order,
-        mirror,
-        horizontal_mirror,
+        group,
         rotation: r,
         origin,
         outside,
     } = promise;
-    let symbol = match (mirror, horizontal_mirror) {
-        (false, false) => format!("C{order}"),
-        (true, false) => format!("C{order}v"),
-        (false, true) => format!("C{order}h"),
-        (true, true) => format!("D{order}h"),
-    };
-    let horizontal = if *horizontal_mirror {
-        " horizontal=1"
-    } else {
-        ""
-    };
-    let head = format!(
-        "symtet {symbol} order={order} mirror={}{horizontal} axis=",
-        u8::from(*mirror)
-    );
+    let head = format!("symtet {group} axis=");
     let directions = [r[0][2], r[1][2], r[2][2], r[0][0], r[1][0], r[2][0]];
     let write = |decimals: Option<usize>| {
         let point = origin.iter().map(|&x| shortest(x));
@@ -52,14 +34,12 @@ pub fn promise_title(promise: &Promise) -> String {
     };
     let outside = outside.map_or(String::new(), |o| {
         let radius = shortest(o.radius);
-        format!(" outside={},{},{radius}", o.order, u8::from(o.mirror))
+        format!(" outside={},{radius}", o.group)
     });
     let forms = [None, Some(17), Some(16), Some(15)];
-    let with = forms.iter().map(|&form| write(form) + &outside);
-    let without = forms.iter().map(|&form| write(form));
-    let mut titles = with.chain(without);
+    let mut titles = forms.iter().map(|&form| write(form) + &outside);
     let fits = titles.find(|title| title.len() <= MAX_TITLE);
-    fits.unwrap_or_else(|| write(Some(15)))
+    fits.unwrap_or_else(|| write(Some(15)) + &outside)
 }
 
 /// The promise in a title line that [`promise_title`] made.
@@ -68,13 +48,10 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
     if words.next() != Some("symtet") {
         return None;
     }
-    let (mut order, mut mirror, mut horizontal_mirror, mut numbers) = (None, false, false, None);
-    let mut outside = None;
+    let group: Group = words.next()?.parse().ok()?;
+    let (mut numbers, mut outside) = (None, None);
     for word in words {
         match word.split_once('=') {
-            Some(("order", v)) => order = parse_order(v),
-            Some(("mirror", v)) => mirror = v == "1",
-            Some(("horizontal", v)) => horizontal_mirror = v == "1",
             Some(("axis", v)) => {
                 let parsed: Result<Vec<f64>, _> = v.split(',').map(str::parse).collect();
                 numbers = parsed.ok().and_then(|n| <[f64; 9]>::try_from(n).ok());
@@ -90,41 +67,26 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
     let is_unit = |v: DVec3| (v.length() - 1.0).abs() < 1e-9;
     // Two unit vectors whose product is one too are orthogonal.
     let orthonormal = [x, y, z].into_iter().all(is_unit);
-    let order = order?;
-    let outside = outside.filter(|o| o.order.is_multiple_of(order));
+    let outside = outside.filter(|o: &Outside| o.group.order.is_multiple_of(group.order));
     orthonormal.then_some(Promise {
-        order,
-        mirror,
-        horizontal_mirror,
+        group,
         rotation: [[x.x, y.x, z.x], [x.y, y.y, z.y], [x.z, y.z, z.z]],
         origin: [n[0], n[1], n[2]],
         outside,
     })
 }
 
-/// An order that a document may have.
-fn parse_order(text: &str) -> Option<u32> {
-    let orders = 1..=MAX_TURN_DENOMINATOR / 2;
-    text.parse().ok().filter(|n| orders.contains(n))
-}
-
 fn parse_outside(text: &str) -> Option<Outside> {
-    let mut parts = text.split(',');
-    let order = parse_order(parts.next()?)?;
-    let mirror = parts.next()? == "1";
-    let radius = parts.next()?.parse().ok();
+    let (group, radius) = text.split_once(',')?;
+    let group = group.parse().ok()?;
+    let radius = radius.parse().ok();
     let radius = radius.filter(|r| (0.0..f64::INFINITY).contains(r))?;
-    parts.next().is_none().then_some(Outside {
-        order,
-        mirror,
-        radius,
-    })
+    Some(Outside { group, radius })
 }
 
 /// The title of a document's own mesh, each template once.
 pub fn document_title(document: &Document) -> String {
-    let promise = document.symmetry.as_ref().and_then(|s| s.promise.as_ref());
-    match promise {
+    match &document.promise {
         Some(promise) if document.is_plain() => promise_title(promise),
         _ if document.instances.len() > 1 => format!(
             "symtet sector: {} of {} instances",
@@ -159,14 +121,12 @@ fn rounded(x: f64, decimals: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tmesh::Frame;
+    use tmesh::{Frame, Kind};
 
     fn promise(frame: Frame) -> Promise {
         let rows = frame.rotation.transpose();
         Promise {
-            order: 16,
-            mirror: true,
-            horizontal_mirror: false,
+            group: Group::new(Kind::Cv, 16),
             rotation: rows.to_cols_array_2d(),
             origin: frame.origin.to_array(),
             outside: None,
@@ -176,31 +136,30 @@ mod tests {
     #[test]
     fn what_holds_outside_reads_back() {
         let promise = Promise {
-            order: 4,
+            group: Group::new(Kind::Cv, 4),
             outside: Some(Outside {
-                order: 16,
-                mirror: true,
+                group: Group::new(Kind::Cv, 16),
                 radius: 0.1 + 0.2,
             }),
             ..promise(Frame::IDENTITY)
         };
         let title = promise_title(&promise);
         assert!(
-            title.ends_with(" outside=16,1,0.30000000000000004"),
+            title.ends_with(" outside=C16v,0.30000000000000004"),
             "{title}"
         );
         assert_eq!(parse_promise(&title), Some(promise));
         for odd in [
             "",
-            "15,1,1",
-            "32772,1,1",
-            "16,1",
-            "0,1,1",
-            "16,1,nan",
-            "16,1,-1",
-            "16,1,1,1",
+            "C15v,1",
+            "C32772v,1",
+            "C16v",
+            "C0,1",
+            "C16v,nan",
+            "C16v,-1",
+            "C16v,1,1",
         ] {
-            let title = format!("symtet C4 order=4 axis=0,0,0,0,0,1,1,0,0 outside={odd}");
+            let title = format!("symtet C4 axis=0,0,0,0,0,1,1,0,0 outside={odd}");
             let promise = parse_promise(&title).unwrap();
             assert_eq!(promise.outside, None, "{odd}");
         }
@@ -226,16 +185,17 @@ mod tests {
         }
         assert_eq!(
             promise_title(&self::promise(Frame::IDENTITY)),
-            "symtet C16v order=16 mirror=1 axis=0,0,0,0,0,1,1,0,0"
+            "symtet C16v axis=0,0,0,0,0,1,1,0,0"
         );
         assert_eq!(parse_promise("vtk output"), None);
-        assert_eq!(parse_promise("symtet order=4 axis=1,2"), None);
+        assert_eq!(parse_promise("symtet C4 axis=1,2"), None);
         for odd in [
-            "4 axis=0,0,0,1,0,0,2,1,0",
-            "4 axis=0,0,0,0,0,1,0,0,1",
-            "40000 axis=0,0,0,0,0,1,1,0,0",
+            "C4 axis=0,0,0,1,0,0,2,1,0",
+            "C4 axis=0,0,0,0,0,1,0,0,1",
+            "C40000 axis=0,0,0,0,0,1,1,0,0",
+            "axis=0,0,0,0,0,1,1,0,0",
         ] {
-            assert_eq!(parse_promise(&format!("symtet order={odd}")), None);
+            assert_eq!(parse_promise(&format!("symtet {odd}")), None);
         }
     }
 
@@ -243,9 +203,7 @@ mod tests {
     fn titles_fit() {
         let tiny = -1.234_567_890_123_456_7e-101;
         let promise = Promise {
-            order: 65_536,
-            mirror: true,
-            horizontal_mirror: true,
+            group: Group::new(Kind::Dh, 32_768),
             rotation: [[tiny; 3], [-0.987_654_321_098_765_4; 3], [tiny; 3]],
             origin: [tiny; 3],
             outside: None,
@@ -256,15 +214,12 @@ mod tests {
             ..promise
         };
         let outside = Some(Outside {
-            order: 32_768,
-            mirror: false,
+            group: Group::new(Kind::C, 32_768),
             radius: -tiny,
         });
-        let more = Promise {
-            outside,
-            ..long.clone()
-        };
-        assert_eq!(promise_title(&more), promise_title(&long));
+        let more = Promise { outside, ..long };
+        let title = promise_title(&more);
+        assert!(title.len() <= MAX_TITLE && title.contains(" outside=C32768,"));
         // A via anywhere in space, cut by mirrors in every direction.
         let frame = Frame::from_axis(
             DVec3::new(
@@ -277,11 +232,9 @@ mod tests {
         )
         .unwrap();
         let via = Promise {
-            order: 8,
-            horizontal_mirror: true,
+            group: Group::new(Kind::Dh, 8),
             outside: Some(Outside {
-                order: 128,
-                mirror: true,
+                group: Group::new(Kind::Cv, 128),
                 radius: 0.123_457,
             }),
             ..super::tests::promise(frame)

@@ -1,4 +1,5 @@
-//! Frame (`FRAM`, binary) and the JSON chunks: `SYMM`, `REGN`, `MARK`, `RMAP`, `srce`, `hist`.
+//! Frame (`FRAM`, binary) and the JSON chunks: `SYMM`, `PROM`, `WISH`, `REGN`, `MARK`,
+//! `RMAP`, `srch`, `srce`, `hist`.
 //! `SPEC.md`, sections 4 and 5.
 
 use super::chunk::{ChunkInfo, ChunkReader, ChunkWriter};
@@ -9,6 +10,9 @@ use std::io::{self, Read, Write};
 
 const FRAME: [u8; 4] = *b"FRAM";
 const SYMMETRY: [u8; 4] = *b"SYMM";
+const PROMISE: [u8; 4] = *b"PROM";
+const WISHES: [u8; 4] = *b"WISH";
+const SEARCH: [u8; 4] = *b"srch";
 const REGIONS: [u8; 4] = *b"REGN";
 const MARKERS: [u8; 4] = *b"MARK";
 const REGION_MAPS: [u8; 4] = *b"RMAP";
@@ -20,9 +24,12 @@ pub(super) fn read<R: Read>(
     info: &ChunkInfo,
     document: &mut Document,
 ) -> Result<bool, DecodeError> {
-    const KNOWN: [[u8; 4]; 7] = [
+    const KNOWN: [[u8; 4]; 10] = [
         FRAME,
         SYMMETRY,
+        PROMISE,
+        WISHES,
+        SEARCH,
         REGIONS,
         MARKERS,
         REGION_MAPS,
@@ -45,6 +52,9 @@ pub(super) fn read<R: Read>(
             };
         }
         SYMMETRY => document.symmetry = Some(json(reader, info)?),
+        PROMISE => document.promise = Some(json(reader, info)?),
+        WISHES => document.wishes = json(reader, info)?,
+        SEARCH => document.search = Some(json(reader, info)?),
         REGIONS => document.regions = json(reader, info)?,
         MARKERS => document.markers = json(reader, info)?,
         REGION_MAPS => document.region_maps = json(reader, info)?,
@@ -69,6 +79,15 @@ pub fn write_metadata<W: Write>(
     chunks.array(FRAME, 0, &frame)?;
     if let Some(symmetry) = &document.symmetry {
         put(chunks, SYMMETRY, symmetry)?;
+    }
+    if let Some(promise) = &document.promise {
+        put(chunks, PROMISE, promise)?;
+    }
+    if !document.wishes.is_empty() {
+        put(chunks, WISHES, &document.wishes)?;
+    }
+    if let Some(search) = &document.search {
+        put(chunks, SEARCH, search)?;
     }
     put(chunks, REGIONS, &document.regions)?;
     put(chunks, MARKERS, &document.markers)?;

@@ -2,17 +2,17 @@
 
 mod array;
 mod chunk;
+mod gluing;
 mod instances;
 mod metadata;
 mod template;
-mod wall;
 
 pub use chunk::{ChunkInfo, ChunkWriter, MAGIC, VERSION_MAJOR, VERSION_MINOR};
 pub use instances::write as write_instances;
 pub use metadata::write_metadata;
 pub use template::{TETS, TRIANGLES, VERTICES};
 
-use crate::{DecodeError, Document, Frame, validate};
+use crate::{DecodeError, Document, validate};
 use chunk::ChunkReader;
 use std::collections::BTreeSet;
 use std::io::{self, Read, Write};
@@ -27,26 +27,16 @@ pub fn read<R: Read>(reader: R) -> Result<Document, DecodeError> {
 /// As [`read`], and lists the chunks met, unknown ones included.
 pub fn read_with_chunks<R: Read>(reader: R) -> Result<(Document, Vec<ChunkInfo>), DecodeError> {
     let mut reader = ChunkReader::begin(reader)?;
-    let mut document = Document {
-        templates: Vec::new(),
-        instances: Vec::new(),
-        region_maps: Vec::new(),
-        frame: Frame::IDENTITY,
-        symmetry: None,
-        regions: Vec::new(),
-        markers: Vec::new(),
-        source: None,
-        history: Vec::new(),
-    };
+    let mut document = Document::default();
     let mut met = BTreeSet::new();
     while let Some(header) = reader.next_chunk()? {
         let known = metadata::read(&mut reader, &header, &mut document)?
             || instances::read(&mut reader, &header, &mut document)?
             || template::read(&mut reader, &header, &mut document)?
-            || wall::read(&mut reader, &header, &mut document)?;
+            || gluing::read(&mut reader, &header, &mut document)?;
         if !known {
             reader.skip(&header)?;
-        } else if !wall::repeats(&header) && !met.insert((header.id, header.scope)) {
+        } else if !gluing::repeats(&header) && !met.insert((header.id, header.scope)) {
             return Err(header.bad("it is there twice"));
         }
     }
@@ -67,8 +57,8 @@ pub fn write<W: Write>(document: &Document, writer: W) -> io::Result<()> {
     write_metadata(document, &mut chunks)?;
     for (index, template) in document.templates.iter().enumerate() {
         template::write(template, index as u32, &mut chunks)?;
-        for wall in &template.walls {
-            wall::write(wall, index as u32, &mut chunks)?;
+        for gluing in &template.gluings {
+            gluing::write(gluing, index as u32, &mut chunks)?;
         }
     }
     instances::write(&document.instances, &mut chunks)?;

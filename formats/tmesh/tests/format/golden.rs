@@ -54,7 +54,7 @@ fn the_hex_dump_of_the_specification_is_the_golden_file() {
     );
 }
 
-/// Sections 4, 5 and 9 name every chunk, and no other.
+/// Section 4 names every chunk, and no other.
 #[test]
 fn the_chunk_table_of_the_specification_is_complete() {
     let (_, chunks) = tmesh::read_with_chunks(COLUMN).expect("valid");

@@ -1,7 +1,7 @@
 //! Isometries as hostile documents may have them: never a panic, whatever is multiplied.
 
 use crate::samples::{bytes, column, pyramid};
-use tmesh::{DecodeError, Document, Isometry, MAX_TURN_DENOMINATOR, Violation, Wall, read};
+use tmesh::{DecodeError, Document, Isometry, MAX_TURN_DENOMINATOR, Violation, read};
 
 fn first_violation(document: &Document) -> Violation {
     match read(bytes(document).as_slice()) {
@@ -30,10 +30,8 @@ fn turns_without_a_common_denominator_are_refused() {
     let mut document = column();
     document.instances.truncate(1);
     for (template, n) in [(0, 65_521), (1, 65_519)] {
-        let Wall::Seam(seam) = &mut document.templates[template].walls[0] else {
-            panic!("the first wall is a seam");
-        };
-        seam.rotation = Isometry::rotation(1, n);
+        let seam = &mut document.templates[template].gluings[0];
+        seam.step = Isometry::rotation(1, n);
     }
     assert!(matches!(
         first_violation(&document),
@@ -44,7 +42,7 @@ fn turns_without_a_common_denominator_are_refused() {
 #[test]
 fn the_largest_denominator_works() {
     let mut document = pyramid();
-    document.templates[0].walls.clear();
+    document.templates[0].gluings.clear();
     let step = Isometry::reflection(1, MAX_TURN_DENOMINATOR);
     let other = Isometry::rotation(3, 1024);
     document.instances[1].isometry = step;

@@ -1,9 +1,10 @@
 //! Damaged and hostile documents: each is an error, none a panic or an allocation beyond its size.
 
 use crate::samples::{bytes, column, pyramid};
-use glam::DVec3;
 use std::io::{self, Read};
-use tmesh::{ChunkWriter, DecodeError, Document, Isometry, Violation, Wall, read};
+use tmesh::{
+    ChunkWriter, DecodeError, Document, Gluing, Group, Isometry, Kind, RegionMap, Violation, read,
+};
 
 fn error(bytes: &[u8]) -> DecodeError {
     match read(bytes) {
@@ -241,7 +242,7 @@ fn hostile_lengths_allocate_little() {
 }
 
 #[test]
-fn hostile_counts_inside_a_wall() {
+fn hostile_counts_inside_a_gluing() {
     for (name, vertices, triangles) in [
         (u32::MAX, 0, 0),
         (0, u32::MAX, u32::MAX),
@@ -250,9 +251,7 @@ fn hostile_counts_inside_a_wall() {
     ] {
         let raw = chunks(|w| {
             w.array::<f64>(*b"VERT", 0, &[])?;
-            let mut words = [0_u32; 16];
-            words[..8].copy_from_slice(&[2, 0, 0, 1, 0, name, vertices, triangles]);
-            w.array(*b"WALL", 0, &words)
+            w.array(*b"GLUE", 0, &[0, 0, 1, 0, name, vertices, triangles, 0])
         });
         let text = error(&raw).to_string();
         assert!(text.contains("which is not its size"), "{text}");
@@ -260,30 +259,26 @@ fn hostile_counts_inside_a_wall() {
 }
 
 #[test]
-fn walls_that_make_no_sense() {
-    let wall = |words: &[u32]| {
+fn gluings_that_make_no_sense() {
+    let gluing = |words: &[u32]| {
         let raw = chunks(|w| {
             w.array::<f64>(*b"VERT", 0, &[])?;
-            w.array(*b"WALL", 0, words)
+            w.array(*b"GLUE", 0, words)
         });
         error(&raw).to_string()
     };
-    let fixed = |kind, name, vertices| {
-        let mut words = vec![0_u32; 16];
-        words[..8].copy_from_slice(&[kind, 0, 0, 1, 0, name, vertices, 0]);
-        words
-    };
-    assert!(wall(&[2, 0, 0, 1]).ends_with("shorter than its fixed part"));
-    assert!(wall(&fixed(9, 0, 0)).ends_with("9 is no kind of wall"));
-    for kind in [2, 3] {
-        let odd = [fixed(kind, 0, 3), vec![0; 3]].concat();
-        assert!(wall(&odd).ends_with("an odd number of ids in pairs"));
-    }
-    let latin = [fixed(1, 2, 0), vec![0x0000_fcfc]].concat();
-    assert!(wall(&latin).ends_with("its name is not UTF-8"));
+    let fixed = |name, pairs, reserved| vec![0_u32, 0, 1, 0, name, pairs, 0, reserved];
+    assert!(gluing(&[0, 0, 1, 0]).ends_with("shorter than its fixed part"));
+    assert!(gluing(&fixed(0, 0, 1)).ends_with("a reserved field is not zero"));
+    let odd = [fixed(0, 1, 0), vec![0; 3]].concat();
+    assert!(gluing(&odd).ends_with("which is not its size"));
+    let latin = [fixed(2, 0, 0), vec![0x0000_fcfc]].concat();
+    assert!(gluing(&latin).ends_with("its name is not UTF-8"));
+    let unpadded = [fixed(2, 0, 0), vec![0x0100_6161]].concat();
+    assert!(gluing(&unpadded).ends_with("the padding of its name is not zero"));
     let ragged = chunks(|w| {
         w.array::<f64>(*b"VERT", 0, &[])?;
-        w.array(*b"WALL", 0, &[0_u8; 66])
+        w.array(*b"GLUE", 0, &[0_u8; 66])
     });
     let text = error(&ragged).to_string();
     assert!(
@@ -295,10 +290,13 @@ fn walls_that_make_no_sense() {
 #[test]
 fn json_that_is_not_as_expected() {
     let deep = [vec![b'['; 100_000], vec![b']'; 100_000]].concat();
-    let cases: [(&[u8; 4], &[u8]); 8] = [
+    let cases: [(&[u8; 4], &[u8]); 11] = [
         (b"REGN", &deep),
         (b"SYMM", &deep),
         (b"hist", b"{}"),
+        (b"PROM", b"{\"group\": \"C4\"}"),
+        (b"WISH", b"{\"radius_edge\": \"small\"}"),
+        (b"srch", b"7"),
         (b"REGN", b"[{\"id\": -1, \"name\": \"x\"}]"),
         (b"REGN", b"[{\"id\": 4294967296, \"name\": \"x\"}]"),
         (
@@ -332,34 +330,25 @@ fn numbers_that_are_none() {
         let mut document = pyramid();
         document.frame.rotation.x_axis.x = bad;
         assert_eq!(violation(&document), Violation::BadFrame);
-        let mut document = pyramid();
-        mirror(&mut document).plane.normal.x = bad;
-        assert!(matches!(violation(&document), Violation::BadPlane { .. }));
     }
     let mut document = pyramid();
     document.frame.rotation = -document.frame.rotation;
     assert_eq!(violation(&document), Violation::BadFrame);
 }
 
-fn mirror(document: &mut Document) -> &mut tmesh::MirrorWall {
-    match &mut document.templates[0].walls[0] {
-        Wall::Mirror(wall) => wall,
-        _ => panic!("the pyramid has mirror walls"),
-    }
+/// A mirror wall of the pyramid.
+fn mirror(document: &mut Document) -> &mut Gluing {
+    &mut document.templates[0].gluings[0]
 }
 
-fn seam(document: &mut Document, template: usize) -> &mut tmesh::Seam {
-    match &mut document.templates[template].walls[0] {
-        Wall::Seam(wall) => wall,
-        _ => panic!("the column has seams"),
-    }
+/// The seam of a template of the column.
+fn seam(document: &mut Document, template: usize) -> &mut Gluing {
+    &mut document.templates[template].gluings[0]
 }
 
-fn hub(document: &mut Document) -> &mut tmesh::HubWall {
-    match &mut document.templates[0].walls[1] {
-        Wall::Hub(wall) => wall,
-        _ => panic!("the column has a hub"),
-    }
+/// The hub wall of the column.
+fn hub(document: &mut Document) -> &mut Gluing {
+    &mut document.templates[0].gluings[1]
 }
 
 #[test]
@@ -387,13 +376,13 @@ fn indices_out_of_range() {
         Violation::VertexOutOfRange { vertex: 9, .. }
     ));
     let mut document = pyramid();
-    mirror(&mut document).vertices[2] = 4;
+    mirror(&mut document).vertex_pairs[2] = [4, 4];
     assert!(matches!(
         violation(&document),
         Violation::VertexOutOfRange { vertex: 4, .. }
     ));
     let mut document = pyramid();
-    mirror(&mut document).triangles[0] = 4;
+    mirror(&mut document).triangle_pairs[0] = [4, 4];
     assert!(matches!(
         violation(&document),
         Violation::TriangleOutOfRange { triangle: 4, .. }
@@ -480,14 +469,23 @@ fn elements_and_tables_that_contradict_each_other() {
         }
     ));
     let mut document = column();
-    document.symmetry.as_mut().expect("there").order = 0;
+    let symmetry = document.symmetry.as_mut().expect("there");
+    symmetry.regions.push(RegionMap::default());
     let text = violation(&document).to_string();
     assert_eq!(
         text,
-        "the symmetry has the order 0, which is not in 1..=32768"
+        "the symmetry says of 3 operations how they permute regions, and C4h has 2 generators"
     );
     let mut document = column();
-    document.symmetry.as_mut().expect("there").mirror_direction = [0.8, 0.6, 0.0];
+    let outside = document.promise.as_mut().and_then(|p| p.outside.as_mut());
+    outside.expect("there").group = Group::new(Kind::C, 6);
+    let text = violation(&document).to_string();
+    assert_eq!(
+        text,
+        "the symmetry has the order 6 outside, which is no multiple of the order 4 of the whole"
+    );
+    let mut document = column();
+    document.symmetry.as_mut().expect("there").reference = [0.8, 0.6, 0.0];
     assert!(
         violation(&document)
             .to_string()
@@ -520,7 +518,7 @@ fn names_with_control_characters() {
 #[test]
 fn numbers_of_the_tables_that_are_none() {
     type Change = fn(&mut Document);
-    let cases: [(Change, &str); 6] = [
+    let cases: [(Change, &str); 7] = [
         (
             |d| d.regions[0].max_volume = Some(f64::NAN),
             "the volume limit of region 'copper' is NaN, and must be a finite positive number",
@@ -542,8 +540,12 @@ fn numbers_of_the_tables_that_are_none() {
             "the source's precision is NaN, and must be a finite number",
         ),
         (
-            |d| d.symmetry.as_mut().expect("there").rejected[0].residual = f64::NAN,
+            |d| d.search.as_mut().expect("there").rejected[0].residual = f64::NAN,
             "a number of the symmetry is NaN, and must be a finite number",
+        ),
+        (
+            |d| d.wishes.radius_edge = Some(0.0),
+            "the radius-edge ratio wished for is 0, and must be a finite positive number",
         ),
     ];
     for (change, text) in cases {
@@ -566,27 +568,38 @@ fn walls_that_do_not_match() {
         Violation::OffPlane { vertex: 1, .. }
     ));
     let mut document = pyramid();
-    mirror(&mut document).plane.normal = DVec3::X;
-    assert!(matches!(violation(&document), Violation::BadPlane { .. }));
-    let mut document = pyramid();
-    mirror(&mut document).plane.offset = 0.5;
-    assert!(matches!(violation(&document), Violation::BadPlane { .. }));
-    let mut document = pyramid();
-    mirror(&mut document).triangles[0] = 0;
+    mirror(&mut document).step = Isometry::reflection(1, 4);
     assert!(matches!(
         violation(&document),
-        Violation::OpenWall {
-            triangle: 0,
-            vertex: 2,
+        Violation::OffPlane { vertex: 1, .. }
+    ));
+    let mut document = pyramid();
+    mirror(&mut document).vertex_pairs[1][1] = 3;
+    assert!(matches!(
+        violation(&document),
+        Violation::NotItself {
+            what: "vertices",
+            first: 1,
+            second: 3,
             ..
         }
     ));
     let mut document = pyramid();
-    mirror(&mut document).vertices.swap(0, 1);
+    mirror(&mut document).triangle_pairs[0] = [0, 0];
+    assert!(matches!(
+        violation(&document),
+        Violation::TrianglesDiffer {
+            first: 0,
+            second: 0,
+            ..
+        }
+    ));
+    let mut document = pyramid();
+    mirror(&mut document).vertex_pairs.swap(0, 1);
     assert!(matches!(
         violation(&document),
         Violation::Unordered {
-            what: "vertices",
+            what: "vertex pairs",
             ..
         }
     ));
@@ -602,18 +615,27 @@ fn walls_that_do_not_match() {
     assert!(matches!(
         violation(&document),
         Violation::NotAnImage {
-            first: 0,
-            second: 6,
+            first: 6,
+            second: 0,
             ..
         }
     ));
     let mut document = column();
-    seam(&mut document, 0).triangle_pairs[0][1] = 5;
+    seam(&mut document, 0).triangle_pairs[0][1] = 1;
     assert!(matches!(
         violation(&document),
         Violation::TrianglesDiffer {
-            first: 0,
-            second: 5,
+            first: 4,
+            second: 1,
+            ..
+        }
+    ));
+    let mut document = column();
+    seam(&mut document, 0).triangle_pairs.swap(0, 1);
+    assert!(matches!(
+        violation(&document),
+        Violation::Unordered {
+            what: "triangle pairs",
             ..
         }
     ));
@@ -621,13 +643,16 @@ fn walls_that_do_not_match() {
     seam(&mut document, 0).vertex_pairs.swap(0, 1);
     assert!(matches!(
         violation(&document),
-        Violation::Unordered { what: "pairs", .. }
+        Violation::Unordered {
+            what: "vertex pairs",
+            ..
+        }
     ));
     let mut document = column();
     hub(&mut document).vertex_pairs[0][1] = 3;
     assert!(matches!(violation(&document), Violation::NotAnImage { .. }));
     let mut document = column();
-    hub(&mut document).placement = Isometry::rotation(1, 4);
+    hub(&mut document).step = Isometry::rotation(1, 4);
     assert!(matches!(violation(&document), Violation::NotAnImage { .. }));
 }
 

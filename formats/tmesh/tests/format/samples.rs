@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use tmesh::{
-    Axis, Document, Frame, HistoryEntry, HubWall, Instance, Isometry, Marker, MirrorWall, OUTSIDE,
-    OtherAxis, Plane, Promise, Region, RegionMap, RejectedOrder, Seam, Source, Symmetry, Template,
-    Tet, Triangle, Wall,
+    Axis, Document, Frame, Gluing, Group, HistoryEntry, Instance, Isometry, Kind, Marker, OUTSIDE,
+    OtherAxis, Outside, Promise, Region, RegionMap, RejectedOrder, Search, Size, Source, Symmetry,
+    Template, Tet, Triangle, Wishes,
 };
 
 fn triangle(vertices: [u32; 3], marker: u32) -> Triangle {
@@ -36,17 +36,8 @@ fn region(id: u32, name: &str) -> Region {
 /// A square pyramid as four images of one tetrahedron between two mirror walls. `SPEC.md`,
 /// section 10, is its hex dump.
 pub fn pyramid() -> Document {
-    let mirror = |name: &str, normal, reflection, vertices: [u32; 3], triangle| {
-        Wall::Mirror(MirrorWall {
-            name: name.to_owned(),
-            plane: Plane {
-                normal,
-                offset: 0.0,
-            },
-            reflection,
-            vertices: vertices.to_vec(),
-            triangles: vec![triangle],
-        })
+    let mirror = |name: &str, reflection, vertices: [u32; 3], triangle| {
+        Gluing::mirror(name, 0, reflection, vertices, [triangle])
     };
     let mut document = Document::single(Template {
         vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
@@ -60,9 +51,9 @@ pub fn pyramid() -> Document {
             vertices: [0, 1, 2, 3],
             region: 1,
         }],
-        walls: vec![
-            mirror("a", DVec3::NEG_Y, Isometry::reflection(0, 1), [0, 1, 3], 1),
-            mirror("b", DVec3::NEG_X, Isometry::reflection(1, 2), [0, 2, 3], 2),
+        gluings: vec![
+            mirror("a", Isometry::reflection(0, 1), [0, 1, 3], 1),
+            mirror("b", Isometry::reflection(1, 2), [0, 2, 3], 2),
         ],
         axis: vec![0, 3],
     });
@@ -80,13 +71,15 @@ fn upright(outline: &[(f64, f64)]) -> Vec<DVec3> {
     outline.iter().flat_map(at).collect()
 }
 
-fn seam(vertex_pairs: [[u32; 2]; 4]) -> Wall {
-    Wall::Seam(Seam {
+/// Pairs of the high face with the low one.
+fn seam(own: u32, vertex_pairs: [[u32; 2]; 4]) -> Gluing {
+    Gluing {
         name: "seam".to_owned(),
-        rotation: Isometry::rotation(1, 4),
+        other: own,
+        step: Isometry::rotation(1, 4),
         vertex_pairs: vertex_pairs.to_vec(),
-        triangle_pairs: vec![[0, 4], [1, 5]],
-    })
+        triangle_pairs: vec![[4, 0], [5, 1]],
+    }
 }
 
 /// A square column as four quarters, each an outer piece and a hub piece with seams, materials
@@ -109,15 +102,15 @@ pub fn column() -> Document {
             triangle([1, 5, 7], 9),
         ],
         tets: Vec::new(),
-        walls: vec![
-            seam([[0, 6], [1, 7], [2, 4], [3, 5]]),
-            Wall::Hub(HubWall {
+        gluings: vec![
+            seam(0, [[4, 2], [5, 3], [6, 0], [7, 1]]),
+            Gluing {
                 name: "hub".to_owned(),
                 other: 1,
-                placement: Isometry::IDENTITY,
+                step: Isometry::IDENTITY,
                 vertex_pairs: vec![[0, 2], [1, 3], [6, 4], [7, 5]],
                 triangle_pairs: vec![[6, 2], [7, 3]],
-            }),
+            },
         ],
         axis: Vec::new(),
     };
@@ -134,7 +127,7 @@ pub fn column() -> Document {
             triangle([1, 3, 5], 9),
         ],
         tets: Vec::new(),
-        walls: vec![seam([[0, 0], [1, 1], [2, 4], [3, 5]])],
+        gluings: vec![seam(1, [[0, 0], [1, 1], [4, 2], [5, 3]])],
         axis: vec![0, 1],
     };
     let instances = (0..4).flat_map(|k| {
@@ -158,6 +151,32 @@ pub fn column() -> Document {
             origin: DVec3::new(0.25, -3.0, 1e-3),
         },
         symmetry: Some(symmetry()),
+        promise: Some(Promise {
+            group: Group::new(Kind::C, 4),
+            rotation: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            origin: [0.25, -3.0, 1e-3],
+            outside: Some(Outside {
+                group: Group::new(Kind::Cv, 8),
+                radius: 1.5,
+            }),
+        }),
+        search: Some(Search {
+            other_axes: vec![OtherAxis {
+                direction: [0.0, 1.0, 0.0],
+                order: 2,
+                residual: 3e-8,
+            }],
+            rejected: vec![RejectedOrder {
+                order: 8,
+                residual: 0.07,
+            }],
+        }),
+        wishes: Wishes {
+            radius_edge: Some(1.25),
+            size: Some(Size::EdgeLength(0.5)),
+            keep_surface: Some(true),
+            ..Wishes::default()
+        },
         regions: vec![
             Region {
                 max_volume: Some(0.125),
@@ -191,39 +210,22 @@ pub fn column() -> Document {
 
 fn symmetry() -> Symmetry {
     Symmetry {
-        group: "C4".to_owned(),
-        order: 4,
-        mirror: false,
-        horizontal_mirror: true,
+        group: Group::new(Kind::Ch, 4),
         axis: Axis {
             point: [0.5, -3.0, 1e-3],
             direction: [1.0, 0.0, 0.0],
         },
-        mirror_direction: [0.0, 1.0, 0.0],
+        reference: [0.0, 1.0, 0.0],
         residual: 1.2e-7,
         tolerance: 1e-3,
         axisymmetric: false,
         radius: 2.0,
-        other_axes: vec![OtherAxis {
-            direction: [0.0, 1.0, 0.0],
-            order: 2,
-            residual: 3e-8,
-        }],
-        rejected: vec![RejectedOrder {
-            order: 8,
-            residual: 0.07,
-        }],
-        rotation_regions: vec![[1, 2], [2, 1]],
-        mirror_regions: Vec::new(),
-        horizontal_regions: Vec::new(),
-        promise: Some(Promise {
-            order: 4,
-            mirror: false,
-            horizontal_mirror: false,
-            rotation: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            origin: [0.25, -3.0, 1e-3],
-            outside: None,
-        }),
+        regions: vec![
+            RegionMap {
+                pairs: vec![[1, 2], [2, 1]],
+            },
+            RegionMap::default(),
+        ],
     }
 }
 

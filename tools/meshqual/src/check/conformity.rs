@@ -85,7 +85,8 @@ pub fn conformity(
     let template = &document.templates[index];
     // A mesh from elsewhere may come without surface triangles, or with some of them; what went
     // through the pipe has them all.
-    let promised = document.symmetry.is_some() || !document.is_plain();
+    let promised =
+        document.symmetry.is_some() || document.promise.is_some() || !document.is_plain();
     let complete = promised && !template.triangles.is_empty();
     let mut skin = Skin::empty();
     FaceTable::new(template)?.visit(|face, tets, triangles| {

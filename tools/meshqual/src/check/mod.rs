@@ -24,7 +24,7 @@ use findings::{Findings, Kind};
 use geom::edges::orientation;
 use kit::number;
 use serde::Serialize;
-use tmesh::{Document, Outside, Promise, Violation, Wall};
+use tmesh::{Document, Outside, Promise, Violation};
 
 /// Distance below which two vertices coincide, relative to the mesh's size (the diagonal of its
 /// bounding box).
@@ -96,7 +96,7 @@ pub fn check(
     }
     vertices::coincident_vertices(document, size, &mut findings);
 
-    let promise = document.symmetry.as_ref().and_then(|s| s.promise.as_ref());
+    let promise = document.promise.as_ref();
     if document.is_plain() {
         if let (Some(promise), true) = (promise, has_tets) {
             let found = symmetric::check(document, promise, size, &mut findings);
@@ -110,14 +110,12 @@ pub fn check(
             .any(|v| matches!(v, Violation::MissingNeighbour { .. }));
         let realized = realized(document);
         let kept = promise.is_none_or(|p| {
-            let holds = realized.order.is_multiple_of(p.order.max(1))
-                && realized.mirror >= p.mirror
-                && realized.horizontal_mirror >= p.horizontal_mirror;
+            let holds = p.group.is_subgroup_of(realized.group);
             if !holds {
                 findings.add(Kind::Instances, || {
                     format!(
-                        "they have order {}, the document promises {}",
-                        realized.order, p.order
+                        "they have the symmetry {}, the document promises {}",
+                        realized.group, p.group
                     )
                 });
             }
@@ -147,24 +145,21 @@ fn outside_holds(realized: &Realized, promise: &Promise, findings: &mut Findings
         return true;
     };
     let whole = Outside {
-        order: realized.order,
-        mirror: realized.mirror,
+        group: realized.group,
         radius: 0.0,
     };
     let candidates = [Some(whole), realized.outside];
     let holds = candidates.iter().flatten().any(|o| {
-        o.order.is_multiple_of(promised.order.max(1))
-            && o.mirror >= promised.mirror
-            && o.radius <= promised.radius * (1.0 + RADIUS_SLACK)
+        promised.group.is_subgroup_of(o.group) && o.radius <= promised.radius * (1.0 + RADIUS_SLACK)
     });
     if !holds {
         findings.add(Kind::Instances, || {
             let found = realized.outside.unwrap_or(whole);
             format!(
-                "they have order {} outside of the radius {}, the document promises {} outside of {}",
-                found.order,
+                "they have the symmetry {} outside of the radius {}, the document promises {} outside of {}",
+                found.group,
                 number(found.radius),
-                promised.order,
+                promised.group,
                 number(promised.radius)
             )
         });
@@ -194,11 +189,11 @@ fn inverted(document: &Document, index: usize, findings: &mut Findings) -> Vec<u
 /// Largest distance between a point of a mirror wall and its own image, relative to the size.
 fn plane_residual(document: &Document, size: f64) -> f64 {
     let mut residual = 0.0_f64;
-    for template in &document.templates {
-        for wall in &template.walls {
-            if let Wall::Mirror(w) = wall {
-                for &v in &w.vertices {
-                    let distance = w.plane.distance(template.vertices[v as usize]);
+    for (index, template) in document.templates.iter().enumerate() {
+        for gluing in &template.gluings {
+            if let Some(plane) = gluing.mirror_plane(index) {
+                for v in gluing.vertices_here() {
+                    let distance = plane.distance(template.vertices[v as usize]);
                     residual = residual.max(2.0 * distance.abs());
                 }
             }

@@ -7,7 +7,7 @@ use geom::grid::Grid;
 use glam::{DMat3, DVec3};
 use kit::number;
 use rustc_hash::FxHashMap;
-use tmesh::{Document, Frame, Isometry, MAX_TURN_DENOMINATOR, Promise, Tet};
+use tmesh::{Document, Frame, Group, Isometry, Promise, Tet};
 
 /// How well a vertex has to fall on its image, relative to the size.
 const RESIDUAL: f64 = 1e-12;
@@ -47,9 +47,9 @@ pub fn check(
     let Some(frame) = frame(promise) else {
         findings.add(Kind::BadPromise, || {
             format!(
-                "order {}, a frame that is not a rotation and a finite shift, or an order outside of \
-                 a radius that does not fit",
-                promise.order
+                "{}, a frame that is not a rotation and a finite shift, or a group outside of a radius \
+                 that does not fit",
+                promise.group
             )
         });
         found.connectivity = false;
@@ -124,11 +124,11 @@ fn frame(promise: &Promise) -> Option<Frame> {
         .iter()
         .fold(0.0_f64, |m, x| m.max(x.abs()));
     let proper = off <= 1e-12 && rotation.determinant() > 0.0 && origin.is_finite();
-    let turns = |order| (1..=MAX_TURN_DENOMINATOR).contains(&order);
-    let fits = turns(promise.order)
+    let turns = |group: Group| (1..=group.kind.max_order()).contains(&group.order);
+    let fits = turns(promise.group)
         && promise.outside.is_none_or(|o| {
-            turns(o.order)
-                && o.order.is_multiple_of(promise.order)
+            turns(o.group)
+                && o.group.order.is_multiple_of(promise.group.order)
                 && (0.0..f64::INFINITY).contains(&o.radius)
         });
     (proper && fits).then_some(Frame { rotation, origin })
@@ -141,44 +141,39 @@ struct Generator {
     beyond: Option<f64>,
 }
 
+/// The generators of what is promised: a mesh that each maps onto itself is mapped onto itself by
+/// their products, so no other element has to be looked at.
 fn generators(promise: &Promise) -> Vec<Generator> {
-    let mut generators = Vec::new();
-    let mut add = |name: String, isometry: Isometry, beyond: Option<f64>| {
-        generators.push(Generator {
-            name,
+    let of = |group: Group| {
+        group
+            .generators()
+            .into_iter()
+            .map(move |g| (named(group, g), g))
+    };
+    let whole = of(promise.group).map(|(name, isometry)| Generator {
+        name,
+        isometry,
+        beyond: None,
+    });
+    let outside = promise.outside.iter().flat_map(|outside| {
+        let new = of(outside.group).filter(|(_, g)| !promise.group.contains(*g));
+        new.map(|(name, isometry)| Generator {
+            name: format!("{name} outside of the radius {}", number(outside.radius)),
             isometry,
-            beyond,
-        });
-    };
-    let rotation = |n: u32| {
-        (
-            format!("the rotation of order {n}"),
-            Isometry::rotation(1, n),
-        )
-    };
-    let mirror = Isometry::reflection(0, 1);
-    if promise.order > 1 {
-        let (name, isometry) = rotation(promise.order);
-        add(name, isometry, None);
+            beyond: Some(outside.radius),
+        })
+    });
+    whole.chain(outside).collect()
+}
+
+fn named(group: Group, generator: Isometry) -> String {
+    match (generator.mirrored(), generator.flipped()) {
+        (false, false) => format!("the rotation of order {}", group.order),
+        (true, false) => "the mirror".to_owned(),
+        (true, true) => "the half turn across the axis".to_owned(),
+        (false, true) if generator == Isometry::FLIP => "the horizontal mirror".to_owned(),
+        (false, true) => format!("the rotary reflection of order {}", 2 * group.order),
     }
-    if promise.mirror {
-        add("the mirror".to_owned(), mirror, None);
-    }
-    if promise.horizontal_mirror {
-        let flip = Isometry::new(0, 1, false, true);
-        add("the horizontal mirror".to_owned(), flip, None);
-    }
-    if let Some(outside) = &promise.outside {
-        let place = format!("outside of the radius {}", number(outside.radius));
-        if outside.order != promise.order {
-            let (name, isometry) = rotation(outside.order);
-            add(format!("{name} {place}"), isometry, Some(outside.radius));
-        }
-        if outside.mirror && !promise.mirror {
-            add(format!("the mirror {place}"), mirror, Some(outside.radius));
-        }
-    }
-    generators
 }
 
 /// The part of the mesh that a generator has to map onto itself; the default is all of it.

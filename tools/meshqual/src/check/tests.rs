@@ -3,7 +3,10 @@
 use crate::specimens::{assembled, wedge};
 use crate::{Params, Report, analyse};
 use glam::DVec3;
-use tmesh::{Document, Instance, Isometry, OUTSIDE, Outside, Promise, Template, Tet, Wall};
+use tmesh::{
+    Document, Gluing, Group, Instance, Isometry, Kind, OUTSIDE, Outside, Plane, Promise, Template,
+    Tet,
+};
 
 fn report(document: &Document) -> Report {
     let params = Params {
@@ -38,18 +41,22 @@ fn sound(document: &Document) -> Report {
     report
 }
 
-fn mirror(document: &mut Document, wall: usize) -> &mut tmesh::MirrorWall {
-    match &mut document.templates[0].walls[wall] {
-        Wall::Mirror(w) => w,
-        _ => panic!("not a mirror wall"),
-    }
+/// A mirror wall of the first template.
+fn mirror(document: &mut Document, wall: usize) -> &mut Gluing {
+    &mut document.templates[0].gluings[wall]
 }
 
-fn seam(document: &mut Document) -> &mut tmesh::Seam {
-    match &mut document.templates[0].walls[0] {
-        Wall::Seam(w) => w,
-        _ => panic!("not a seam"),
-    }
+/// The seam of the first template.
+fn seam(document: &mut Document) -> &mut Gluing {
+    &mut document.templates[0].gluings[0]
+}
+
+fn rotations(n: u32) -> Group {
+    Group::new(Kind::C, n)
+}
+
+fn mirrors(n: u32) -> Group {
+    Group::new(Kind::Cv, n)
 }
 
 #[test]
@@ -97,7 +104,12 @@ fn sound_meshes_pass_instanced_and_assembled_alike() {
             assert!(checks.boundary_area_error.unwrap() < 1e-13);
         }
         let symmetry = a.summary.symmetry.unwrap();
-        assert_eq!((symmetry.order, symmetry.mirror), (n, with_mirror));
+        let expected = if with_mirror {
+            mirrors(n)
+        } else {
+            rotations(n)
+        };
+        assert_eq!(symmetry.group, expected);
     }
 }
 
@@ -303,24 +315,10 @@ fn asymmetric_connectivity_on_symmetric_vertices() {
 #[test]
 fn a_promise_too_high() {
     let mut whole = assembled(&wedge(5, false));
-    whole
-        .symmetry
-        .as_mut()
-        .unwrap()
-        .promise
-        .as_mut()
-        .unwrap()
-        .order = 10;
+    promise(&mut whole).group = rotations(10);
     broken(&whole, "symmetry", "no vertex within");
     let mut mirrored = assembled(&wedge(5, false));
-    mirrored
-        .symmetry
-        .as_mut()
-        .unwrap()
-        .promise
-        .as_mut()
-        .unwrap()
-        .mirror = true;
+    promise(&mut mirrored).group = mirrors(5);
     broken(&mirrored, "symmetry", "under the mirror");
 }
 
@@ -328,18 +326,16 @@ fn a_promise_too_high() {
 /// between the second ring of vertices (at radius 2) and the third.
 fn of_order_eight_outside() -> Document {
     let mut whole = assembled(&wedge(8, false));
-    promise(&mut whole).order = 4;
+    promise(&mut whole).group = rotations(4);
     promise(&mut whole).outside = Some(Outside {
-        order: 8,
-        mirror: false,
+        group: rotations(8),
         radius: 2.5,
     });
     whole
 }
 
 fn promise(document: &mut Document) -> &mut Promise {
-    let symmetry = document.symmetry.as_mut().unwrap();
-    symmetry.promise.as_mut().unwrap()
+    document.promise.as_mut().unwrap()
 }
 
 /// Moves a vertex at a distance from the axis, and its images under the rotation of order 4, along
@@ -369,10 +365,10 @@ fn move_symmetrically(whole: &mut Document, radius: f64) {
 fn a_higher_order_outside_holds_there_only() {
     let r = sound(&of_order_eight_outside());
     let symmetry = r.summary.symmetry.unwrap();
-    assert_eq!(symmetry.outside.map(|o| o.order), Some(8));
+    assert_eq!(symmetry.outside.map(|o| o.group), Some(rotations(8)));
     let text = crate::text(&r, true);
     assert!(
-        text.contains("a symmetry of order 4, of order 8 outside of the radius 2.5\n"),
+        text.contains("a symmetry of C4, of C8 outside of the radius 2.5\n"),
         "{text}"
     );
     // The whole keeps order 4 all the same.
@@ -416,10 +412,10 @@ fn a_higher_order_outside_holds_for_elements_and_regions() {
 #[test]
 fn a_promise_too_high_outside() {
     let mut whole = of_order_eight_outside();
-    promise(&mut whole).outside.as_mut().unwrap().order = 16;
+    promise(&mut whole).outside.as_mut().unwrap().group = rotations(16);
     broken(&whole, "symmetry", "order 16 outside of the radius 2.5");
     let mut mirrored = of_order_eight_outside();
-    promise(&mut mirrored).outside.as_mut().unwrap().mirror = true;
+    promise(&mut mirrored).outside.as_mut().unwrap().group = mirrors(8);
     broken(
         &mirrored,
         "symmetry",
@@ -427,13 +423,12 @@ fn a_promise_too_high_outside() {
     );
     let mut mirrored = assembled(&wedge(8, true));
     *promise(&mut mirrored) = promise(&mut of_order_eight_outside()).clone();
-    promise(&mut mirrored).outside.as_mut().unwrap().mirror = true;
+    promise(&mut mirrored).outside.as_mut().unwrap().group = mirrors(8);
     sound(&mirrored);
     for (order, radius) in [(6, 2.5), (8, f64::NAN), (8, -1.0), (0, 2.5)] {
         let mut odd = of_order_eight_outside();
         promise(&mut odd).outside = Some(Outside {
-            order,
-            mirror: false,
+            group: rotations(order),
             radius,
         });
         let params = Params {
@@ -447,11 +442,10 @@ fn a_promise_too_high_outside() {
     }
     // Of instances.
     let mut instanced = wedge(8, false);
-    let symmetry = instanced.symmetry.as_mut().unwrap();
-    symmetry.promise = of_order_eight_outside().symmetry.unwrap().promise;
+    instanced.promise = of_order_eight_outside().promise;
     sound(&instanced);
-    promise(&mut instanced).outside.as_mut().unwrap().order = 16;
-    broken(&instanced, "symmetry", "promises 16 outside of 2.5");
+    promise(&mut instanced).outside.as_mut().unwrap().group = rotations(16);
+    broken(&instanced, "symmetry", "promises C16 outside of 2.5");
 }
 
 #[test]
@@ -483,7 +477,7 @@ fn a_sector_on_its_own() {
 fn walls_that_leave_something_out() {
     // A face on the wall that is not listed.
     let mut instanced = wedge(5, true);
-    mirror(&mut instanced, 0).triangles.remove(2);
+    mirror(&mut instanced, 0).triangle_pairs.remove(2);
     broken(
         &instanced,
         "conforming",
@@ -491,14 +485,14 @@ fn walls_that_leave_something_out() {
     );
     // A vertex on the wall that is not listed.
     let mut instanced = wedge(5, true);
-    let v = mirror(&mut instanced, 1).vertices.remove(2);
+    let [v, _] = mirror(&mut instanced, 1).vertex_pairs.remove(2);
     let r = broken(&instanced, "coincidence", &format!("vertex {v} lies"));
     assert_eq!(r.checks.coincident_vertices, Some(1));
     broken(&instanced, "conforming", "has vertices that are not on it");
     // A vertex beyond the wall.
     let mut instanced = wedge(5, true);
-    let on_a: Vec<u32> = mirror(&mut instanced, 0).vertices.clone();
-    let on_b: Vec<u32> = mirror(&mut instanced, 1).vertices.clone();
+    let on_a: Vec<u32> = mirror(&mut instanced, 0).vertices_here().collect();
+    let on_b: Vec<u32> = mirror(&mut instanced, 1).vertices_here().collect();
     let count = instanced.templates[0].vertices.len() as u32;
     let free = (0..count)
         .find(|v| !on_a.contains(v) && !on_b.contains(v))
@@ -517,8 +511,8 @@ fn walls_that_leave_something_out() {
         .iter()
         .position(|t| t.front != OUTSIDE && t.back != OUTSIDE);
     let wall = mirror(&mut instanced, 0);
-    wall.triangles.push(inside.unwrap() as u32);
-    wall.triangles.sort();
+    wall.triangle_pairs.push([inside.unwrap() as u32; 2]);
+    wall.triangle_pairs.sort();
     broken(
         &instanced,
         "conforming",
@@ -582,7 +576,7 @@ fn region_maps_count() {
     }
     let r = sound(&instanced);
     assert_eq!(r.summary.regions.len(), 8);
-    assert_eq!(r.summary.symmetry.unwrap().order, 4);
+    assert_eq!(r.summary.symmetry.unwrap().group.order, 4);
     let per = r.summary.regions[0].tetrahedra;
     assert!(
         r.summary
@@ -596,12 +590,12 @@ fn region_maps_count() {
         instance.region_map = (k % 2) as u32;
     }
     instanced.region_maps[0].pairs = vec![[1, 2], [2, 1]];
-    assert_eq!(sound(&instanced).summary.symmetry.unwrap().order, 4);
+    assert_eq!(sound(&instanced).summary.symmetry.unwrap().group.order, 4);
     // One copy apart from the others: no symmetry left.
     for (k, instance) in instanced.instances.iter_mut().enumerate() {
         instance.region_map = u32::from(k == 0);
     }
-    assert_eq!(sound(&instanced).summary.symmetry.unwrap().order, 1);
+    assert_eq!(sound(&instanced).summary.symmetry.unwrap().group.order, 1);
 }
 
 #[test]
@@ -635,7 +629,7 @@ fn surfaces_are_checked_as_such() {
         assert!(r.notes[0].contains("no tetrahedra"));
         let mut open = document.clone();
         open.templates[0].triangles.remove(0);
-        let wall_lists = open.templates[0].walls.len();
+        let wall_lists = open.templates[0].gluings.len();
         if wall_lists == 0 {
             let r = broken(
                 &open,
@@ -697,13 +691,10 @@ fn hub_walls_join_templates() {
         }
     }
     assert_eq!(r.summary.vertices, seen.len() as u64);
-    assert_eq!(r.summary.symmetry.unwrap().order, 4);
+    assert_eq!(r.summary.symmetry.unwrap().group.order, 4);
 
     let mut broken_pair = document.clone();
-    let Wall::Hub(w) = &mut broken_pair.templates[1].walls[2] else {
-        panic!("not a hub wall");
-    };
-    w.triangle_pairs.pop();
+    broken_pair.templates[1].gluings[2].triangle_pairs.pop();
     broken(
         &broken_pair,
         "conforming",
@@ -711,7 +702,7 @@ fn hub_walls_join_templates() {
     );
     broken(&broken_pair, "conforming", "are not listed on it");
     let mut unwalled = document;
-    unwalled.templates[1].walls.truncate(2);
+    unwalled.templates[1].gluings.truncate(2);
     let r = report(&unwalled);
     assert!(!r.checks.passed || r.summary.vertices > seen.len() as u64);
 }
@@ -748,33 +739,19 @@ fn hub() -> Document {
     let far = Isometry::reflection(1, 8);
     let mut shell = part(2, &[Isometry::IDENTITY]);
     let mut core = part(1, &[Isometry::IDENTITY, far]);
-    let wall = |t: &mut Template, name: &str, reflection: Isometry, (c, s): (f64, f64)| {
-        let plane = tmesh::Plane {
-            normal: DVec3::new(-s, c, 0.0),
-            offset: 0.0,
-        };
+    let wall = |own: u32, t: &mut Template, name: &str, reflection: Isometry| {
+        let plane = Plane::of_reflection(reflection).unwrap();
         let on = |v: u32| plane.distance(t.vertices[v as usize]).abs() < 1e-12;
-        let vertices: Vec<u32> = (0..t.vertices.len() as u32).filter(|&v| on(v)).collect();
+        let vertices = (0..t.vertices.len() as u32).filter(|&v| on(v));
         let triangles = (0..t.triangles.len() as u32)
-            .filter(|&i| t.triangles[i as usize].vertices.iter().all(|&v| on(v)))
-            .collect();
-        t.walls.push(Wall::Mirror(tmesh::MirrorWall {
-            name: name.to_owned(),
-            plane,
-            reflection,
-            vertices,
-            triangles,
-        }));
+            .filter(|&i| t.triangles[i as usize].vertices.iter().all(|&v| on(v)));
+        let gluing = Gluing::mirror(name, own, reflection, vertices, triangles);
+        t.gluings.push(gluing);
     };
-    wall(&mut shell, "a", Isometry::reflection(0, 1), (-1.0, -0.0));
-    wall(&mut shell, "b", far, Isometry::rotation(1, 16).cos_sin());
-    wall(&mut core, "a", Isometry::reflection(0, 1), (-1.0, -0.0));
-    wall(
-        &mut core,
-        "b",
-        Isometry::reflection(1, 4),
-        Isometry::rotation(1, 8).cos_sin(),
-    );
+    wall(0, &mut shell, "a", Isometry::reflection(0, 1));
+    wall(0, &mut shell, "b", far);
+    wall(1, &mut core, "a", Isometry::reflection(0, 1));
+    wall(1, &mut core, "b", Isometry::reflection(1, 4));
     for (name, placement) in [("hub-0", Isometry::IDENTITY), ("hub-1", far)] {
         let placed = placement.placed();
         let find = |p: DVec3| {
@@ -805,13 +782,14 @@ fn hub() -> Document {
                 .position(|t| crate::faces::sorted(t.vertices).0 == key);
             triangle_pairs.push([here.unwrap() as u32, i as u32]);
         }
-        core.walls.push(Wall::Hub(tmesh::HubWall {
+        triangle_pairs.sort();
+        core.gluings.push(Gluing {
             name: name.to_owned(),
             other: 0,
-            placement,
+            step: placement,
             vertex_pairs,
             triangle_pairs,
-        }));
+        });
     }
     document.templates = vec![shell, core];
     for k in 0..4 {

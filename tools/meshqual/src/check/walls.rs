@@ -7,7 +7,7 @@ use crate::instances::Links;
 use geom::grid::Grid;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
-use tmesh::{Document, Isometry, MirrorWall, OUTSIDE, Template, Wall};
+use tmesh::{Document, Gluing, Isometry, OUTSIDE, Plane, Template};
 
 /// Checks the walls of a template. `skins` are those of all templates.
 ///
@@ -23,45 +23,32 @@ pub fn check(
 ) {
     let template = &document.templates[index];
     let skin = &skins[index];
-    for wall in &template.walls {
-        for t in wall.triangles() {
-            let name = wall.name();
-            outer(document, index, skin, t, name, findings);
+    for gluing in &template.gluings {
+        let other = gluing.other as usize;
+        for t in gluing.triangles_here() {
+            outer(document, index, skin, t, &gluing.name, findings);
         }
-        match wall {
-            Wall::Mirror(w) => mirror(document, index, size, skin, w, findings),
-            Wall::Seam(w) => {
-                let across = Across {
-                    name: &w.name,
-                    here: index,
-                    there: index,
-                    placement: w.rotation,
-                    vertex_pairs: w.vertex_pairs.clone(),
-                    triangle_pairs: &w.triangle_pairs,
-                };
-                // Pairs are (low, high), and the rotation maps low onto high.
-                across.check(document, size, skins, findings);
-            }
-            Wall::Hub(w) => {
-                let other = w.other as usize;
-                for &[_, t] in &w.triangle_pairs {
-                    outer(document, other, &skins[other], t, &w.name, findings);
-                }
-                let swap = |p: &[u32; 2]| [p[1], p[0]];
-                let mut vertex_pairs: Vec<[u32; 2]> = w.vertex_pairs.iter().map(swap).collect();
-                vertex_pairs.sort_unstable();
-                let triangle_pairs: Vec<[u32; 2]> = w.triangle_pairs.iter().map(swap).collect();
-                let across = Across {
-                    name: &w.name,
-                    here: other,
-                    there: index,
-                    placement: w.placement,
-                    vertex_pairs,
-                    triangle_pairs: &triangle_pairs,
-                };
-                across.check(document, size, skins, findings);
-            }
+        if let Some(plane) = gluing.mirror_plane(index) {
+            mirror(document, index, size, skin, (gluing, plane), findings);
+            continue;
         }
+        for t in gluing.triangles_there() {
+            outer(document, other, &skins[other], t, &gluing.name, findings);
+        }
+        let turned = |pairs: &[[u32; 2]]| {
+            let mut turned: Vec<[u32; 2]> = pairs.iter().map(|&[a, b]| [b, a]).collect();
+            turned.sort_unstable();
+            turned
+        };
+        let across = Across {
+            name: &gluing.name,
+            here: other,
+            there: index,
+            placement: gluing.step,
+            vertex_pairs: turned(&gluing.vertex_pairs),
+            triangle_pairs: &turned(&gluing.triangle_pairs),
+        };
+        across.check(document, size, skins, findings);
     }
 }
 
@@ -89,18 +76,18 @@ fn mirror(
     index: usize,
     size: f64,
     skin: &Skin,
-    wall: &MirrorWall,
+    (wall, plane): (&Gluing, Plane),
     findings: &mut Findings,
 ) {
     let template = &document.templates[index];
-    let listed = flags(template.vertices.len(), wall.vertices.iter().copied());
+    let listed = flags(template.vertices.len(), wall.vertices_here());
     for (v, p) in template
         .vertices
         .iter()
         .enumerate()
         .filter(|v| !listed[v.0])
     {
-        let distance = wall.plane.distance(*p);
+        let distance = plane.distance(*p);
         let kind = if distance.abs() <= COINCIDENCE * size {
             Kind::NearWall
         } else if distance > 0.0 {
@@ -114,7 +101,7 @@ fn mirror(
             format!("vertex {v} lies {distance:e} from the plane of wall '{name}' {place}")
         });
     }
-    let triangles = flags(template.triangles.len(), wall.triangles.iter().copied());
+    let triangles = flags(template.triangles.len(), wall.triangles_here());
     for (face, &triangle) in skin.faces.iter().zip(&skin.triangles) {
         let on_plane = face.iter().all(|&v| listed[v as usize]);
         let known = triangle != u32::MAX && triangles[triangle as usize];
@@ -122,7 +109,7 @@ fn mirror(
             unlisted(document, index, *face, &wall.name, findings);
         }
     }
-    for &triangle in &wall.triangles {
+    for triangle in wall.triangles_here() {
         let t = &template.triangles[triangle as usize];
         if !t.vertices.iter().all(|&v| listed[v as usize]) {
             findings.add(Kind::WallInside, || {
@@ -247,10 +234,11 @@ pub fn hub_coverage(document: &Document, findings: &mut Findings) {
     let mut met: Vec<FxHashMap<u32, u64>> = vec![FxHashMap::default(); copies.len()];
     let mut order: BTreeMap<(usize, u32), ()> = BTreeMap::new();
     for (index, template) in document.templates.iter().enumerate() {
-        for wall in &template.walls {
-            let Wall::Hub(w) = wall else { continue };
-            let other = w.other as usize;
-            for &[here, there] in &w.triangle_pairs {
+        for gluing in &template.gluings {
+            let Some(other) = gluing.other_than(index) else {
+                continue;
+            };
+            for &[here, there] in &gluing.triangle_pairs {
                 *met[other].entry(there).or_insert(0) += copies[index];
                 order.insert((other, there), ());
                 // Each wall meets one neighbour for each own instance.

@@ -148,11 +148,9 @@ fn symmetry(document: &Document) -> Option<Realized> {
     if !document.is_plain() {
         return Some(realized(document));
     }
-    let promise = document.symmetry.as_ref().and_then(|s| s.promise.as_ref());
+    let promise = document.promise.as_ref();
     promise.map(|p| Realized {
-        order: p.order,
-        mirror: p.mirror,
-        horizontal_mirror: p.horizontal_mirror,
+        group: p.group,
         outside: p.outside,
     })
 }

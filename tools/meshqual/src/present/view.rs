@@ -29,7 +29,7 @@ impl View {
         let eye = DVec3::new(ce * ca, ce * sa, se);
         let right = DVec3::new(-sa, ca, 0.0);
         // The axis of an assembled mesh lies anywhere.
-        let promise = document.symmetry.as_ref().and_then(|s| s.promise.as_ref());
+        let promise = document.promise.as_ref();
         let (upright, origin) = match promise.filter(|_| document.is_plain()) {
             Some(p) => (
                 DMat3::from_cols_array_2d(&p.rotation),

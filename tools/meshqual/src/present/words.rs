@@ -18,24 +18,10 @@ pub const STATISTICS: [Statistic; 6] = [
 
 /// The order of a symmetry, with mirrors and with what holds outside of a hub.
 pub fn symmetry_words(symmetry: &Realized) -> String {
-    let mut of = format!("order {}", symmetry.order);
-    if symmetry.mirror {
-        of.push_str(" with mirrors");
-    }
-    if symmetry.horizontal_mirror {
-        of.push_str(" and a horizontal mirror");
-    }
+    let mut of = symmetry.group.symbol();
     if let Some(outside) = &symmetry.outside {
-        let mirrors = match outside.mirror && !symmetry.mirror {
-            true => " with mirrors",
-            false => "",
-        };
         let radius = number(outside.radius);
-        let _ = write!(
-            of,
-            ", of order {}{mirrors} outside of the radius {radius}",
-            outside.order
-        );
+        let _ = write!(of, ", of {} outside of the radius {radius}", outside.group);
     }
     of
 }

@@ -8,7 +8,7 @@ use crate::SurfaceError;
 use glam::{DVec2, DVec3};
 use mesher::{ROUNDING, face_key};
 use rustc_hash::FxHashMap;
-use tmesh::{FixedSet, Triangle, Wall};
+use tmesh::{FixedSet, Triangle};
 
 /// Twice the area of a triangle up to which its corners count as on one line, over the square of its longer sides.
 const FLAT: f64 = 1e-10;
@@ -286,10 +286,8 @@ impl Maker<'_> {
             return points.clone().all(near).then_some(plane);
         }
         let wall = (face.checked_sub(1)? / 2) as usize;
-        match self.input.walls.get(wall) {
-            Some(Wall::Mirror(mirror)) => Some(FixedSet::of(mirror.reflection)),
-            _ => None,
-        }
+        let gluing = self.input.gluings.get(wall)?;
+        (gluing.is_mirror(self.index)).then(|| FixedSet::of(gluing.step))
     }
 
     /// Height of a facet that is exactly horizontal.

@@ -4,8 +4,8 @@
 //! that the template had there; triangles beside it are divided where its outline is.
 
 use glam::DVec3;
-use rustc_hash::FxHashMap;
-use tmesh::{Document, FixedSet, HubWall, Placed, RegionMap, Seam, Template, Triangle, Wall};
+use rustc_hash::{FxHashMap, FxHashSet};
+use tmesh::{Document, FixedSet, Gluing, Placed, RegionMap, Template, Triangle};
 
 /// What a template that shares its face has become.
 pub struct Other<'a> {
@@ -37,59 +37,55 @@ pub fn impose(document: &Document, index: usize, other: &Other<'_>) -> Result<Te
         edges: FxHashMap::default(),
     };
     let mut on_wall = vec![false; template.triangles.len()];
-    let mut walls = template.walls.clone();
-    for wall in &mut walls {
-        if let Wall::Hub(hub) = wall {
-            for pair in &hub.triangle_pairs {
-                on_wall[pair[0] as usize] = true;
-            }
-            let instance = document
-                .instances
-                .iter()
-                .find(|i| i.template == hub.other && i.isometry == hub.placement);
-            let map = instance
-                .and_then(|i| i.region_map.checked_sub(1))
-                .and_then(|map| document.region_maps.get(map as usize));
-            maker.image(hub, other, &chains, map)?;
+    let mut gluings = template.gluings.clone();
+    for gluing in gluings.iter_mut().filter(|g| g.other_than(index).is_some()) {
+        for t in gluing.triangles_here() {
+            on_wall[t as usize] = true;
         }
+        let instance = document
+            .instances
+            .iter()
+            .find(|i| i.template == gluing.other && i.isometry == gluing.step);
+        let map = instance
+            .and_then(|i| i.region_map.checked_sub(1))
+            .and_then(|map| document.region_maps.get(map as usize));
+        maker.image(gluing, other, &chains, map)?;
     }
-    let high: FxHashMap<u32, u32> = walls
+    let high: FxHashSet<u32> = gluings
         .iter()
-        .filter_map(|w| match w {
-            Wall::Seam(seam) => Some(seam.triangle_pairs.iter().map(|p| (p[1], p[0]))),
-            _ => None,
-        })
-        .flatten()
+        .filter(|g| g.is_seam(index))
+        .flat_map(Gluing::triangles_here)
         .collect();
     // The seam's faces come last: its high face is the image of what became of the low one.
     let mut pieces: Vec<Vec<u32>> = vec![Vec::new(); template.triangles.len()];
     for (t, triangle) in template.triangles.iter().enumerate() {
-        if !on_wall[t] && !high.contains_key(&(t as u32)) {
+        if !on_wall[t] && !high.contains(&(t as u32)) {
             pieces[t] = maker.divide(*triangle);
         }
     }
-    for wall in &mut walls {
-        match wall {
-            Wall::Mirror(mirror) => {
-                let triangles = mirror.triangles.iter();
-                mirror.triangles = triangles
-                    .flat_map(|&t| pieces[t as usize].clone())
-                    .collect();
-                mirror.triangles.sort_unstable();
-                let projection = FixedSet::of(mirror.reflection);
-                let added = maker.added_between(&mirror.vertices);
-                for &v in &added {
-                    let p = &mut maker.new.vertices[v as usize];
-                    *p = projection.nearest(*p);
-                }
-                mirror.vertices.extend(added);
-                mirror.vertices.sort_unstable();
+    for gluing in &mut gluings {
+        if gluing.is_mirror(index) {
+            let triangles = gluing.triangles_here();
+            let mut triangles: Vec<u32> =
+                triangles.flat_map(|t| pieces[t as usize].clone()).collect();
+            triangles.sort_unstable();
+            gluing.triangle_pairs = triangles.into_iter().map(|t| [t, t]).collect();
+            let projection = FixedSet::of(gluing.step);
+            let old: Vec<u32> = gluing.vertices_here().collect();
+            let added = maker.added_between(&old);
+            for &v in &added {
+                let p = &mut maker.new.vertices[v as usize];
+                *p = projection.nearest(*p);
             }
-            Wall::Seam(seam) => maker.seam(seam, template, &pieces)?,
-            Wall::Hub(_) => {}
+            gluing
+                .vertex_pairs
+                .extend(added.into_iter().map(|v| [v, v]));
+            gluing.vertex_pairs.sort_unstable();
+        } else if gluing.is_seam(index) {
+            maker.seam(gluing, template, &pieces)?;
         }
     }
-    maker.new.walls = walls;
+    maker.new.gluings = gluings;
     Ok(maker.new)
 }
 
@@ -166,12 +162,12 @@ impl Maker {
     /// Adds the face as one of the hub walls has it.
     fn image(
         &mut self,
-        hub: &mut HubWall,
+        hub: &mut Gluing,
         other: &Other<'_>,
         chains: &Chains,
         regions: Option<&RegionMap>,
     ) -> Result<(), String> {
-        let placed = hub.placement.placed();
+        let placed = hub.step.placed();
         let mut here: FxHashMap<u32, u32> = FxHashMap::default();
         for pair in &hub.vertex_pairs {
             let there = other.vertices[pair[1] as usize];
@@ -234,7 +230,7 @@ impl Maker {
             let region = |r: u32| regions.map_or(r, |map| map.get(r));
             self.new.triangles.push(Triangle {
                 // Both faces look out of their template.
-                vertices: if hub.placement.reverses_orientation() {
+                vertices: if hub.step.reverses_orientation() {
                     [a, b, c]
                 } else {
                     [a, c, b]
@@ -301,13 +297,13 @@ impl Maker {
     /// Gives the seam its new vertices and triangles.
     fn seam(
         &mut self,
-        seam: &mut Seam,
+        seam: &mut Gluing,
         template: &Template,
         pieces: &[Vec<u32>],
     ) -> Result<(), String> {
-        let placed = seam.rotation.placed();
+        let placed = seam.step.placed();
         let mut image: FxHashMap<u32, u32> =
-            seam.vertex_pairs.iter().map(|p| (p[0], p[1])).collect();
+            seam.vertex_pairs.iter().map(|p| (p[1], p[0])).collect();
         let mut edges: Vec<[u32; 2]> = self.edges.keys().copied().collect();
         edges.sort_unstable();
         for [a, b] in edges {
@@ -333,12 +329,12 @@ impl Maker {
                 image.insert(v, w);
                 // To the bit, whatever image of the face this vertex came with.
                 self.new.vertices[w as usize] = placed.apply(self.new.vertices[v as usize]);
-                seam.vertex_pairs.push([v, w]);
+                seam.vertex_pairs.push([w, v]);
             }
         }
         seam.vertex_pairs.sort_unstable();
         let mut pairs = Vec::new();
-        for &[low, high] in &seam.triangle_pairs {
+        for &[high, low] in &seam.triangle_pairs {
             let like = template.triangles[high as usize];
             for &piece in &pieces[low as usize] {
                 let corners = self.new.triangles[piece as usize].vertices;
@@ -346,13 +342,14 @@ impl Maker {
                     let p = self.new.vertices[corners[0] as usize];
                     return Err(format!("the seam has a vertex without image near {p}"));
                 };
-                pairs.push([piece, self.new.triangles.len() as u32]);
+                pairs.push([self.new.triangles.len() as u32, piece]);
                 self.new.triangles.push(Triangle {
                     vertices: [a, c, b],
                     ..like
                 });
             }
         }
+        pairs.sort_unstable();
         seam.triangle_pairs = pairs;
         Ok(())
     }

@@ -28,13 +28,13 @@ pub struct Made {
 pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
     let index = climb.template;
     let input = &climb.document.templates[index];
-    let pairings = Pairing::of(input);
+    let pairings = Pairing::of(input, index);
     let guide = refine(climb)?;
     let features = Features::new(input, index, &guide)?;
     let mut maker = Maker::new((input, index), &pairings, &guide, &features);
     maker.divide_edges();
     maker.fill_facets()?;
-    let walls = maker.walls();
+    let gluings = maker.gluings();
     let Maker {
         mut made,
         face_of,
@@ -43,14 +43,14 @@ pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
     } = maker;
     made.axis.sort_unstable();
     made.axis.dedup();
-    made.walls = walls;
+    made.gluings = gluings;
     let facets = &guide.facets.facets;
     let slack = facets.iter().map(|f| 2.0 * f.area * f.deviation).sum();
     check::same_body(input, &made, slack).map_err(|what| SurfaceError::Changed {
         template: index,
         what,
     })?;
-    let others = face_key(input.walls.len(), false);
+    let others = face_key(input.gluings.len(), false);
     let shared = (0..face_of.len() as u32).filter(|&t| face_of[t as usize] >= others);
     Ok(Made {
         shared: shared.collect(),

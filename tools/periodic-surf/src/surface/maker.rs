@@ -5,7 +5,7 @@ use super::guide::Refined;
 use super::pairing::Pairing;
 use crate::SurfaceError;
 use glam::DVec3;
-use tmesh::{FixedSet, Template, Wall};
+use tmesh::{FixedSet, Template};
 
 /// New points of a feature edge.
 #[derive(Clone, Default)]
@@ -58,12 +58,9 @@ impl<'a> Maker<'a> {
         features: &'a Features,
     ) -> Self {
         let mut frozen = vec![false; guide.facets.facets.len()];
-        for wall in &input.walls {
-            if let Wall::Hub(hub) = wall {
-                for pair in &hub.triangle_pairs {
-                    frozen[guide.facets.of_triangle[pair[0] as usize] as usize] = true;
-                }
-            }
+        let shared = (input.gluings.iter()).filter(|gluing| gluing.other_than(index).is_some());
+        for t in shared.flat_map(|gluing| gluing.triangles_here()) {
+            frozen[guide.facets.of_triangle[t as usize] as usize] = true;
         }
         let mut maker = Self {
             input,

@@ -1,6 +1,6 @@
 //! Faces of a template that are images of each other.
 
-use tmesh::{FixedSet, Isometry, Template, Wall};
+use tmesh::{FixedSet, Isometry, Template};
 
 /// Two faces of a template: a master, and its image under a step. What the step leaves where it is pairs with itself.
 pub struct Pairing {
@@ -15,18 +15,18 @@ pub struct Pairing {
 }
 
 impl Pairing {
-    /// All pairings of a template. A mirror wall is its own image, and free.
-    pub fn of(template: &Template) -> Vec<Self> {
-        let walls = template.walls.iter().enumerate();
-        walls
-            .filter_map(|(wall, w)| match w {
-                Wall::Seam(seam) => Some(Self {
-                    wall,
-                    step: seam.rotation,
-                    vertices: seam.vertex_pairs.clone(),
-                    triangles: seam.triangle_pairs.clone(),
-                }),
-                _ => None,
+    /// All pairings of template `own`. A mirror wall is its own image, and free.
+    pub fn of(template: &Template, own: usize) -> Vec<Self> {
+        let turned =
+            |pairs: &[[u32; 2]]| pairs.iter().map(|&[here, there]| [there, here]).collect();
+        let gluings = template.gluings.iter().enumerate();
+        let seams = gluings.filter(|(_, gluing)| gluing.is_seam(own));
+        seams
+            .map(|(wall, gluing)| Self {
+                wall,
+                step: gluing.step,
+                vertices: turned(&gluing.vertex_pairs),
+                triangles: turned(&gluing.triangle_pairs),
             })
             .collect()
     }

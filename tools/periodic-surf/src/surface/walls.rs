@@ -1,54 +1,50 @@
-//! The walls of the new surface.
+//! The gluings of the new surface.
 
 use super::features::NONE;
 use super::maker::Maker;
 use mesher::{NO_FACE, face_key};
 use rustc_hash::FxHashMap;
-use tmesh::Wall;
+use tmesh::Gluing;
 
 impl Maker<'_> {
-    /// The walls of the new surface.
-    pub fn walls(&mut self) -> Vec<Wall> {
-        let mut walls = self.input.walls.clone();
+    /// The gluings of the new surface.
+    pub fn gluings(&mut self) -> Vec<Gluing> {
+        let mut gluings = self.input.gluings.clone();
         let mut of_face: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
         for (t, &face) in self.face_of.iter().enumerate() {
             if face != NO_FACE {
                 of_face.entry(face).or_default().push(t as u32);
             }
         }
-        for (i, wall) in walls.iter_mut().enumerate() {
-            match wall {
-                Wall::Mirror(mirror) => {
-                    mirror.triangles = of_face.remove(&face_key(i, false)).unwrap_or_default();
-                    let mut on: Vec<u32> = self.on_wall(&mirror.vertices);
-                    let corners = |&t: &u32| self.made.triangles[t as usize].vertices;
-                    on.extend(mirror.triangles.iter().flat_map(corners));
-                    on.sort_unstable();
-                    on.dedup();
-                    mirror.vertices = on;
+        for (i, gluing) in gluings.iter_mut().enumerate() {
+            let pairing = self.pairings.iter().position(|p| p.wall == i);
+            if let Some(number) = pairing {
+                let mut pairs = std::mem::take(&mut self.pairs[number]);
+                pairs.sort_unstable();
+                pairs.dedup();
+                let triangles = std::mem::take(&mut self.triangle_pairs[number]);
+                *gluing = Gluing::seam(&gluing.name, gluing.other, gluing.step, pairs, triangles);
+            } else if gluing.is_mirror(self.index) {
+                let triangles = of_face.remove(&face_key(i, false)).unwrap_or_default();
+                let old: Vec<u32> = gluing.vertices_here().collect();
+                let mut on: Vec<u32> = self.on_wall(&old);
+                let corners = |&t: &u32| self.made.triangles[t as usize].vertices;
+                on.extend(triangles.iter().flat_map(corners));
+                on.sort_unstable();
+                on.dedup();
+                gluing.vertex_pairs = on.into_iter().map(|v| [v, v]).collect();
+                gluing.triangle_pairs = triangles.into_iter().map(|t| [t, t]).collect();
+            } else {
+                for pair in &mut gluing.vertex_pairs {
+                    pair[0] = self.of_input[pair[0] as usize];
                 }
-                Wall::Seam(seam) => {
-                    let number = self.pairings.iter().position(|p| p.wall == i);
-                    if let Some(number) = number {
-                        let mut pairs = std::mem::take(&mut self.pairs[number]);
-                        pairs.sort_unstable();
-                        pairs.dedup();
-                        seam.vertex_pairs = pairs;
-                        seam.triangle_pairs = std::mem::take(&mut self.triangle_pairs[number]);
-                    }
+                for pair in &mut gluing.triangle_pairs {
+                    pair[0] = self.of_triangle[pair[0] as usize];
                 }
-                Wall::Hub(hub) => {
-                    for pair in &mut hub.vertex_pairs {
-                        pair[0] = self.of_input[pair[0] as usize];
-                    }
-                    hub.vertex_pairs.sort_unstable();
-                    for pair in &mut hub.triangle_pairs {
-                        pair[0] = self.of_triangle[pair[0] as usize];
-                    }
-                }
+                gluing.sort();
             }
         }
-        walls
+        gluings
     }
 
     /// New vertices at input vertices of a wall, and on edges between them.

@@ -1,47 +1,42 @@
 use super::*;
 use glam::DVec3;
 use std::collections::BTreeSet;
-use tmesh::{HubWall, MirrorWall, Plane, Seam, Template};
+use tmesh::{Gluing, Group, Kind, Template};
 
 /// A template of `count` vertices without meaningful coordinates: numbering must not look.
-fn template(count: usize, walls: Vec<Wall>) -> Template {
+fn template(count: usize, gluings: Vec<Gluing>) -> Template {
     Template {
         vertices: vec![DVec3::ZERO; count],
-        walls,
+        gluings,
         ..Template::default()
     }
 }
 
-fn mirror(reflection: Isometry, vertices: &[u32]) -> Wall {
-    Wall::Mirror(MirrorWall {
-        name: "mirror".to_owned(),
-        plane: Plane {
-            normal: DVec3::Y,
-            offset: 0.0,
-        },
-        reflection,
-        vertices: vertices.to_vec(),
-        triangles: Vec::new(),
-    })
+/// A wall of the first template.
+fn mirror(reflection: Isometry, vertices: &[u32]) -> Gluing {
+    Gluing::mirror("mirror", 0, reflection, vertices.iter().copied(), [])
 }
 
-fn seam(rotation: Isometry, vertex_pairs: &[[u32; 2]]) -> Wall {
-    Wall::Seam(Seam {
-        name: "seam".to_owned(),
-        rotation,
-        vertex_pairs: vertex_pairs.to_vec(),
-        triangle_pairs: Vec::new(),
-    })
+fn seam(rotation: Isometry, vertex_pairs: &[[u32; 2]]) -> Gluing {
+    Gluing::seam("seam", 0, rotation, vertex_pairs.iter().copied(), [])
 }
 
-fn hub(other: u32, placement: Isometry, vertex_pairs: &[[u32; 2]]) -> Wall {
-    Wall::Hub(HubWall {
+fn hub(other: u32, step: Isometry, vertex_pairs: &[[u32; 2]]) -> Gluing {
+    Gluing {
         name: "hub".to_owned(),
         other,
-        placement,
+        step,
         vertex_pairs: vertex_pairs.to_vec(),
         triangle_pairs: Vec::new(),
-    })
+    }
+}
+
+/// The same gluings with itself of the second template.
+fn of_second(mut gluings: Vec<Gluing>) -> Vec<Gluing> {
+    for gluing in gluings.iter_mut().filter(|g| g.name != "hub") {
+        gluing.other = 1;
+    }
+    gluings
 }
 
 fn document(templates: Vec<Template>, instances: Vec<(u32, Isometry)>) -> Document {
@@ -60,15 +55,13 @@ fn document(templates: Vec<Template>, instances: Vec<(u32, Isometry)>) -> Docume
 
 /// All elements of C_n, C_nv, C_nh or D_nh.
 fn group(n: u32, mirrored: bool, flipped: bool) -> Vec<Isometry> {
-    let mut all = Vec::new();
-    for f in 0..=u32::from(flipped) {
-        for k in 0..n {
-            for m in 0..=u32::from(mirrored) {
-                all.push(Isometry::new(i64::from(k), n, m == 1, f == 1));
-            }
-        }
-    }
-    all
+    let kind = match (mirrored, flipped) {
+        (false, false) => Kind::C,
+        (true, false) => Kind::Cv,
+        (false, true) => Kind::Ch,
+        (true, true) => Kind::Dh,
+    };
+    Group::new(kind, n).elements().collect()
 }
 
 fn all_ids(document: &Document, numbering: &Numbering) -> Vec<Vec<u32>> {
@@ -96,18 +89,12 @@ fn brute_force(document: &Document) -> Vec<Vec<u32>> {
     let mut sets = DisjointSets::new(first[first.len() - 1] as usize);
     for (i, instance) in document.instances.iter().enumerate() {
         let t = instance.template;
-        for wall in &document.templates[t as usize].walls {
-            let (other, w) = step(t as usize, wall);
-            let Some(j) = find(other as u32, instance.isometry.compose(w)) else {
+        for gluing in &document.templates[t as usize].gluings {
+            let Some(j) = find(gluing.other, instance.isometry.compose(gluing.step)) else {
                 continue;
             };
-            let mut join = |here: u32, there: u32| {
+            for &[here, there] in &gluing.vertex_pairs {
                 sets.join(first[i] + here, first[j] + there);
-            };
-            match wall {
-                Wall::Mirror(w) => w.vertices.iter().for_each(|&v| join(v, v)),
-                Wall::Seam(w) => w.vertex_pairs.iter().for_each(|p| join(p[1], p[0])),
-                Wall::Hub(w) => w.vertex_pairs.iter().for_each(|p| join(p[0], p[1])),
             }
         }
     }
@@ -250,7 +237,7 @@ fn a_hub_of_the_same_order() {
         let [a, b] = mirrors(&[0], &[1]);
         let wedge = template(4, vec![a, b, hub(1, Isometry::IDENTITY, &pairs)]);
         let [a, b] = mirrors(&[0, 3], &[0, 1]);
-        let column = template(4, vec![a, b]);
+        let column = template(4, of_second(vec![a, b]));
         let mut placed: Vec<_> = group(n, true, false).into_iter().map(|g| (0, g)).collect();
         placed.extend(group(n, true, false).into_iter().map(|g| (1, g)));
         let document = document(vec![wedge, column], placed);
@@ -295,7 +282,7 @@ fn a_hub_of_lower_order_and_one_meshed_whole() {
             let pairs = [[0, 2 * parts], [axis, axis]];
             walls.push(seam(Isometry::rotation(1, order), &pairs));
         }
-        let column = template(axis as usize + 1, walls);
+        let column = template(axis as usize + 1, of_second(walls));
         let mut placed: Vec<_> = group(n, true, false).into_iter().map(|g| (0, g)).collect();
         placed.extend(group(order, mirrored, false).into_iter().map(|g| (1, g)));
         let document = document(vec![template(4, wedge_walls), column], placed);

@@ -3,13 +3,12 @@
 use crate::allowance::model::COARSE;
 use crate::allowance::{displaces, is_of_facets};
 use crate::group::found::Found;
-use crate::numbers::At;
-use crate::point_group::{Group, Kind};
 use crate::rotation::{Limits, Query, Rotation};
-use crate::tolerance::{compare_along_axes, same_axis};
+use crate::tolerance::compare_along_axes;
 use crate::verify::{Check, Depth, Operation, Verified};
 use glam::DVec3;
-use tmesh::{Frame, Isometry};
+use kit::point;
+use tmesh::{Frame, Group, Isometry, Kind};
 
 impl Query<'_> {
     /// The best of the rotations that holds everywhere, with all that holds beside it.
@@ -22,7 +21,7 @@ impl Query<'_> {
             log(&format!(
                 "order {} about {} by a quick test",
                 best.order,
-                At(best.frame.rotation.z_axis)
+                point(best.frame.rotation.z_axis.to_array())
             ));
             let mut found = self.complete(best.clone());
             // Among half-turn axes the main one is that with the most operations beside it.
@@ -40,7 +39,7 @@ impl Query<'_> {
                 return Some(found);
             }
             let z = found.frame.rotation.z_axis;
-            candidates.retain(|c| !same_axis(c.frame.rotation.z_axis, z));
+            candidates.retain(|c| !self.same_axis(c.frame.rotation.z_axis, z));
             let mut search = self.search(self.orders(), self.limits);
             search.depth = Depth::Full;
             let lower = search.find(found.frame.origin, z, false);
@@ -66,10 +65,7 @@ impl Query<'_> {
         // What holds without the allowance is not widened by it.
         for bound in bounds {
             for kind in parts(found.group.kind) {
-                let group = Group {
-                    kind: *kind,
-                    order: found.group.order,
-                };
+                let group = Group::new(*kind, found.group.order);
                 for frame in [found.frame, found.rough] {
                     let check = Check {
                         shape: self.shape,
@@ -103,8 +99,8 @@ impl Query<'_> {
             return true;
         }
         let mirror = group.has_vertical_mirrors();
-        let mirror = mirror.then(|| (Isometry::reflection(0, 1), &found.mirror));
-        let turning = group.turns_axis_over().map(|o| (o, &found.turning));
+        let mirror = mirror.then(|| (Isometry::MIRROR, &found.mirror));
+        let turning = group.turning_over().map(|o| (o, &found.turning));
         (group.order < 2 || is_of_facets(shape, frame, group.order, value, limit))
             && mirror
                 .into_iter()
@@ -140,7 +136,7 @@ impl Query<'_> {
 
 /// How much there is beside the rotation: mirrors that contain the axis count most.
 fn rank(group: &Group) -> u32 {
-    2 * u32::from(group.has_vertical_mirrors()) + u32::from(group.turns_axis_over().is_some())
+    2 * u32::from(group.has_vertical_mirrors()) + u32::from(group.turning_over().is_some())
 }
 
 /// Kinds that may be left of one when some of its operations do not hold, the largest first.

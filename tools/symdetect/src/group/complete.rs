@@ -5,12 +5,11 @@ use crate::group::found::Found;
 use crate::group::placement;
 use crate::group::slid::find_slid;
 use crate::group::turned::Turned;
-use crate::point_group::{Group, Kind};
 use crate::rotation::{Canonical, Query, Rotation, powers, refine};
 use crate::shape::{Permutation, Target};
 use crate::tolerance::{EXACT, SINGLE};
 use crate::verify::{Bound, Check, Depth, Verified};
-use tmesh::{Frame, Isometry};
+use tmesh::{Frame, Group, Isometry, Kind};
 
 /// Growth of the deviation that is taken for a rounder frame: less than the last digit of any residual in a message.
 const ROUNDER: f64 = 1.02;
@@ -42,10 +41,7 @@ impl Query<'_> {
     fn extended(&self, mut rotation: Rotation, fixed: bool) -> (Rotation, Group, Verified) {
         let identity = Permutation::identity(self.shape.region_count());
         let order = rotation.order;
-        let mut group = Group {
-            kind: Kind::C,
-            order,
-        };
+        let mut group = Group::new(Kind::C, order);
         let mut verified = Verified {
             deviation: rotation.deviation,
             rotation: rotation.permutation.clone(),
@@ -59,9 +55,9 @@ impl Query<'_> {
                 operation,
                 fixed,
             };
-            self.holds_as_whole(rotation, turned.find()?.frame, Group { kind, order })
+            self.holds_as_whole(rotation, turned.find()?.frame, Group::new(kind, order))
         };
-        if let Some(found) = with_turned(&rotation, Isometry::reflection(0, 1), Kind::Cv) {
+        if let Some(found) = with_turned(&rotation, Isometry::MIRROR, Kind::Cv) {
             (rotation.frame, group, verified) = found;
         }
         let mirrors = group.has_vertical_mirrors();
@@ -78,7 +74,7 @@ impl Query<'_> {
                 rotation.frame = found.frame;
                 verified.deviation = verified.deviation.max(found.deviation);
                 verified.turning = found.permutation;
-                return (rotation, Group { kind, order }, verified);
+                return (rotation, Group::new(kind, order), verified);
             }
         }
         if !mirrors
@@ -152,7 +148,7 @@ impl Query<'_> {
             let mirrors = [0, n / 4].map(|k| Isometry::reflection(i64::from(k), n));
             operations.extend(mirrors.map(|m| Canonical::new(m, target.clone())));
         }
-        if let Some(operation) = found.group.turns_axis_over() {
+        if let Some(operation) = found.group.turning_over() {
             let target = in_place(&found.verified.turning);
             operations.push(Canonical::new(operation, target));
         }
@@ -196,7 +192,7 @@ impl Query<'_> {
             let frame = placement::rounded(self.shape, &found.frame, angle);
             self.adopt(found, frame, ROUNDER);
         }
-        let x = placement::reference(&found.frame, &found.group);
+        let x = placement::reference(&found.frame, found.group);
         // What it does to regions is for the full verification to say.
         if let Some(frame) = Frame::from_axis(found.frame.origin, found.frame.rotation.z_axis, x) {
             found.frame = frame;

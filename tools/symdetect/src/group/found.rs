@@ -1,9 +1,8 @@
 //! A group found.
 
-use crate::point_group::Group;
 use crate::shape::Permutation;
 use crate::verify::{Deviation, Verified};
-use tmesh::Frame;
+use tmesh::{Frame, Group};
 
 /// A frame, the group in it, and how well it holds.
 pub struct Found {

@@ -1,10 +1,9 @@
 //! Which of many equivalent frames is reported.
 
-use crate::point_group::{Group, Kind};
 use crate::shape::Shape;
 use crate::tolerance::{ARITHMETIC, SINGLE, compare_along_axes};
 use glam::DVec3;
-use tmesh::{Frame, Isometry};
+use tmesh::{Frame, Group, Isometry};
 
 /// Grid of coordinates that a centre may have been drawn at, relative to the size of the body: six digits, as most
 /// programs write at least.
@@ -28,9 +27,9 @@ pub fn points_forward(d: DVec3) -> bool {
 
 /// The reference direction of a frame: among the directions in mirror planes (or on half-turn axes)
 /// the nearest to world x, then y, then z; without any, x (or y) made orthogonal to the axis.
-pub fn reference(frame: &Frame, group: &Group) -> DVec3 {
+pub fn reference(frame: &Frame, group: Group) -> DVec3 {
     let z = frame.rotation.z_axis;
-    if !(group.has_vertical_mirrors() || group.kind == Kind::D) {
+    if !group.has_vertical_mirrors() && !group.has_half_turns() {
         // Not the one that the axis is nearly parallel to.
         let hint = if z.x.abs() < 0.9 { DVec3::X } else { DVec3::Y };
         return (hint - z * hint.dot(z)).normalize_or(z.any_orthonormal_vector());

@@ -3,13 +3,12 @@
 use crate::budget::{FIT, SCAN};
 use crate::group::found::{Beside, Found};
 use crate::group::turned::Turned;
-use crate::point_group::{Group, Kind};
 use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, refine};
 use crate::shape::{Motion, Permutation, Target};
 use crate::tolerance::SINGLE;
 use crate::verify::{Check, Depth, Deviation, Verified};
 use glam::DVec3;
-use tmesh::{Frame, Isometry};
+use tmesh::{Frame, Group, Isometry, Kind};
 
 impl Query<'_> {
     /// The best single mirror plane with a normal among `directions`.
@@ -42,10 +41,7 @@ impl Query<'_> {
             frame: mirror.frame,
             rough: mirror.frame,
             radius,
-            group: Group {
-                kind: Kind::Cv,
-                order: 1,
-            },
+            group: Group::new(Kind::Cv, 1),
             verified: Verified {
                 deviation: mirror.deviation,
                 rotation: identity.clone(),
@@ -84,7 +80,7 @@ impl Query<'_> {
         let turned = Turned {
             query: self,
             rotation: &rotation,
-            operation: Isometry::reflection(0, 1),
+            operation: Isometry::MIRROR,
             fixed: true,
         };
         Some(turned.find()?.frame.rotation.y_axis)
@@ -101,7 +97,7 @@ impl Query<'_> {
             Frame::from_axis(origin, z, normal.cross(z))
         };
         let start = frame_of(self.centre, normal)?;
-        let mirror = Isometry::reflection(0, 1);
+        let mirror = Isometry::MIRROR;
         let motion = |frame: &Frame| Motion::new(frame, mirror.matrix());
         let radius = shape.radius(&start);
         if !self.can_be_adjusted(motion(&start), radius) {

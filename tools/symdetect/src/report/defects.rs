@@ -1,11 +1,11 @@
 //! Defects of the surface that do not keep it from being read, with places.
 
-use crate::numbers::At;
 use crate::shape::Flats;
 use geom::contacts::{Search, contacts};
 use geom::edges::Edges;
 use glam::DVec3;
 use interchange::OddEdges;
+use kit::point;
 use serde::Serialize;
 use tmesh::{OUTSIDE, Template};
 
@@ -115,7 +115,7 @@ impl Defects {
     /// What the user should know, a sentence each.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
-        let at = |p: &[f64; 3]| At(DVec3::from_array(*p)).to_string();
+        let at = |p: &[f64; 3]| point(*p);
         if let Some([a, b]) = self.non_manifold_edges.places.first() {
             notes.push(format!(
                 "edges with more than two triangles: {}, the first from {} to {}",

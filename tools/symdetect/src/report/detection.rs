@@ -1,11 +1,13 @@
 //! What was found.
 
-use tmesh::Symmetry;
+use tmesh::{Search, Symmetry};
 
 /// What was found, and remarks for the user.
 pub struct Detection {
     /// The symmetry, in world coordinates.
     pub symmetry: Symmetry,
+    /// What else the search came across.
+    pub search: Search,
     /// Remarks, a sentence each.
     pub notes: Vec<String>,
     /// Residuals of all orders up to some, if [`crate::Params::profile`] asked for them.

@@ -30,7 +30,7 @@ pub fn frame_of(symmetry: &Symmetry) -> Frame {
     Frame::from_axis(
         DVec3::from_array(symmetry.axis.point),
         DVec3::from_array(symmetry.axis.direction),
-        DVec3::from_array(symmetry.mirror_direction),
+        DVec3::from_array(symmetry.reference),
     )
     .unwrap_or(Frame::IDENTITY)
 }

@@ -1,10 +1,10 @@
 //! What to say of the symmetry found.
 
 use crate::group::Found;
-use crate::numbers::{At, short};
 use crate::report::detection::Detection;
 use crate::rotation::{Query, Rotation};
-use tmesh::{Axis, OtherAxis, Symmetry};
+use kit::{number, point};
+use tmesh::{Axis, Isometry, OtherAxis, RegionMap, Search, Symmetry};
 
 impl Query<'_> {
     /// The symmetry found, with remarks.
@@ -21,46 +21,42 @@ impl Query<'_> {
             Vec::new()
         };
         log(&format!("{} orders rejected are listed", rejected.len()));
-        let mut symmetry = self.symmetry(&found);
-        let notes = self.notes(&found, &symmetry, &other_axes);
-        symmetry.other_axes = other_axes;
-        symmetry.rejected = rejected;
+        let symmetry = self.symmetry(&found);
         Detection {
             profile: self.profile(&found.frame, found.group.order),
+            notes: self.notes(&found, &symmetry, &other_axes),
             symmetry,
-            notes,
+            search: Search {
+                other_axes,
+                rejected,
+            },
             asymmetric: None,
         }
     }
 
     /// The group found, in world coordinates.
     fn symmetry(&self, found: &Found) -> Symmetry {
-        let (frame, group) = (&found.frame, found.group);
-        let regions = &self.shape.interfaces.regions;
+        let frame = &found.frame;
+        let map = |generator: Isometry| {
+            let permutation = found.verified.regions(generator);
+            RegionMap {
+                pairs: permutation.pairs(&self.shape.interfaces.regions),
+            }
+        };
+        let regions: Vec<RegionMap> = found.group.generators().into_iter().map(map).collect();
+        let permuted = regions.iter().any(|map| !map.pairs.is_empty());
         Symmetry {
-            group: group.symbol(),
-            order: group.order,
-            mirror: group.has_vertical_mirrors(),
-            horizontal_mirror: group.has_horizontal_mirror(),
+            group: found.group,
             axis: Axis {
                 point: self.shape.to_world(frame.origin).to_array(),
                 direction: frame.rotation.z_axis.to_array(),
             },
-            mirror_direction: frame.rotation.x_axis.to_array(),
+            reference: frame.rotation.x_axis.to_array(),
             residual: found.verified.deviation.value / found.radius,
             tolerance: self.params.tolerance,
             axisymmetric: found.axisymmetric,
             radius: found.radius * self.shape.scale,
-            other_axes: Vec::new(),
-            rejected: Vec::new(),
-            rotation_regions: found.verified.rotation.pairs(regions),
-            mirror_regions: found.verified.mirror.pairs(regions),
-            horizontal_regions: if group.has_horizontal_mirror() {
-                found.verified.turning.pairs(regions)
-            } else {
-                Vec::new()
-            },
-            promise: None,
+            regions: if permuted { regions } else { Vec::new() },
         }
     }
 
@@ -70,9 +66,9 @@ impl Query<'_> {
         let (residual, tolerance) = (symmetry.residual, self.params.tolerance);
         let mut notes = vec![format!(
             "{group} about {} through {}, residual {residual:.1e} of the radius {}",
-            At(found.frame.rotation.z_axis),
-            At(self.shape.to_world(found.frame.origin)),
-            short(symmetry.radius)
+            point(found.frame.rotation.z_axis.to_array()),
+            point(self.shape.to_world(found.frame.origin).to_array()),
+            number(symmetry.radius)
         )];
         if residual > tolerance {
             notes.push(format!(
@@ -94,7 +90,7 @@ impl Query<'_> {
                 other_axes.len() + 1
             ));
         }
-        let moved = symmetry.rotation_regions.len();
+        let moved = symmetry.rotation_regions().pairs.len();
         if moved > 0 {
             notes.push(format!("the rotation maps {moved} regions onto other ones"));
         }

@@ -1,10 +1,8 @@
 //! Axes beside the main one.
 
 use crate::group::{Found, forward};
-use crate::point_group::Kind;
 use crate::rotation::{Query, Rotation};
 use crate::shape::Motion;
-use crate::tolerance::same_axis;
 use crate::verify::Depth;
 use glam::{DMat3, DVec3};
 use tmesh::{Isometry, OtherAxis};
@@ -18,8 +16,8 @@ impl Query<'_> {
         let z = found.frame.rotation.z_axis;
         let mut axes: Vec<OtherAxis> = Vec::new();
         let mut add = |d: DVec3, order: u32, residual: f64| {
-            let same = |a: &OtherAxis| same_axis(DVec3::from_array(a.direction), d);
-            if !axes.iter().any(same) && !same_axis(d, z) && axes.len() < MOST_OTHER_AXES {
+            let same = |a: &OtherAxis| self.same_axis(DVec3::from_array(a.direction), d);
+            if !axes.iter().any(same) && !self.same_axis(d, z) && axes.len() < MOST_OTHER_AXES {
                 axes.push(OtherAxis {
                     direction: forward(d).to_array(),
                     order,
@@ -33,16 +31,13 @@ impl Query<'_> {
             let residual = r.deviation.value / found.radius;
             add(r.frame.rotation.z_axis, r.order, residual);
         }
-        // Half turns lie along the mirrors, or between them.
-        let phase = match found.group.kind {
-            Kind::Dh | Kind::D => 0,
-            Kind::Dd => 1,
-            _ => return axes,
+        let Some(first) = found.group.half_turn_axis() else {
+            return axes;
         };
         let n = found.group.order;
         let residual = found.verified.deviation.value / found.radius;
         for k in 0..n {
-            let turn = Isometry::rotation(i64::from(2 * k + phase), 4 * n);
+            let turn = Isometry::rotation(i64::from(k), 2 * n).compose(first);
             add(found.frame.rotation * turn.apply(DVec3::X), 2, residual);
         }
         axes

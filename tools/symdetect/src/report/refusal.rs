@@ -3,13 +3,11 @@
 use crate::budget::{FIT, QUICK, REPORTED};
 use crate::error::{Closest, Error};
 use crate::group::reference;
-use crate::numbers::At;
-use crate::point_group::{Group, Kind};
 use crate::report::detection::Detection;
 use crate::rotation::{Canonical, FIRST_DIRECTIONS, Query, powers, refine};
 use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DVec3;
-use tmesh::{Axis, Frame, Isometry, RejectedOrder, Symmetry};
+use tmesh::{Axis, Frame, Group, Isometry, RejectedOrder, Search, Symmetry};
 
 /// Orders tried for the one nearest to holding, of a body in which none holds.
 const ORDERS: u32 = 16;
@@ -55,8 +53,8 @@ impl Query<'_> {
         Some(Closest {
             order,
             residual: deviation.value / radius,
-            direction: At(frame.rotation.z_axis),
-            place: At(shape.to_world(deviation.at)),
+            direction: frame.rotation.z_axis,
+            place: shape.to_world(deviation.at),
         })
     }
 
@@ -105,9 +103,9 @@ impl Query<'_> {
             order,
             tolerance: self.params.tolerance,
             residual,
-            axis: At(frame.rotation.z_axis),
-            centre: At(shape.to_world(frame.origin)),
-            place: At(shape.to_world(deviation.at)),
+            axis: frame.rotation.z_axis,
+            centre: shape.to_world(frame.origin),
+            place: shape.to_world(deviation.at),
         }
     }
 
@@ -115,35 +113,27 @@ impl Query<'_> {
     pub fn asymmetric(&self, closest: Option<Closest>, reason: String) -> Detection {
         let direction = self.params.axis.unwrap_or(DVec3::Z);
         let frame = self.frame_along(direction).unwrap_or(Frame::IDENTITY);
-        let group = Group {
-            kind: Kind::C,
-            order: 1,
-        };
         let rejected = closest.filter(|c| c.order > 1).map(|c| RejectedOrder {
             order: c.order,
             residual: c.residual,
         });
         Detection {
             symmetry: Symmetry {
-                group: group.symbol(),
-                order: 1,
-                mirror: false,
-                horizontal_mirror: false,
+                group: Group::TRIVIAL,
                 axis: Axis {
                     point: self.shape.to_world(self.centre).to_array(),
                     direction: frame.rotation.z_axis.to_array(),
                 },
-                mirror_direction: reference(&frame, &group).to_array(),
+                reference: reference(&frame, Group::TRIVIAL).to_array(),
                 residual: 0.0,
                 tolerance: self.params.tolerance,
                 axisymmetric: false,
                 radius: self.shape.radius(&frame) * self.shape.scale,
+                regions: Vec::new(),
+            },
+            search: Search {
                 other_axes: Vec::new(),
                 rejected: rejected.into_iter().collect(),
-                rotation_regions: Vec::new(),
-                mirror_regions: Vec::new(),
-                horizontal_regions: Vec::new(),
-                promise: None,
             },
             notes: Vec::new(),
             profile: self.profile(&frame, 1),

@@ -1,8 +1,7 @@
 //! What was found, in words and as a table of residuals.
 
-use crate::numbers::At;
 use crate::report::detection::Detection;
-use glam::DVec3;
+use kit::point;
 use std::fmt::Write;
 
 /// Width of the longest bar of the table, characters.
@@ -14,31 +13,30 @@ impl Detection {
     /// A few sentences: mirror planes, further axes, the orders nearest to holding.
     pub fn summary(&self) -> Vec<String> {
         let s = &self.symmetry;
-        let vector = |v: [f64; 3]| At(DVec3::from_array(v)).to_string();
         let mut lines = Vec::new();
-        let along = match (s.mirror, s.order) {
+        let along = match (s.group.has_vertical_mirrors(), s.group.order) {
             (false, _) => "no mirror plane contains the axis".to_owned(),
             (true, 1) => format!(
                 "a mirror plane contains the axis and {}",
-                vector(s.mirror_direction)
+                point(s.reference)
             ),
             (true, n) => format!(
                 "{n} mirror planes contain the axis, one of them {}",
-                vector(s.mirror_direction)
+                point(s.reference)
             ),
         };
-        let across = if s.horizontal_mirror {
+        let across = if s.group.has_horizontal_mirror() {
             "one lies across it"
         } else {
             "none lies across it"
         };
-        let others = match s.other_axes.len() {
+        let others = match self.search.other_axes.len() {
             0 => "no other axes".to_owned(),
             1 => "one other axis".to_owned(),
             n => format!("{n} other axes"),
         };
         lines.push(format!("{along}, {across}; {others}"));
-        let mut rejected = s.rejected.clone();
+        let mut rejected = self.search.rejected.clone();
         rejected.sort_by(|a, b| {
             a.residual
                 .total_cmp(&b.residual)

@@ -1,10 +1,9 @@
 //! What was found, as an image: the body along its axis with its mirror planes, from the side, and
 //! how far it is off under every order tried.
 
-use crate::numbers::{At, short};
 use crate::report::detection::Detection;
 use crate::report::drawing::{Segment, Views, views};
-use glam::DVec3;
+use kit::{number, point};
 use std::f64::consts::PI;
 use std::fmt::Write;
 use tmesh::{Document, Symmetry};
@@ -59,7 +58,7 @@ pub fn svg(document: &Document, found: &Detection, title: &str) -> String {
         from_side(&mut out, views, symmetry);
         let third = MARGIN + 2.0 * second;
         let _ = writeln!(out, r#"</g><g transform="translate({third} {HEAD})">"#);
-        facts(&mut out, symmetry);
+        facts(&mut out, found);
         let _ = writeln!(out, "</g>");
     }
     let y = HEAD + VIEW + MARGIN;
@@ -113,18 +112,18 @@ fn along_axis(out: &mut String, views: &Views, symmetry: &Symmetry) {
         pixels: 0.43 * VIEW / reach,
     };
     scale.outline(out, &views.top);
-    let n = symmetry.order;
+    let n = symmetry.group.order;
     let end = |angle: f64| {
         let (s, c) = libm::sincos(angle);
         [1.1 * reach * c, 1.1 * reach * s]
     };
-    if symmetry.mirror && n <= MOST_PLANES {
+    if symmetry.group.has_vertical_mirrors() && n <= MOST_PLANES {
         let style = format!(r#"stroke="{MIRROR}" stroke-width="0.9" stroke-dasharray="7 3""#);
         for k in 0..n {
             let [x, y] = end(PI * f64::from(k) / f64::from(n));
             scale.line(out, [[-x, -y], [x, y]], &style);
         }
-    } else if !symmetry.mirror && n > 1 && n <= MOST_PLANES {
+    } else if !symmetry.group.has_vertical_mirrors() && n > 1 && n <= MOST_PLANES {
         // The steps of the rotation.
         let style = format!(r#"stroke="{AXIS}" stroke-width="0.7" stroke-dasharray="2 4""#);
         for k in 0..n {
@@ -155,7 +154,7 @@ fn from_side(out: &mut String, views: &Views, symmetry: &Symmetry) {
         axis,
         &format!(r#"stroke="{AXIS}" stroke-width="1.3" stroke-dasharray="12 3 2 3""#),
     );
-    if symmetry.horizontal_mirror {
+    if symmetry.group.has_horizontal_mirror() {
         let end = views.reach + more;
         scale.line(
             out,
@@ -166,38 +165,38 @@ fn from_side(out: &mut String, views: &Views, symmetry: &Symmetry) {
 }
 
 /// Axis, centre and the other axes in figures.
-fn facts(out: &mut String, symmetry: &Symmetry) {
+fn facts(out: &mut String, found: &Detection) {
+    let (symmetry, search) = (&found.symmetry, &found.search);
     heading(out, "in figures");
-    let vector = |v: [f64; 3]| At(DVec3::from_array(v)).to_string();
     let mut lines = vec![
-        format!("group {}, order {}", symmetry.group, symmetry.order),
-        format!("axis {}", vector(symmetry.axis.direction)),
-        format!("centre {}", vector(symmetry.axis.point)),
-        format!("radius {}", short(symmetry.radius)),
+        format!("group {}, order {}", symmetry.group, symmetry.group.order),
+        format!("axis {}", point(symmetry.axis.direction)),
+        format!("centre {}", point(symmetry.axis.point)),
+        format!("radius {}", number(symmetry.radius)),
         format!("residual {:.2e} of the radius", symmetry.residual),
         format!("tolerance {:.0e} of the radius", symmetry.tolerance),
     ];
-    if symmetry.mirror {
+    if symmetry.group.has_vertical_mirrors() {
         lines.push(format!(
             "mirror planes contain the axis: {}, one along {}",
-            symmetry.order,
-            vector(symmetry.mirror_direction)
+            symmetry.group.order,
+            point(symmetry.reference)
         ));
     }
-    if symmetry.horizontal_mirror {
+    if symmetry.group.has_horizontal_mirror() {
         lines.push("a mirror plane across the axis".to_owned());
     }
     if symmetry.axisymmetric {
         lines.push("a body of revolution".to_owned());
     }
-    if !symmetry.other_axes.is_empty() {
-        lines.push(format!("other axes: {}", symmetry.other_axes.len()));
+    if !search.other_axes.is_empty() {
+        lines.push(format!("other axes: {}", search.other_axes.len()));
     }
-    for axis in symmetry.other_axes.iter().take(8) {
+    for axis in search.other_axes.iter().take(8) {
         lines.push(format!(
             "  order {} about {}",
             axis.order,
-            vector(axis.direction)
+            point(axis.direction)
         ));
     }
     for (i, line) in lines.iter().enumerate() {

@@ -5,7 +5,6 @@ use crate::rotation::candidates::{self, distinct};
 use crate::rotation::find::Rotation;
 use crate::rotation::limits::Limits;
 use crate::rotation::query::Query;
-use crate::tolerance::same_axis;
 use glam::DVec3;
 
 /// Candidate directions tried beyond the principal ones: a polyhedral group has 31 axes at most and as many normals of
@@ -20,13 +19,13 @@ impl Query<'_> {
         if let Some(axis) = self.params.axis {
             return vec![axis];
         }
-        let principal = candidates::principal(self.shape);
+        let principal = candidates::principal(self.shape, self.parallel);
         let mut all = principal.directions;
         if principal.degenerate {
             all.extend(candidates::higher(self.shape));
             log(&format!("{} candidate directions", all.len()));
         }
-        distinct(all)
+        distinct(all, self.parallel)
     }
 
     /// Candidate directions, and the rotations found about them by a quick test.
@@ -36,7 +35,7 @@ impl Query<'_> {
         }
         let search = self.search(self.orders(), self.limits);
         let find = |d: &DVec3| search.find(self.centre, *d, false);
-        let principal = candidates::principal(self.shape);
+        let principal = candidates::principal(self.shape, self.parallel);
         let mut directions = principal.directions;
         let mut found: Vec<Rotation> = Vec::new();
         for d in &directions {
@@ -54,7 +53,7 @@ impl Query<'_> {
         if principal.isotropic || (principal.degenerate && !has_high) {
             let tried = directions.len();
             directions.extend(candidates::higher(self.shape));
-            directions = distinct(directions);
+            directions = distinct(directions, self.parallel);
             directions.truncate(tried + MOST_FURTHER);
             found.extend(directions[tried..].iter().filter_map(find));
             log(&format!(
@@ -64,7 +63,8 @@ impl Query<'_> {
             ));
         }
         found.retain(|r| self.passes_centre(&r.frame, r.frame.rotation.z_axis, r.radius));
-        (directions, highest_of_each_axis(found))
+        let found = self.highest_of_each_axis(found);
+        (directions, found)
     }
 
     /// The rotation about an axis the user gave: as given if that is as good as an adjusted one.
@@ -118,7 +118,7 @@ impl Query<'_> {
     pub fn main<'r>(&self, rotations: &'r [Rotation]) -> Option<&'r Rotation> {
         let best = rotations.iter().max_by_key(|r| r.rank());
         let main = best.filter(|b| b.distinct && b.order > 2);
-        main.filter(|_| !candidates::principal(self.shape).isotropic)
+        main.filter(|_| !candidates::principal(self.shape, self.parallel).isotropic)
     }
 
     /// The highest order within other limits about the axis of a rotation. What holds by the rotation itself holds
@@ -144,19 +144,19 @@ impl Query<'_> {
         let (origin, z) = (main.frame.origin, main.frame.rotation.z_axis);
         self.search(orders, limits).find(origin, z, exact)
     }
-}
 
-/// The rotation of the highest order about each axis.
-fn highest_of_each_axis(found: Vec<Rotation>) -> Vec<Rotation> {
-    let mut kept: Vec<Rotation> = Vec::new();
-    for r in found {
-        let z = r.frame.rotation.z_axis;
-        let same = |k: &Rotation| same_axis(k.frame.rotation.z_axis, z);
-        match kept.iter_mut().find(|k| same(k)) {
-            Some(k) if r.order > k.order => *k = r,
-            Some(_) => {}
-            None => kept.push(r),
+    /// The rotation of the highest order about each axis.
+    fn highest_of_each_axis(&self, found: Vec<Rotation>) -> Vec<Rotation> {
+        let mut kept: Vec<Rotation> = Vec::new();
+        for r in found {
+            let z = r.frame.rotation.z_axis;
+            let same = |k: &Rotation| self.same_axis(k.frame.rotation.z_axis, z);
+            match kept.iter_mut().find(|k| same(k)) {
+                Some(k) if r.order > k.order => *k = r,
+                Some(_) => {}
+                None => kept.push(r),
+            }
         }
+        kept
     }
-    kept
 }

@@ -1,7 +1,6 @@
 //! Directions in which symmetry axes and normals of mirror planes can lie.
 
 use crate::shape::{DirectionalMoment, Shape};
-use crate::tolerance::same_axis;
 use geom::eigen;
 use glam::{DMat3, DVec3};
 
@@ -22,7 +21,7 @@ pub struct Principal {
 
 /// Principal directions: if a body has an axis of order three or more and is not isotropic, that axis
 /// is the eigenvector of the odd eigenvalue; half-turn axes and mirror normals are eigenvectors too.
-pub fn principal(shape: &Shape) -> Principal {
+pub fn principal(shape: &Shape, parallel: f64) -> Principal {
     let m = &shape.moments;
     let mut tensors: Vec<DMat3> = Vec::new();
     if m.has_volume() {
@@ -46,7 +45,7 @@ pub fn principal(shape: &Shape) -> Principal {
         directions.extend(order.map(|i| v[i]));
     }
     Principal {
-        directions: distinct(directions),
+        directions: distinct(directions, parallel),
         degenerate,
         isotropic,
     }
@@ -57,11 +56,11 @@ pub fn higher(shape: &Shape) -> Vec<DVec3> {
     DirectionalMoment::new(shape.signed_triangles()).critical_directions()
 }
 
-/// Drops directions parallel to an earlier one.
-pub fn distinct(directions: Vec<DVec3>) -> Vec<DVec3> {
+/// Drops directions that are parallel to an earlier one up to the sine of an angle.
+pub fn distinct(directions: Vec<DVec3>, parallel: f64) -> Vec<DVec3> {
     let mut kept: Vec<DVec3> = Vec::new();
     for d in directions {
-        if !kept.iter().any(|k| same_axis(*k, d)) {
+        if kept.iter().all(|k| k.cross(d).length() > parallel) {
             kept.push(d);
         }
     }

@@ -82,9 +82,9 @@ impl OrderSearch<'_> {
         // close by, and where there are flat faces, corners that do not land on corners tell it.
         let far = SEPARATION * limit;
         let looks = [
-            look(shape.faces(), GLANCE, SEPARATION * floor),
-            look(None, GLANCE, far),
-            look(None, SCAN, far),
+            look(shape.faces(), GLANCE / 2, SEPARATION * floor),
+            look(None, GLANCE / 2, far),
+            look(None, SCAN / 2, far),
         ];
         let most = *self.orders.end();
         let wanted = || (3..=most).rev().filter(|&n| self.limits.admit(n));

@@ -6,6 +6,7 @@ use crate::rotation::limits::Limits;
 use crate::shape::Shape;
 use crate::tolerance::{ROUNDINGS, SINGLE};
 use crate::verify::Depth;
+use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use std::ops::RangeInclusive;
 use tmesh::Frame;
@@ -18,6 +19,8 @@ pub struct Query<'a> {
     pub params: &'a Params,
     /// The tolerances at present.
     pub limits: Limits,
+    /// Sine of the angle up to which two directions are the same axis.
+    pub parallel: f64,
     /// The centre, given or that of mass, in the coordinates of the shape.
     pub centre: DVec3,
 }
@@ -25,12 +28,23 @@ pub struct Query<'a> {
 impl<'a> Query<'a> {
     /// Of the options.
     pub fn new(shape: &'a Shape, params: &'a Params) -> Self {
+        // The shape fills the unit ball.
+        let extent = Extent {
+            radius: 1.0,
+            height: 1.0,
+        };
         Self {
             shape,
             params,
+            parallel: Tolerance::new(extent, shape.precision, params.tolerance).parallel(),
             limits: Limits::new(params.tolerance),
             centre: params.center.map_or(DVec3::ZERO, |c| shape.of_world(c)),
         }
+    }
+
+    /// Whether two unit vectors are, either way round, the direction of the same axis.
+    pub fn same_axis(&self, a: DVec3, b: DVec3) -> bool {
+        a.cross(b).length() < self.parallel
     }
 
     /// Orders asked for.

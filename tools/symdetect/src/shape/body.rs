@@ -1,6 +1,6 @@
 //! The body, made ready for symmetry tests: centred, scaled to unit size, sampled, and searchable.
 
-use crate::shape::faces::{Faces, Surface};
+use crate::shape::faces::{Exactness, Faces, Surface};
 use crate::shape::facets::Facets;
 use crate::shape::interfaces::Interfaces;
 use crate::shape::moments::Moments;
@@ -51,6 +51,15 @@ struct ClassSurface {
 /// them as long again, where samples take the same time however many triangles there are: with more, samples tell
 /// sooner; with fewer, faces tell more.
 const FACES_LOOKED_FOR: usize = 100_000;
+
+/// Distance, in the units of the shape, up to which corners may be images of each other where the precision of
+/// coordinates does not explain more: coordinates written with ten digits. With less, corners from text are told by
+/// samples; with more, corners that are no images of each other may be as near.
+const SAME_CORNER: f64 = 1e-10;
+/// Rounding, in the units of the shape, up to which flat faces are looked for: a tenth of the default tolerance. Of
+/// coarser coordinates, as far away from the origin, corners that are no images of each other may be as near; of
+/// finer ones, faces prove what samples can only support.
+const COARSEST: f64 = 1e-4;
 
 impl Shape {
     /// Prepares a surface. `precision` is the absolute error of a coordinate, world units. Returns
@@ -165,8 +174,12 @@ impl Shape {
                 class: &self.interfaces.class,
             };
             let few = self.triangles.len() <= FACES_LOOKED_FOR;
-            let told = few && self.rounding() <= Faces::COARSEST;
-            told.then(|| Faces::new(&surface, &self.normals, self.rounding()))?
+            let told = few && self.rounding() <= COARSEST;
+            let exact = Exactness {
+                flat: self.rounding(),
+                reach: self.same_corner(),
+            };
+            told.then(|| Faces::new(&surface, &self.normals, exact))?
         };
         self.faces.get_or_init(make).as_ref()
     }
@@ -184,6 +197,11 @@ impl Shape {
     /// Deviation that the rounding of coordinates explains.
     pub fn rounding(&self) -> f64 {
         ROUNDINGS * self.precision + ARITHMETIC
+    }
+
+    /// Distance up to which corners may be images of each other.
+    pub fn same_corner(&self) -> f64 {
+        self.rounding().max(SAME_CORNER)
     }
 
     /// World position of a point.

@@ -6,18 +6,20 @@
 //! wanted holds everywhere, as well as it does in the corners. That is quicker to see than that many places of the
 //! surface land on it, and says more.
 
-use crate::shape::corners::Corners;
 use crate::shape::motion::{Motion, Target};
 use crate::shape::outlines::Outlines;
 use crate::shape::table::Table;
 use geom::edges::{EdgeUse, Edges};
+use geom::grid::Grid;
 use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 /// The faces of a surface, their edges and corners. All numbers count from zero.
 pub struct Faces {
-    corners: Corners,
+    /// Positions of the corners.
+    corners: Vec<DVec3>,
+    grid: Grid<3>,
     /// Corners at the ends of each edge, lower one first.
     edges: Vec<[u32; 2]>,
     edge_between: FxHashMap<[u32; 2], u32>,
@@ -82,13 +84,19 @@ impl Surface<'_> {
     }
 }
 
-impl Faces {
-    /// Rounding, in the units of the shape, up to which faces are looked for: of coarser coordinates, as far away from
-    /// the origin, corners that are no images of each other may be as near.
-    pub const COARSEST: f64 = Corners::FARTHEST;
+/// How exact a surface is, in the units of the shape.
+#[derive(Clone, Copy)]
+pub struct Exactness {
+    /// Distance up to which vertices are in one plane.
+    pub flat: f64,
+    /// Distance up to which corners will be looked for.
+    pub reach: f64,
+}
 
-    /// Faces whose vertices are in one plane up to `flat`; `None` where they are not.
-    pub fn new(surface: &Surface<'_>, normals: &[DVec3], flat: f64) -> Option<Self> {
+impl Faces {
+    /// Faces of a surface with these normals; `None` where their vertices are not in one plane.
+    pub fn new(surface: &Surface<'_>, normals: &[DVec3], exact: Exactness) -> Option<Self> {
+        let flat = exact.flat;
         let edges = Edges::new(surface.triangles);
         let mut parts = DisjointSets::new(surface.triangles.len());
         for e in 0..edges.len() {
@@ -123,7 +131,8 @@ impl Faces {
             edge_between,
             around_edge: Table::new(ends.len(), pairs()),
             edges: ends,
-            corners: Corners::new(corners),
+            grid: Grid::of(corners.iter().map(|p| p.to_array()), exact.reach),
+            corners,
             around_face,
             class,
         })
@@ -133,10 +142,10 @@ impl Faces {
     /// each other: the largest such distance, and the corner that is so far off.
     pub fn image(&self, motion: &Motion, target: &Target, within: f64) -> Option<(f64, DVec3)> {
         let mut worst = (0.0, DVec3::ZERO);
-        let mut taken = vec![false; self.corners.positions.len()];
-        let mut image = Vec::with_capacity(self.corners.positions.len());
-        for &p in &self.corners.positions {
-            let (corner, distance) = self.corners.at(motion.apply(p), within)?;
+        let mut taken = vec![false; self.corners.len()];
+        let mut image = Vec::with_capacity(self.corners.len());
+        for &p in &self.corners {
+            let (corner, distance) = self.corner_at(motion.apply(p), within)?;
             if std::mem::replace(&mut taken[corner as usize], true) {
                 return None;
             }
@@ -169,35 +178,35 @@ impl Faces {
         Some(worst)
     }
 
-    /// A corner at a place, and its distance.
+    /// The corner nearest to a place, and its distance, if within one.
     pub fn corner_at(&self, p: DVec3, within: f64) -> Option<(u32, f64)> {
-        self.corners.at(p, within)
+        self.grid.nearest(p.to_array(), within)
     }
 
     /// Positions of the corners.
     pub fn corners(&self) -> &[DVec3] {
-        &self.corners.positions
+        &self.corners
     }
 
     /// The largest distance of images of some corners, evenly chosen, from the corners next to them, if all are
     /// within a distance.
     pub fn image_of_some(&self, motion: &Motion, count: usize, within: f64) -> Option<f64> {
-        let step = self.corners.positions.len().div_ceil(count).max(1);
-        let some = self.corners.positions.iter().step_by(step);
-        let mut off = some.map(|p| Some(self.corners.at(motion.apply(*p), within)?.1));
+        let step = self.corners.len().div_ceil(count).max(1);
+        let some = self.corners.iter().step_by(step);
+        let mut off = some.map(|p| Some(self.corner_at(motion.apply(*p), within)?.1));
         off.try_fold(0.0, |worst: f64, off| Some(worst.max(off?)))
     }
 
     /// The corner that is farthest from an axis, and all as far from it and as far along it, up to `within`;
     /// `place` gives both distances.
     pub fn farthest(&self, place: impl Fn(DVec3) -> (f64, f64), within: f64) -> Vec<DVec3> {
-        let places: Vec<(f64, f64)> = self.corners.positions.iter().map(|p| place(*p)).collect();
+        let places: Vec<(f64, f64)> = self.corners.iter().map(|p| place(*p)).collect();
         let farthest = (places.iter()).max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let Some(&(r, z)) = farthest else {
             return Vec::new();
         };
         let alike = |p: &(f64, f64)| (p.0 - r).abs() <= within && (p.1 - z).abs() <= within;
-        let corners = places.iter().zip(&self.corners.positions);
+        let corners = places.iter().zip(&self.corners);
         corners.filter(|(p, _)| alike(p)).map(|(_, p)| *p).collect()
     }
 }
@@ -255,7 +264,11 @@ mod tests {
         };
         let normal = |t: u32| surface.area(t).normalize_or_zero();
         let normals: Vec<DVec3> = (0..triangles.len() as u32).map(normal).collect();
-        Faces::new(&surface, &normals, FLAT)
+        let exact = Exactness {
+            flat: FLAT,
+            reach: 1e-10,
+        };
+        Faces::new(&surface, &normals, exact)
     }
 
     fn faces(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Faces {

@@ -1,7 +1,6 @@
 //! The body as arrays that symmetry tests can work on: vertices, triangles, interfaces, samples, flat faces, moments.
 
 mod body;
-mod corners;
 mod directional;
 mod faces;
 mod facets;

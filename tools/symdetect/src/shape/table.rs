@@ -31,4 +31,22 @@ impl Table {
         let [first, end] = [thing, thing + 1].map(|i| self.offsets[i as usize] as usize);
         &self.items[first..end]
     }
+
+    /// Number of lists.
+    pub fn len(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Sorts every list and drops what is in it twice; of more than `most` items, keeps some evenly chosen.
+    pub fn thin_out(&mut self, most: usize) {
+        let (mut offsets, mut items) = (vec![0], Vec::new());
+        for thing in 0..self.len() as u32 {
+            let mut list = self.of(thing).to_vec();
+            list.sort_unstable();
+            list.dedup();
+            items.extend(list.iter().step_by(list.len().div_ceil(most)));
+            offsets.push(items.len() as u32);
+        }
+        (self.offsets, self.items) = (offsets, items);
+    }
 }

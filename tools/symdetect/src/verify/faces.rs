@@ -9,11 +9,6 @@ use crate::verify::operation::Operation;
 /// steps, leaves its powers to a quick test: the sum is an upper bound, so that anything up to 1 would be sound where
 /// the first test is exact; samples may have missed the worst place by some factor.
 const IMPLIED: f64 = 0.25;
-/// Distance, in the units of the shape, up to which corners may be images of each other where the precision of
-/// coordinates does not explain more: coordinates written with ten digits. With less, corners from text are told by
-/// samples; with more, corners that are no images of each other may be as near.
-const SAME_CORNER: f64 = 1e-10;
-
 impl Shape {
     /// Deviation of an operation that takes all flat faces to faces, if it does.
     pub fn deviation_of_faces(&self, operation: &Operation, bound: Bound) -> Option<Deviation> {
@@ -64,10 +59,5 @@ impl Shape {
     /// test: powers deviate by at most so many times what the first does.
     pub fn hardly_off(first: f64, others: usize, limit: f64) -> bool {
         first * others as f64 <= IMPLIED * limit
-    }
-
-    /// Distance up to which corners may be images of each other.
-    pub fn same_corner(&self) -> f64 {
-        self.rounding().max(SAME_CORNER)
     }
 }

@@ -1,10 +1,9 @@
 //! Verification of a whole group.
 
-use crate::point_group::Group;
 use crate::shape::{Motion, Permutation, Shape};
 use crate::verify::deviation::{Bound, Depth, Deviation};
 use crate::verify::operation::Operation;
-use tmesh::{Frame, Isometry};
+use tmesh::{Frame, Group, Isometry};
 
 /// What verification found.
 #[derive(Clone, Debug)]
@@ -17,6 +16,17 @@ pub struct Verified {
     pub mirror: Permutation,
     /// Regions under what turns the axis over, if the group has that.
     pub turning: Permutation,
+}
+
+impl Verified {
+    /// Regions under one of the group's generators.
+    pub fn regions(&self, generator: Isometry) -> &Permutation {
+        match (generator.flipped(), generator.mirrored()) {
+            (true, _) => &self.turning,
+            (false, true) => &self.mirror,
+            (false, false) => &self.rotation,
+        }
+    }
 }
 
 /// How a group is verified.
@@ -47,19 +57,17 @@ impl Check<'_> {
             rotation = shape.verify_rotation(frame, group.order, bound, depth)?;
         }
         let mut worst = rotation.0;
-        let mut coset = |operation: Option<Isometry>| {
-            let Some(operation) = operation else {
-                return Ok(identity.clone());
+        let (mut mirror, mut turning) = (identity.clone(), identity);
+        for generator in group.generators() {
+            let regions = match (generator.flipped(), generator.mirrored()) {
+                (true, _) => &mut turning,
+                (false, true) => &mut mirror,
+                (false, false) => continue,
             };
-            let (deviation, regions) = self.coset(group.order, operation, &rotation)?;
+            let (deviation, permutation) = self.coset(group.order, generator, &rotation)?;
             worst = worst.max(deviation);
-            Ok(regions)
-        };
-        let mirror = group
-            .has_vertical_mirrors()
-            .then(|| Isometry::reflection(0, 1));
-        let mirror = coset(mirror)?;
-        let turning = coset(group.turns_axis_over())?;
+            *regions = permutation;
+        }
         Ok(Verified {
             deviation: worst,
             rotation: rotation.1,

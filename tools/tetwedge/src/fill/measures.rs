@@ -65,8 +65,8 @@ pub fn measures(
     for (key, (before, after)) in areas {
         let allowed = CHANGE * before + rounding(plc, 2);
         if !within(before, after, allowed) {
-            let wall = input.walls.get((key as usize - 1) / 2);
-            let name = wall.map_or("hub", |w| w.name());
+            let wall = input.gluings.get((key as usize - 1) / 2);
+            let name = wall.map_or("hub", |w| w.name.as_str());
             return Err(format!(
                 "wall '{name}' has the area {after:.12e}, it had {before:.12e}"
             ));

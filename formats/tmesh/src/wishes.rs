@@ -1,0 +1,155 @@
+//! What is asked of the elements, by whoever said so first.
+
+use serde::{Deserialize, Serialize};
+
+/// Bounds and sizes of elements. The first tool that is told writes them into the document, the
+/// others inherit them, and each may be told otherwise. Limits of single regions are in
+/// [`crate::Region::max_volume`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Wishes {
+    /// Whether elements are improved at all; false asks for a plain constrained tetrahedralization.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quality: Option<bool>,
+    /// Largest ratio of circumradius to shortest edge.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_edge: Option<f64>,
+    /// Smallest dihedral angle, degrees.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub min_dihedral: Option<f64>,
+    /// Dihedral angle above which elements are optimized away, degrees; 180 leaves all as they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub optimize: Option<f64>,
+    /// Size of elements wanted.
+    #[serde(default, flatten, skip_serializing_if = "Option::is_none")]
+    pub size: Option<Size>,
+    /// Whether the surface is settled, and the mesher has to keep every triangle of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keep_surface: Option<bool>,
+}
+
+/// A size of elements.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Size {
+    /// Largest volume, model units cubed.
+    MaxVolume(f64),
+    /// Edge length, model units.
+    EdgeLength(f64),
+}
+
+impl Size {
+    /// Largest volume of an element: of the given edge length, that of the regular tetrahedron.
+    pub fn max_volume(self) -> f64 {
+        match self {
+            Self::MaxVolume(volume) => volume,
+            Self::EdgeLength(edge) => edge * edge * edge / (6.0 * std::f64::consts::SQRT_2),
+        }
+    }
+}
+
+impl Wishes {
+    /// Ratio of circumradius to shortest edge that is asked for unless something else is: below it
+    /// Delaunay refinement is not sure to end in practice, above it elements get worse for few saved.
+    pub const RADIUS_EDGE: f64 = 1.4;
+    /// Smallest dihedral angle that is asked for unless something else is, degrees: what the mesher
+    /// reaches on most bodies.
+    pub const MIN_DIHEDRAL: f64 = 10.0;
+    /// Dihedral angle above which elements are optimized away unless something else is asked for,
+    /// degrees. On wedges of coated rings, vias, ratchets and prisms the first percentile of the
+    /// smallest angle goes from 13 degrees without to 20 at 145 and 25 at 130, the smallest from 8 to
+    /// 17 and 21, for 5 to 15 % of the mesher's time; elements past a radius-edge ratio of 1.4 stay
+    /// below 1 %.
+    pub const OPTIMIZE: f64 = 130.0;
+
+    /// These wishes, and those of an earlier tool where these say nothing.
+    #[must_use]
+    pub fn over(self, earlier: &Self) -> Self {
+        Self {
+            quality: self.quality.or(earlier.quality),
+            radius_edge: self.radius_edge.or(earlier.radius_edge),
+            min_dihedral: self.min_dihedral.or(earlier.min_dihedral),
+            optimize: self.optimize.or(earlier.optimize),
+            size: self.size.or(earlier.size),
+            keep_surface: self.keep_surface.or(earlier.keep_surface),
+        }
+    }
+
+    /// Whether nothing is asked for.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Whether elements are improved at all.
+    pub fn quality(&self) -> bool {
+        self.quality.unwrap_or(true)
+    }
+
+    /// Largest ratio of circumradius to shortest edge.
+    pub fn radius_edge(&self) -> f64 {
+        self.radius_edge.unwrap_or(Self::RADIUS_EDGE)
+    }
+
+    /// Smallest dihedral angle, degrees.
+    pub fn min_dihedral(&self) -> f64 {
+        self.min_dihedral.unwrap_or(Self::MIN_DIHEDRAL)
+    }
+
+    /// Dihedral angle above which elements are optimized away, degrees; `None` for not at all.
+    pub fn optimize(&self) -> Option<f64> {
+        Some(self.optimize.unwrap_or(Self::OPTIMIZE)).filter(|&angle| angle < 180.0)
+    }
+
+    /// Largest volume of an element where a region has no limit of its own, model units cubed.
+    pub fn max_volume(&self) -> Option<f64> {
+        self.size.map(Size::max_volume)
+    }
+
+    /// Whether the surface has to be kept as it is.
+    pub fn keep_surface(&self) -> bool {
+        self.keep_surface.unwrap_or(false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn later_wishes_overrule_earlier_ones() {
+        let earlier = Wishes {
+            radius_edge: Some(2.0),
+            size: Some(Size::EdgeLength(0.5)),
+            ..Wishes::default()
+        };
+        let later = Wishes {
+            min_dihedral: Some(5.0),
+            size: Some(Size::MaxVolume(1.0)),
+            ..Wishes::default()
+        };
+        let both = later.over(&earlier);
+        assert_eq!((both.radius_edge(), both.min_dihedral()), (2.0, 5.0));
+        assert_eq!(both.max_volume(), Some(1.0));
+        assert_eq!(both.optimize(), Some(Wishes::OPTIMIZE));
+        let off = Wishes {
+            optimize: Some(180.0),
+            ..Wishes::default()
+        };
+        assert_eq!(off.over(&both).optimize(), None);
+    }
+
+    #[test]
+    fn wishes_are_read_back_and_silence_is_empty() {
+        let wishes = Wishes {
+            quality: Some(false),
+            size: Some(Size::EdgeLength(0.5)),
+            ..Wishes::default()
+        };
+        let text = serde_json::to_string(&wishes).unwrap();
+        assert_eq!(text, r#"{"quality":false,"edge_length":0.5}"#);
+        assert_eq!(serde_json::from_str::<Wishes>(&text).unwrap(), wishes);
+        assert_eq!(
+            serde_json::from_str::<Wishes>("{}").unwrap(),
+            Wishes::default()
+        );
+    }
+}
