@@ -1,110 +1,25 @@
-//! Collapsing detail too small to mesh: edges shorter than a tolerance, as a cut leaves them where it
-//! passes a vertex closely, and as CAD exports have them.
+//! Collapsing short edges at the sides of a wedge, which a cut leaves wherever it passes points closely.
 
-use crate::opening::Class;
-use crate::surface::{Surface, join_coincident};
-use geom::sets::DisjointSets;
+use crate::cell::{Cell, Class, Face};
+use crate::surface::Surface;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::Triangle;
 
-/// The bits of [`planes`] that are sides through the axis.
-const SIDES: u8 = 0b11;
-/// Least cosine between a face's normals before and after one of its corners is moved: 45 degrees.
-const TURN: f64 = 0.7;
-/// Least height of a face after one of its corners was moved, relative to the movement.
+/// Least cosine between a face's normals before and after one of its corners is moved, 45 degrees: it may not turn
+/// over, nor nearly so.
+const TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Least height of a face after one of its corners was moved, relative to the movement: what is flatter would be the
+/// next short edge.
 const HEIGHT: f64 = 0.5;
-
-/// What was collapsed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Collapsed {
-    /// Points joined to another one.
-    pub points: usize,
-    /// Faces that had no area left.
-    pub faces: usize,
-}
-
-/// Joins the ends of edges shorter than `length` (model units), shortest first. A point on a cut
-/// plane stays on it, a point on the axis stays where it is, and points on different planes are not
-/// joined, so the walls keep their place.
-///
-/// Linear but for sorting the short edges.
-pub fn collapse_short_edges(surface: &mut Surface, length: f64) -> Collapsed {
-    let mut short: Vec<(f64, [u32; 2])> = Vec::new();
-    for face in &surface.faces {
-        for k in 0..3 {
-            let (v, w) = (face.vertices[k], face.vertices[(k + 1) % 3]);
-            let d = surface.points[v as usize].distance(surface.points[w as usize]);
-            if d < length {
-                short.push((d, [v.min(w), v.max(w)]));
-            }
-        }
-    }
-    if short.is_empty() {
-        return Collapsed::default();
-    }
-    short.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    short.dedup_by_key(|s| s.1);
-    let count = surface.points.len();
-    let mut sets = DisjointSets::new(count);
-    // The point that stands for a set: the one bound to most planes, else the one numbered lowest.
-    let mut stands: Vec<u32> = (0..count as u32).collect();
-    let mut collapsed = Collapsed::default();
-    for (_, [v, w]) in short {
-        let (a, b) = (stands[sets.find(v) as usize], stands[sets.find(w) as usize]);
-        if a == b {
-            continue;
-        }
-        let (p, q) = (surface.points[a as usize], surface.points[b as usize]);
-        let (m, n) = (surface.classes[a as usize], surface.classes[b as usize]);
-        let (x, y) = (planes(m), planes(n));
-        let stay = match (x & y, x, y) {
-            // Where planes meet, points stay.
-            _ if x == y && x.count_ones() > 1 => continue,
-            _ if x == y => a.min(b),
-            (both, _, _) if both == y => a,
-            (both, _, _) if both == x => b,
-            _ => continue,
-        };
-        // Distances are between the points that stay, so a chain of short edges does not vanish.
-        if p.distance(q) < length {
-            sets.join(a, b);
-            stands[sets.find(a) as usize] = stay;
-            collapsed.points += 1;
-        }
-    }
-    for face in &mut surface.faces {
-        face.vertices = face.vertices.map(|v| stands[sets.find(v) as usize]);
-    }
-    let before = surface.faces.len();
-    let mut patches = std::mem::take(&mut surface.patches).into_iter();
-    let mut kept = Vec::new();
-    surface.faces.retain(|f| {
-        let [a, b, c] = f.vertices;
-        let keep = a != b && b != c && a != c;
-        let patch = patches.next();
-        if keep {
-            kept.extend(patch);
-        }
-        keep
-    });
-    surface.patches = kept;
-    join_coincident(&mut surface.faces, &mut surface.patches);
-    collapsed.faces = before - surface.faces.len();
-    collapsed
-}
-
-/// The cut planes that a point lies on, a bit each.
-fn planes(class: Class) -> u8 {
-    u8::from(class.a == 0) | u8::from(class.b == 0) << 1 | u8::from(class.level == 0) << 2
-}
 
 /// Joins the ends of edges shorter than `length` (model units) of which one end at least is on a side
 /// of the wedge: the cut leaves such edges wherever it passes points closely. The point on the side
-/// stays. Unlike [`collapse_short_edges`], for lengths at which shape matters: nothing is joined that
+/// stays. Unlike [`super::collapse_short_edges`], for lengths at which shape matters: nothing is joined that
 /// would turn a face over, flatten it, lay it into a side or pinch the surface. Returns the number of
 /// points joined.
-pub fn collapse_at_sides(surface: &mut Surface, length: f64) -> usize {
-    let on_side = |class: Class| planes(class) & SIDES;
+pub fn collapse_at_sides(surface: &mut Surface, cell: &Cell, length: f64) -> usize {
+    let sides = cell.which(Face::is_radial).fold(0, |bits, f| bits | 1 << f);
+    let on_side = |class: Class| class.bound() & sides;
     let mut short: Vec<(f64, [u32; 2])> = Vec::new();
     let mut around: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
     for face in &surface.faces {
@@ -137,7 +52,7 @@ pub fn collapse_at_sides(surface: &mut Surface, length: f64) -> usize {
             }
             v
         });
-        let [x, y] = [v, w].map(|v| planes(surface.classes[v as usize]));
+        let [x, y] = [v, w].map(|v| surface.classes[v as usize].bound());
         let distance = surface.points[v as usize].distance(surface.points[w as usize]);
         let (stay, go) = match (x & y, x, y) {
             _ if v == w || distance >= length => continue,
@@ -187,7 +102,7 @@ fn may_join(surface: &Surface, around: &FxHashMap<u32, Vec<u32>>, stay: u32, go:
         return false;
     }
     let at = |v: u32| surface.points[v as usize];
-    let plane = |v: u32| planes(surface.classes[v as usize]);
+    let plane = |v: u32| surface.classes[v as usize].bound();
     faces(go).filter(|f| !f.contains(&stay)).all(|f| {
         let after = f.map(|v| if v == go { stay } else { v });
         let [old, new] =

@@ -3,7 +3,7 @@
 //!
 //! All is decided by places along the curves, so that the points of both come in one order.
 
-use crate::chains::{Chain, Place, project};
+use crate::section::{Chain, Place, project};
 use glam::DVec2;
 
 /// Cosine of the turn from which a point counts as a corner of the curve: 20 degrees.

@@ -1,13 +1,12 @@
-//! Giving two sections of a rotation wedge the same points.
+//! Giving two sections that are images of each other the same points.
 //!
 //! Where the tessellation does not share the body's symmetry, the two sections are the same curves
 //! with different points on them. Each point without a partner is then inserted into an edge of the
-//! other section ([`crate::align`] says which), and the faces at that edge are divided.
+//! other section ([`super::align`] says which), and the faces at that edge are divided.
 
-use crate::opening::{Class, Opening, Side};
-use crate::section::{Extent, Section};
+use crate::cell::Cell;
+use crate::section::{Chain, Place, Section};
 use crate::surface::Surface;
-use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::Triangle;
 
@@ -22,11 +21,21 @@ pub struct Insertion {
     pub at: f64,
 }
 
+impl Insertion {
+    /// The insertion of a copy of the point `of` of the other section at a place of a section's curve.
+    pub fn new(section: &Section, chain: &Chain, of: u32, place: Place) -> Self {
+        let edge = chain.edges[place.edge];
+        let forward = section.edges[edge].ends[0] == chain.points[place.edge];
+        let at = if forward { place.at } else { 1.0 - place.at };
+        Self { of, edge, at }
+    }
+}
+
 /// Inserts points into the edges of a section and divides the faces there. Returns the new point
 /// for each insertion.
 pub fn insert(
     surface: &mut Surface,
-    opening: &Opening,
+    cell: &Cell,
     section: &mut Section,
     insertions: &[Insertion],
 ) -> Vec<u32> {
@@ -44,14 +53,8 @@ pub fn insert(
         let insertion = &insertions[i];
         let ends = section.edges[insertion.edge].ends;
         let [a, b] = ends.map(|v| surface.points[v as usize]);
-        let (p, class) = on_wall(opening, section.extent, a + (b - a) * insertion.at);
-        // No edge crosses the hub's plane.
-        let [start, end] = ends.map(|v| surface.classes[v as usize]);
-        let class = Class {
-            hub: if start.hub == 0 { end.hub } else { start.hub },
-            level: start.level.max(end.level),
-            ..class
-        };
+        let classes = ends.map(|v| surface.classes[v as usize]);
+        let (p, class) = cell.on_edge(a + (b - a) * insertion.at, classes);
         new[i] = surface.add(p, class);
         section.points.push(new[i]);
         chains.entry(ends).or_default().push(new[i]);
@@ -81,14 +84,6 @@ pub fn insert(
     section.edges.sort_unstable_by_key(|e| e.ends);
     divide_faces(surface, &chains);
     new
-}
-
-fn on_wall(opening: &Opening, extent: Extent, p: DVec3) -> (DVec3, Class) {
-    if extent.side() == Side::A {
-        return (DVec3::new(p.x, 0.0, p.z), Class::new(0, 1));
-    }
-    let r = opening.radius_on(Side::B, p);
-    (opening.point_on(Side::B, r, p.z), Class::new(1, 0))
 }
 
 fn divide_faces(surface: &mut Surface, chains: &FxHashMap<[u32; 2], Vec<u32>>) {

@@ -1,9 +1,8 @@
 //! The section of a body as chains: curves between the points where more than two of its edges meet,
-//! or where it meets the axis or another cut plane, and closed curves.
+//! or where it meets the axis or another cutting face, and closed curves.
 
-use crate::opening::{Class, Opening};
-use crate::reconcile::Insertion;
-use crate::section::{Section, SectionEdge};
+use super::edges::{Section, SectionEdge};
+use crate::cell::Cell;
 use crate::surface::Surface;
 use glam::DVec2;
 use rustc_hash::FxHashMap;
@@ -67,14 +66,6 @@ impl Chain {
         }
         best
     }
-
-    /// The insertion of a copy of the point `of` of the other section at a place.
-    pub fn insertion(&self, section: &Section, of: u32, place: Place) -> Insertion {
-        let edge = self.edges[place.edge];
-        let forward = section.edges[edge].ends[0] == self.points[place.edge];
-        let at = if forward { place.at } else { 1.0 - place.at };
-        Insertion { of, edge, at }
-    }
 }
 
 /// The place on a segment nearest to a point, as a share of the way from `a` to `b`, and the distance.
@@ -89,7 +80,7 @@ pub fn project(p: DVec2, a: DVec2, b: DVec2) -> (f64, f64) {
 }
 
 /// The chains of a section, and the points where chains end or that no edge has.
-pub fn chains(surface: &Surface, opening: &Opening, section: &Section) -> (Vec<Chain>, Vec<u32>) {
+pub fn chains(surface: &Surface, cell: &Cell, section: &Section) -> (Vec<Chain>, Vec<u32>) {
     let mut around: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
     for (i, e) in section.edges.iter().enumerate() {
         for v in e.ends {
@@ -105,7 +96,7 @@ pub fn chains(surface: &Surface, opening: &Opening, section: &Section) -> (Vec<C
         let class = surface.classes[v as usize];
         let passes = kind_from(e, v) == [f.left, f.right] && f.ends[1] == v
             || kind_from(e, v) == [f.right, f.left] && f.ends[0] == v;
-        is_fixed(class) || !passes
+        class.is_fixed() || !passes
     };
     let nodes: Vec<u32> = (section.points.iter().copied())
         .filter(|&v| is_node(v))
@@ -135,12 +126,13 @@ pub fn chains(surface: &Surface, opening: &Opening, section: &Section) -> (Vec<C
                 _ => break,
             }
         }
-        let on_axis = |v: &u32| surface.classes[*v as usize].is_axis();
-        // Both sections share what lies on the axis.
-        if chain.points.iter().all(on_axis) {
+        // Both sections share what lies on the axis, and on a line that divides a face into both.
+        let class = |v: &u32| surface.classes[*v as usize];
+        let on_fold = |v: &u32| cell.is_on_fold(section.part.face, class(v));
+        if chain.points.iter().all(|v| class(v).is_axis()) || chain.points.iter().all(on_fold) {
             return;
         }
-        let place = |v: &u32| section.place(surface, opening, *v);
+        let place = |v: &u32| section.place(surface, cell, *v);
         chain.at = chain.points.iter().map(place).collect();
         if chain.kind[0] > chain.kind[1] {
             chain.reverse();
@@ -154,11 +146,6 @@ pub fn chains(surface: &Surface, opening: &Opening, section: &Section) -> (Vec<C
         trace(e.ends[0], i);
     }
     (found, nodes)
-}
-
-/// Whether a point has to stay where planes meet.
-pub fn is_fixed(class: Class) -> bool {
-    class.is_axis() || class.hub == 0 || class.level == 0
 }
 
 /// Regions to the left and right of an edge, walked from one of its ends.

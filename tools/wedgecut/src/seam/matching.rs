@@ -1,57 +1,90 @@
-//! Making the two sides of a rotation wedge images of each other, to the bit.
+//! Making two parts of a wedge's faces images of each other, to the bit.
 
-use crate::align::{Step, align};
-use crate::chains::{Chain, chains};
+use super::align::{Step, align};
+use super::reconcile::{Insertion, insert};
+use crate::cell::{Cell, Join};
 use crate::error::CutError;
-use crate::opening::Opening;
-use crate::reconcile::{Insertion, insert};
-use crate::section::Section;
+use crate::section::{Chain, Piece, Section, chains};
 use crate::surface::Surface;
-use geom::grid::Grid;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
-use tmesh::{Frame, Isometry};
+use tmesh::{Frame, RegionMap};
 
-/// Point pairs (low side, high side), increasing in the low point, axis points with themselves.
+/// Pairs of points there and here, increasing in the first; points that are their own images with themselves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matched {
     /// The pairs.
     pub pairs: Vec<[u32; 2]>,
     /// Largest distance a point was moved, model units.
     pub moved: f64,
-    /// Points that one side had and the other did not.
+    /// Points that one section had and the other did not.
     pub inserted: usize,
+    /// How regions there are named here.
+    pub regions: RegionMap,
 }
 
-/// Pairs the points of two sections and moves each pair to its mean, the high side to the exact
-/// image of the low one. Points without partner are inserted into the other section.
+impl Matched {
+    /// The point here for a point there.
+    pub fn partner(&self, v: u32) -> Option<u32> {
+        let i = self.pairs.binary_search_by_key(&v, |p| p[0]).ok()?;
+        Some(self.pairs[i][1])
+    }
+}
+
+/// What two sections are to be made images of each other by.
+#[derive(Clone, Copy)]
+pub struct Matching<'a> {
+    /// The cell that the sections are of.
+    pub cell: &'a Cell,
+    /// The parts, and what takes one onto the other.
+    pub join: &'a Join,
+    /// How that isometry renames regions.
+    pub regions: &'a RegionMap,
+    /// Largest distance of a point from the other section, model units.
+    pub tolerance: f64,
+    /// Where the input is.
+    pub frame: &'a Frame,
+}
+
+impl Matching<'_> {
+    /// Whether a point of the part there is its own image.
+    fn is_fixed(&self, surface: &Surface, v: u32) -> bool {
+        let (p, class) = surface.at(v);
+        let fixes_axis = !self.join.step.flipped() || p.z == 0.0;
+        class.is_axis() && fixes_axis || self.cell.is_on_fold(self.join.there.face, class)
+    }
+}
+
+/// Pairs the points of the two sections of a surface that are to be images of each other and moves each pair to its
+/// mean, the point here to the exact image of the one there. Points without partner are inserted into the other
+/// section.
 ///
 /// First the ends of chains are paired, then chains between them, then points along each chain.
-/// `tolerance`: largest distance of a point from the other section, model units.
 ///
 /// # Errors
 /// Points that are farther from the other section; chains that have no counterpart; edges or regions
 /// that differ.
-pub fn match_sections(
-    surface: &mut Surface,
-    opening: &Opening,
-    rotation: Isometry,
-    low: &mut Section,
-    high: &mut Section,
-    tolerance: f64,
-    frame: &Frame,
-) -> Result<Matched, CutError> {
+pub fn match_sections(surface: &mut Surface, matching: &Matching<'_>) -> Result<Matched, CutError> {
+    let Matching { cell, join, .. } = *matching;
+    let section = |part| {
+        let piece = Piece {
+            surface,
+            faces: &surface.faces,
+            corners: surface.corners.clone(),
+        };
+        Section::new(&piece, cell, part)
+    };
+    let (mut low, mut high) = (section(join.there), section(join.here));
+    low.rename(matching.regions);
     let mut inserted = 0;
     let (mut partner, into_low, into_high) = loop {
-        let (of_low, nodes_low) = chains(surface, opening, low);
-        let (of_high, nodes_high) = chains(surface, opening, high);
+        let (of_low, nodes_low) = chains(surface, cell, &low);
+        let (of_high, nodes_high) = chains(surface, cell, &high);
         let mut matcher = Matcher {
+            matching,
             surface,
-            opening,
-            low,
-            high,
-            tolerance,
-            frame,
+            low: &low,
+            high: &high,
             partner: FxHashMap::default(),
             nodes: nodes_low.iter().chain(&nodes_high).copied().collect(),
         };
@@ -63,43 +96,41 @@ pub fn match_sections(
             break (matcher.partner, into_low, into_high);
         }
         inserted += beginnings.len();
-        insert(surface, opening, high, &beginnings);
+        insert(surface, cell, &mut high, &beginnings);
     };
     inserted += into_low.len() + into_high.len();
-    let new_high = insert(surface, opening, high, &into_high);
-    let new_low = insert(surface, opening, low, &into_low);
+    let new_high = insert(surface, cell, &mut high, &into_high);
+    let new_low = insert(surface, cell, &mut low, &into_low);
     partner.extend(into_high.iter().map(|i| i.of).zip(new_high));
     partner.extend(new_low.into_iter().zip(into_low.iter().map(|i| i.of)));
-    check_edges(surface, low, high, &partner, frame)?;
+    check_edges(surface, matching, [&low, &high], &partner)?;
     let mut pairs: Vec<[u32; 2]> = partner.into_iter().map(|(v, w)| [v, w]).collect();
     pairs.sort_unstable();
     let mut moved = 0.0_f64;
-    for &[v, w] in pairs.iter().filter(|p| p[0] != p[1]) {
-        let (p, q) = (
-            low.place(surface, opening, v),
-            high.place(surface, opening, w),
-        );
+    for &[v, w] in &pairs {
+        if v == w && matching.is_fixed(surface, v) {
+            continue;
+        }
+        let (p, q) = (low.place(surface, cell, v), high.place(surface, cell, w));
         moved = moved.max(0.5 * p.distance(q));
-        let mean = 0.5 * (p + q);
-        let p = DVec3::new(mean.x, 0.0, mean.y);
+        let p = join.there.at(&cell.faces, 0.5 * (p + q));
         surface.points[v as usize] = p;
-        surface.points[w as usize] = rotation.apply(p);
+        surface.points[w as usize] = join.step.apply(p);
     }
     Ok(Matched {
         pairs,
         moved,
         inserted,
+        regions: matching.regions.clone(),
     })
 }
 
 /// Finds counterparts.
 struct Matcher<'a> {
+    matching: &'a Matching<'a>,
     surface: &'a Surface,
-    opening: &'a Opening,
     low: &'a Section,
     high: &'a Section,
-    tolerance: f64,
-    frame: &'a Frame,
     /// Point of the high section for points of the low one.
     partner: FxHashMap<u32, u32>,
     /// Points of either section where chains end.
@@ -112,24 +143,27 @@ impl Matcher<'_> {
             low: self.low.points.len(),
             high: self.high.points.len(),
             distance,
-            tolerance: self.tolerance,
-            near: self.frame.to_world(self.surface.points[v as usize]),
+            tolerance: self.matching.tolerance,
+            near: self
+                .matching
+                .frame
+                .to_world(self.surface.points[v as usize]),
         }
     }
 
-    /// Pairs the points where chains end, those on the axis with themselves.
+    /// Pairs the points where chains end, those that are their own images with themselves.
     fn pair_nodes(&mut self, low: &[u32], high: &[u32]) -> Result<(), CutError> {
-        let is_axis = |v: &u32| self.surface.classes[*v as usize].is_axis();
-        let axis = self.low.points.iter().copied().filter(is_axis);
-        self.partner.extend(axis.map(|v| (v, v)));
+        let is_fixed = |v: &u32| self.matching.is_fixed(self.surface, *v);
+        let fixed = self.low.points.iter().copied().filter(is_fixed);
+        self.partner.extend(fixed.map(|v| (v, v)));
         let places = |nodes: &[u32], section: &Section| -> Vec<(u32, DVec2)> {
-            let off = nodes.iter().copied().filter(|v| !is_axis(v));
-            off.map(|v| (v, section.place(self.surface, self.opening, v)))
+            let off = nodes.iter().copied().filter(|v| !is_fixed(v));
+            off.map(|v| (v, section.place(self.surface, self.matching.cell, v)))
                 .collect()
         };
         let (low, high) = (places(low, self.low), places(high, self.high));
-        let to_high = nearest(&low, &high, self.tolerance);
-        let to_low = nearest(&high, &low, self.tolerance);
+        let to_high = nearest(&low, &high, self.matching.tolerance);
+        let to_low = nearest(&high, &low, self.matching.tolerance);
         let farthest = |v: u32, p: DVec2, others: &[(u32, DVec2)]| {
             let distances = others.iter().map(|q| q.1.distance(p));
             self.differ(v, distances.fold(f64::INFINITY, f64::min))
@@ -193,7 +227,8 @@ impl Matcher<'_> {
                 let v = chain.points[chain.points.len() / 2];
                 return Err(self.without_counterpart(count, v));
             };
-            let apart = of.is_none() && !begin_alike(&mut chain, &mut other, self.tolerance);
+            let apart =
+                of.is_none() && !begin_alike(&mut chain, &mut other, self.matching.tolerance);
             found.push((chain, other, apart));
         }
         match by_ends.values().flatten().next() {
@@ -210,10 +245,10 @@ impl Matcher<'_> {
         apart
             .map(|(chain, other, _)| {
                 let (place, distance) = other.nearest(chain.at[0]);
-                match distance > self.tolerance {
+                match distance > self.matching.tolerance {
                     true => Err(self.differ(chain.points[0], distance)),
                     // Not at the ends of the edge: no point is that near.
-                    false => Ok(other.insertion(self.high, chain.points[0], place)),
+                    false => Ok(Insertion::new(self.high, other, chain.points[0], place)),
                 }
             })
             .collect()
@@ -226,7 +261,7 @@ impl Matcher<'_> {
     ) -> Result<(Vec<Insertion>, Vec<Insertion>), CutError> {
         let (mut into_low, mut into_high) = (Vec::new(), Vec::new());
         for (chain, other, _) in paired {
-            let steps = align(chain, other, self.tolerance).map_err(|apart| {
+            let steps = align(chain, other, self.matching.tolerance).map_err(|apart| {
                 let curve = if apart.first { chain } else { other };
                 self.differ(curve.points[apart.point], apart.distance)
             })?;
@@ -236,10 +271,10 @@ impl Matcher<'_> {
                         self.partner.insert(chain.points[i], other.points[j]);
                     }
                     Step::First(i, place) => {
-                        into_high.push(other.insertion(self.high, chain.points[i], place));
+                        into_high.push(Insertion::new(self.high, other, chain.points[i], place));
                     }
                     Step::Second(j, place) => {
-                        into_low.push(chain.insertion(self.low, other.points[j], place));
+                        into_low.push(Insertion::new(self.low, chain, other.points[j], place));
                     }
                 }
             }
@@ -251,7 +286,10 @@ impl Matcher<'_> {
         CutError::SectionsJoinedDifferently {
             low,
             high,
-            near: self.frame.to_world(self.surface.points[v as usize]),
+            near: self
+                .matching
+                .frame
+                .to_world(self.surface.points[v as usize]),
         }
     }
 }
@@ -278,23 +316,38 @@ fn begin_alike(chain: &mut Chain, other: &mut Chain, reach: f64) -> bool {
 
 /// For each point the nearest of `among` within `reach`, by index.
 fn nearest(points: &[(u32, DVec2)], among: &[(u32, DVec2)], reach: f64) -> Vec<Option<usize>> {
-    let grid = Grid::of(among.iter().map(|q| q.1), reach);
-    let nearest = |p: &(u32, DVec2)| Some(grid.nearest(p.1, reach)?.0 as usize);
-    points.iter().map(nearest).collect()
+    let cell = |p: DVec2| (p / reach).floor().to_array().map(|x| x as i64);
+    let mut grid: FxHashMap<[i64; 2], Vec<usize>> = FxHashMap::default();
+    for (j, q) in among.iter().enumerate() {
+        grid.entry(cell(q.1)).or_default().push(j);
+    }
+    points
+        .iter()
+        .map(|p| {
+            let [x, y] = cell(p.1);
+            let around = (-1..=1).flat_map(|i| (-1..=1).map(move |k| [x + i, y + k]));
+            around
+                .filter_map(|key| grid.get(&key))
+                .flatten()
+                .map(|&j| (j, among[j].1.distance(p.1)))
+                .filter(|(_, d)| *d <= reach)
+                .min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
+                .map(|(j, _)| j)
+        })
+        .collect()
 }
 
 fn check_edges(
     surface: &Surface,
-    low: &Section,
-    high: &Section,
+    matching: &Matching<'_>,
+    [low, high]: [&Section; 2],
     partner: &FxHashMap<u32, u32>,
-    frame: &Frame,
 ) -> Result<(), CutError> {
     let image = |v: u32| partner.get(&v).copied();
     let differs = |v: u32| CutError::SectionsJoinedDifferently {
         low: low.edges.len(),
         high: high.edges.len(),
-        near: frame.to_world(surface.points[v as usize]),
+        near: matching.frame.to_world(surface.points[v as usize]),
     };
     for e in &low.edges {
         let [Some(a), Some(b)] = e.ends.map(image) else {
@@ -308,8 +361,11 @@ fn check_edges(
         let found = high.edges.binary_search_by_key(&ends, |h| h.ends);
         let same = found.is_ok_and(|i| {
             let h = &high.edges[i];
-            let on_axis = a == e.ends[0] && b == e.ends[1];
-            on_axis || (h.left, h.right) == (left, right)
+            // Around what both parts share, each sees what is beside the other.
+            let is_axis = |v: u32| surface.classes[v as usize].is_axis();
+            let is_fixed = |v: u32| is_axis(v) || matching.is_fixed(surface, v);
+            let is_shared = e.ends.into_iter().all(is_fixed);
+            is_shared || (h.left, h.right) == (left, right)
         });
         if !same {
             return Err(differs(e.ends[0]));
