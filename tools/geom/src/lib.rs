@@ -14,7 +14,6 @@ pub mod cdt;
 mod complex;
 pub mod eigen;
 mod element;
-pub mod fan;
 mod points;
 pub mod sets;
 pub mod tolerance;
@@ -23,8 +22,3 @@ pub mod tree;
 pub use complex::{cells, contacts, edges, flat, sides};
 pub use element::{measure, predicate, tet};
 pub use points::{grid, weld};
-
-/// The former name of [`tree`].
-pub mod bvh {
-    pub use crate::tree::{Nearest, Tree as Bvh, closest_point};
-}

@@ -1,7 +1,7 @@
 //! Regions of tetrahedra, from the two sides of the refined surface's triangles.
 
 use crate::{Elements, Plc};
-use geom::edges::orientation;
+use geom::predicate::orientation;
 use geom::sets::DisjointSets;
 use glam::DVec3;
 use tmesh::{OUTSIDE, Triangle};

@@ -6,7 +6,7 @@
 //! and on it multiples of that direction by numbers with few digits: then all products are exact. The shift
 //! is about 1e-10 of the radius (below 1e-9 for a few orders above 180), and is taken back afterwards.
 
-use geom::edges::orientation;
+use geom::predicate::orientation;
 use glam::DVec3;
 
 /// Bits of the direction's whole numbers; a coordinate has 53.

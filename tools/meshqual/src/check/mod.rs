@@ -21,7 +21,7 @@ use crate::instances::{Realized, is_sector, realized, wall_triangles};
 use crate::measure::Measured;
 use conformity::{Skin, conformity};
 use findings::{Findings, Kind};
-use geom::edges::orientation;
+use geom::predicate::orientation;
 use kit::number;
 use serde::Serialize;
 use tmesh::{Document, Outside, Promise, Violation};
