@@ -2,6 +2,7 @@
 
 mod common;
 
+use bodies::facets::*;
 use common::*;
 use interchange::Format::{Obj, Off, Ply, Poly, Smesh, Stl};
 use interchange::sniff;

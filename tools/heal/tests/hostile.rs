@@ -2,6 +2,8 @@
 
 mod common;
 
+use bodies::Dice;
+use bodies::files::damaged;
 use common::samples::samples;
 use heal::read;
 use interchange::Format;
@@ -26,7 +28,7 @@ fn every_prefix_is_survived() {
 
 #[test]
 fn random_damage_is_survived() {
-    let mut random = common::sequence(1);
+    let mut dice = Dice::new(1);
     let words: [&[u8]; 14] = [
         b"-1",
         b"0",
@@ -45,26 +47,7 @@ fn random_damage_is_survived() {
     ];
     for (format, bytes) in samples() {
         for _ in 0..2000 {
-            let mut damaged = bytes.clone();
-            for _ in 0..1 + random(4) {
-                let at = random(damaged.len());
-                match random(4) {
-                    0 => damaged[at] = random(256) as u8,
-                    1 => damaged[at] ^= 1 << random(8),
-                    2 => {
-                        let word = words[random(words.len())];
-                        let end = (at + random(4)).min(damaged.len());
-                        damaged.splice(at..end, word.iter().copied());
-                    }
-                    _ => {
-                        let end = (at + random(40)).min(damaged.len());
-                        let part = damaged[at..end].to_vec();
-                        let to = random(damaged.len());
-                        damaged.splice(to..to, part);
-                    }
-                }
-            }
-            survives(&damaged, format);
+            survives(&damaged(&bytes, &words, &mut dice), format);
         }
     }
 }

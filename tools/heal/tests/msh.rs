@@ -1,7 +1,7 @@
 //! Gmsh's files: those written here, those of other programs, and damaged ones.
 
-mod common;
-
+use bodies::Dice;
+use bodies::files::damaged;
 use glam::DVec3;
 use heal::read;
 use interchange::{Format, Plain, WriteOptions, sniff};
@@ -233,7 +233,7 @@ fn every_prefix_is_survived() {
 
 #[test]
 fn random_damage_is_survived() {
-    let mut random = common::sequence(7);
+    let mut dice = Dice::new(7);
     let words: [&[u8]; 9] = [
         b"-1",
         b"0",
@@ -247,26 +247,7 @@ fn random_damage_is_survived() {
     ];
     for bytes in samples() {
         for _ in 0..2000 {
-            let mut damaged = bytes.clone();
-            for _ in 0..1 + random(4) {
-                let at = random(damaged.len());
-                match random(4) {
-                    0 => damaged[at] = random(256) as u8,
-                    1 => damaged[at] ^= 1 << random(8),
-                    2 => {
-                        let word = words[random(words.len())];
-                        let end = (at + random(4)).min(damaged.len());
-                        damaged.splice(at..end, word.iter().copied());
-                    }
-                    _ => {
-                        let end = (at + random(40)).min(damaged.len());
-                        let part = damaged[at..end].to_vec();
-                        let to = random(damaged.len());
-                        damaged.splice(to..to, part);
-                    }
-                }
-            }
-            survives(&damaged);
+            survives(&damaged(&bytes, &words, &mut dice));
         }
     }
 }

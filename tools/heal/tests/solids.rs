@@ -2,6 +2,7 @@
 
 mod common;
 
+use bodies::facets::*;
 use common::*;
 use interchange::Format::Stl;
 use tmesh::OUTSIDE;
