@@ -1,9 +1,9 @@
 //! Polygons and planar facets, broken into triangles.
 
+mod enclosed;
 mod plane;
 mod polygon;
-mod triangulate;
 
+pub use enclosed::enclosed;
 pub use plane::{Projection, area_vector};
 pub use polygon::triangles_of;
-pub use triangulate::{FacetError, triangulate};
