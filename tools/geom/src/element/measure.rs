@@ -61,13 +61,3 @@ pub fn area_of_region(
         })
         .sum()
 }
-
-/// The former name of [`volume_of_region`].
-pub fn region_volume(template: &tmesh::Template, region: u32) -> f64 {
-    volume_of_region(&template.vertices, template.faces(), region)
-}
-
-/// The former name of [`area_of_region`].
-pub fn boundary_area(template: &tmesh::Template) -> f64 {
-    area_of_region(&template.vertices, template.faces(), tmesh::OUTSIDE)
-}
