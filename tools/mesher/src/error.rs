@@ -21,14 +21,6 @@ impl fmt::Display for Place {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A size is asked for a region that the document does not have.
-    #[error("there is no region '{name}'; the regions are {known}")]
-    UnknownRegion {
-        /// The name or id asked for.
-        name: String,
-        /// What there is.
-        known: String,
-    },
     /// A template has no surface.
     #[error("template {template} has no surface to fill; did the previous stage fail?")]
     NoSurface {
@@ -125,7 +117,6 @@ impl Error {
     /// Who can do something about it.
     pub fn fault(&self) -> Fault {
         match self {
-            Self::UnknownRegion { .. } => Fault::Usage,
             Self::Mesher { failure, .. } if failure.kind == FailureKind::Switches => Fault::Usage,
             Self::NoSurface { .. }
             | Self::Open { .. }

@@ -23,5 +23,5 @@ pub use error::{Error, Fault, Place, RegionName};
 pub use faces::{Faces, NO_FACE, Upright, face_key, leads};
 pub use ladder::{Answer, Asks, Attempt, Change, Climb, Ending, Judged, LADDER, Rung};
 pub use mesher::{Elements, Failure, FailureKind, Limits, Log, Mesh, Mesher, Task};
-pub use params::{DEFAULT_OPTIMIZE, Params, RegionSize, Sizes, volume_of_edge};
+pub use params::{Params, Sizes};
 pub use tetgen::TetGen;

@@ -6,7 +6,6 @@
 mod check;
 mod cli;
 mod error;
-mod faces;
 mod instances;
 mod measure;
 mod present;

@@ -6,13 +6,13 @@
 //! its wedge: once the wedge's surface is made, the hub is given the face they share.
 
 mod cli;
-mod elements;
 mod error;
+mod memory;
 mod prepare;
 mod surface;
 
 pub use cli::Cli;
-pub use elements::ElementArgs;
 pub use error::{SurfaceError, failure};
+pub use memory::MemoryArgs;
 pub use prepare::{Report, prepare};
 pub use surface::{GUIDE_EASED, Made, Other, impose, make};

@@ -27,8 +27,7 @@ pub fn prepare(
     if tets > 0 {
         return Err(SurfaceError::AlreadyFilled(tets));
     }
-    // Names of regions are wrong whatever the walls are.
-    let sizes = Sizes::new(&document, params)?;
+    let sizes = Sizes::new(&document);
     let mut report = Report::default();
     let seams: Vec<bool> = document
         .templates

@@ -30,7 +30,7 @@ pub fn tetrahedralize(
     params: &Params,
     log: Log<'_>,
 ) -> Result<Meshed, Error> {
-    let sizes = Sizes::new(&document, params)?;
+    let sizes = Sizes::new(&document);
     let leaders: Vec<Option<usize>> = (0..document.templates.len())
         .map(|index| leader(&document, index))
         .collect();

@@ -1,30 +1,37 @@
 use crate::bodies::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
 use crate::fill::{fill, finish};
-use crate::tetrahedralize;
+use crate::{Meshed, tetrahedralize};
 use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
 use kit::Failure;
 use mesher::{
     Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, Judged, LADDER, Params,
-    RegionSize, Rung, Sizes, TetGen,
+    Rung, Sizes, TetGen,
 };
 use periodic_surf::failure;
-use std::time::Duration;
-use tmesh::{Document, OUTSIDE, Template, validate};
+use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
 
-fn mesh(document: Document, params: &Params) -> Result<Document, Error> {
+/// Fills a document as these wishes ask.
+fn filled(mut document: Document, wishes: &Wishes) -> Result<Meshed, Error> {
+    document.wishes = wishes.clone().over(&document.wishes);
+    let params = Params::new(&document.wishes);
+    tetrahedralize(document, &params, &|_| ())
+}
+
+/// The same, with everything checked that must hold.
+fn mesh(document: Document, wishes: &Wishes) -> Result<Document, Error> {
     assert_eq!(validate(&document), []);
     let begun = document.clone();
-    let done = tetrahedralize(document, params, &|_| ())?.document;
+    let done = filled(document, wishes)?.document;
     check(&begun, &done);
     Ok(done)
 }
 
-fn sized(max_volume: f64) -> Params {
-    Params {
-        max_volume: Some(max_volume),
-        timeout: Some(Duration::from_secs(120)),
-        ..Params::default()
+fn sized(max_volume: f64) -> Wishes {
+    Wishes {
+        size: Some(Size::MaxVolume(max_volume)),
+        timeout: Some(120.0),
+        ..Wishes::default()
     }
 }
 
@@ -187,17 +194,14 @@ fn coatings_keep_their_region_and_may_have_a_size() {
     assert!(count(&done, 4) > 0 && count(&done, 9) > 0);
 
     // Optimization moves vertices after the sizes were met, and may exceed them.
-    let mut params = Params {
-        region_sizes: vec![RegionSize {
-            region: "material-9".to_owned(),
-            max_volume: 2e-6,
-        }],
-        optimize: None,
-        ..Params::default()
-    };
-    for (optimize, limit) in [(None, 2e-6), (Some(130.0), 4e-6)] {
-        params.optimize = optimize;
-        let done = mesh(coated_ring(16, 0.2), &params).unwrap();
+    let mut small = coated_ring(16, 0.2);
+    small.regions[1].max_volume = Some(2e-6);
+    for (optimize, limit) in [(180.0, 2e-6), (130.0, 4e-6)] {
+        let wishes = Wishes {
+            optimize: Some(optimize),
+            ..Wishes::default()
+        };
+        let done = mesh(small.clone(), &wishes).unwrap();
         let template = &done.templates[0];
         let biggest = |region| {
             template
@@ -212,9 +216,6 @@ fn coatings_keep_their_region_and_may_have_a_size() {
         };
         assert!(biggest(9) <= limit && biggest(4) > 1e-5, "{}", biggest(9));
     }
-    params.region_sizes[0].region = "copper".to_owned();
-    let error = mesh(coated_ring(16, 0.2), &params).unwrap_err();
-    assert!(matches!(failure(&error), Failure::Usage(_)));
 }
 
 #[test]
@@ -276,7 +277,7 @@ fn ratchet(order: u32) -> Document {
 fn seams_are_preserved() {
     for order in [2, 3, 7, 12] {
         let before = ratchet(order);
-        let done = tetrahedralize(before.clone(), &sized(1e-3), &|_| ()).unwrap();
+        let done = filled(before.clone(), &sized(1e-3)).unwrap();
         assert!(done.advice[0].contains("periodic-surf"));
         check(&before, &done.document);
         let (old, new) = (
@@ -288,7 +289,7 @@ fn seams_are_preserved() {
         // Whoever settles the surface says so.
         let mut refined = before;
         refined.wishes.keep_surface = Some(true);
-        let done = tetrahedralize(refined, &sized(1e-3), &|_| ()).unwrap();
+        let done = filled(refined, &sized(1e-3)).unwrap();
         assert!(done.advice.is_empty());
     }
 }
@@ -346,20 +347,18 @@ fn meshing_again_starts_from_the_surface() {
     let once = mesh(prism(4), &sized(1e-2)).unwrap();
     let mut again = once.clone();
     again.templates[0].vertices.push(DVec3::new(9.0, 9.0, 9.0));
-    let done = tetrahedralize(again, &sized(1e-2), &|_| ())
-        .unwrap()
-        .document;
+    let done = filled(again, &sized(1e-2)).unwrap().document;
     assert_eq!(validate(&done), []);
     assert!(!done.templates[0].vertices.contains(&DVec3::splat(9.0)));
 }
 
 #[test]
 fn a_plain_tetrahedralization_adds_little() {
-    let params = Params {
-        quality: false,
-        ..Params::default()
+    let plain = Wishes {
+        quality: Some(false),
+        ..Wishes::default()
     };
-    let done = mesh(coated_ring(16, 5e-3), &params).unwrap();
+    let done = mesh(coated_ring(16, 5e-3), &plain).unwrap();
     assert!(done.templates[0].tets.len() < 100);
 }
 
@@ -373,9 +372,7 @@ fn open_surfaces_are_refused() {
         .unwrap();
     document.templates[0].triangles.remove(removed);
     document.templates[0].gluings.clear();
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     assert!(matches!(error, Error::Open { edges: 2..=3, .. }), "{error}");
     assert!(matches!(failure(&error), Failure::Input(_)));
 }
@@ -389,26 +386,20 @@ fn inconsistent_regions_are_refused() {
             *side = 9;
         }
     }
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     assert!(matches!(error, Error::MixedCell { .. }), "{error}");
 
     let mut document = prism(6);
     for t in &mut document.templates[0].triangles {
         std::mem::swap(&mut t.front, &mut t.back);
     }
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     assert!(matches!(error, Error::Unbounded { .. }), "{error}");
 
     let mut document = prism(6);
     document.templates[0].triangles.clear();
     document.templates[0].gluings.clear();
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     assert!(matches!(error, Error::NoSurface { .. }), "{error}");
 }
 
@@ -425,9 +416,7 @@ fn intersections_are_reported_with_their_place() {
         t.vertices = t.vertices.map(|v| v + base);
     }
     template.triangles.append(&mut other.triangles);
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     let text = error.to_string();
     assert!(matches!(error, Error::Mesher { .. }), "{text}");
     assert!(
@@ -439,11 +428,11 @@ fn intersections_are_reported_with_their_place() {
 
 #[test]
 fn hopeless_requests_end() {
-    let params = Params {
-        timeout: Some(Duration::from_millis(200)),
+    let hasty = Wishes {
+        timeout: Some(0.2),
         ..sized(1e-8)
     };
-    let error = mesh(prism(4), &params).unwrap_err();
+    let error = mesh(prism(4), &hasty).unwrap_err();
     let text = error.to_string();
     assert!(
         text.contains("0.2 s") && text.contains("--timeout"),
@@ -458,16 +447,20 @@ fn switches_that_change_the_contract_are_errors() {
     for bad in ["o2", "h", "B"] {
         let params = Params {
             switches: bad.to_owned(),
-            ..sized(0.1)
+            ..Params::new(&sized(0.1))
         };
-        assert!(mesh(prism(4), &params).is_err(), "{bad}");
+        let done = tetrahedralize(prism(4), &params, &|_| ());
+        assert!(done.is_err(), "{bad}");
     }
 }
 
 /// Meshes every template of a document in one attempt, its surface described like this.
 fn described(document: &Document, description: Description, take: impl Fn(&Climb<'_>, Answer)) {
-    let params = sized(1e-3);
-    let sizes = Sizes::new(document, &params).unwrap();
+    let params = Params::new(&sized(1e-3));
+    let mut document = document.clone();
+    document.wishes = sized(1e-3);
+    let document = &document;
+    let sizes = Sizes::new(document);
     let rungs = [Rung {
         after: Ending::Chance,
         change: Change::Describe(description),

@@ -105,7 +105,7 @@ fn climb(
         timeout,
         ..Params::default()
     };
-    let sizes = Sizes::new(&document, &params).unwrap();
+    let sizes = Sizes::new(&document);
     let climb = Climb {
         document: &document,
         template: 0,
@@ -214,7 +214,7 @@ fn a_mesh_that_is_short_is_kept_if_a_better_one_fails() {
             document: &document,
             template: 0,
             params: &params,
-            sizes: &Sizes::new(&document, &params).unwrap(),
+            sizes: &Sizes::new(&document),
             preserve: false,
             rungs: &LADDER,
             deadline: Deadline::start(None),

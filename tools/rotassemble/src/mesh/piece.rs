@@ -1,13 +1,12 @@
 //! One instance of an assembled mesh as a mesh of its own, for files that are read in parallel.
 
-use crate::Assembled;
+use super::assembled::Assembled;
+use super::copies::{BLOCK, Ids};
 use glam::DVec3;
 use interchange::{MeshStream, Patch, PatchSink, PointSink, TetRegionSink, TetSink, TriangleSink};
 use std::io;
+use std::ops::Range;
 use tmesh::{Marker, Region};
-
-/// Points per block.
-const BLOCK: usize = 8192;
 
 /// The elements of one instance, with points numbered as in its template, and their ids in the
 /// whole mesh.
@@ -23,7 +22,7 @@ impl<'a> Piece<'a> {
     /// The piece that an instance makes up.
     pub fn new(mesh: &'a Assembled<'a>, instance: usize) -> Self {
         let mut ids = Vec::new();
-        mesh.numbering.ids(instance, &mut ids);
+        mesh.copies.numbering.ids(instance, &mut ids);
         Self {
             mesh,
             instance,
@@ -31,8 +30,12 @@ impl<'a> Piece<'a> {
         }
     }
 
+    fn only(&self) -> Range<usize> {
+        self.instance..self.instance + 1
+    }
+
     fn template(&self) -> &tmesh::Template {
-        let document = self.mesh.document;
+        let document = self.mesh.copies.document;
         &document.templates[document.instances[self.instance].template as usize]
     }
 }
@@ -67,13 +70,13 @@ impl MeshStream for Piece<'_> {
     }
 
     fn points(&self, sink: &mut PointSink<'_>) -> io::Result<()> {
-        let isometry = self.mesh.document.instances[self.instance].isometry;
-        let own = self.mesh.world(isometry);
+        let isometry = self.mesh.copies.document.instances[self.instance].isometry;
+        let own = self.mesh.copies.world(isometry);
         let ids: Vec<u32> = (0..self.template().vertices.len() as u32).collect();
         let mut block: Vec<DVec3> = Vec::with_capacity(BLOCK);
         for part in ids.chunks(BLOCK) {
             block.clear();
-            let position = |&v: &u32| self.mesh.position(self.instance, v, &own);
+            let position = |&v: &u32| self.mesh.copies.position(self.instance, v, &own);
             block.extend(part.iter().map(position));
             sink(&block)?;
         }
@@ -81,23 +84,21 @@ impl MeshStream for Piece<'_> {
     }
 
     fn tets(&self, sink: &mut TetSink<'_>) -> io::Result<()> {
-        self.mesh
-            .give_tets(self.instance..self.instance + 1, true, sink)
+        self.mesh.copies.give_tets(self.only(), Ids::Template, sink)
     }
 
     fn tet_regions(&self, sink: &mut TetRegionSink<'_>) -> io::Result<()> {
-        self.mesh
-            .give_regions(self.instance..self.instance + 1, sink)
+        self.mesh.copies.give_regions(self.only(), sink)
     }
 
     fn triangles(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
         self.mesh
-            .give_triangles::<false>(self.instance..self.instance + 1, true, sink)
+            .give_triangles::<false>(self.only(), Ids::Template, sink)
     }
 
     fn facets(&self, sink: &mut TriangleSink<'_>) -> io::Result<()> {
         self.mesh
-            .give_triangles::<true>(self.instance..self.instance + 1, true, sink)
+            .give_triangles::<true>(self.only(), Ids::Template, sink)
     }
 
     fn patches(&self) -> &[Patch] {

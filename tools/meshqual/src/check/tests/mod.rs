@@ -1,5 +1,7 @@
 //! Every promise is broken on purpose, and the check has to say so.
 
+mod groups;
+
 use crate::specimens::{assembled, wedge};
 use crate::{Params, Report, analyse};
 use glam::DVec3;
@@ -775,11 +777,11 @@ fn hub() -> Document {
             let [Some(a), Some(b), Some(c)] = t.vertices.map(partner) else {
                 continue;
             };
-            let key = crate::faces::sorted([a, b, c]).0;
+            let key = crate::check::faces::sorted([a, b, c]).0;
             let here = core
                 .triangles
                 .iter()
-                .position(|t| crate::faces::sorted(t.vertices).0 == key);
+                .position(|t| crate::check::faces::sorted(t.vertices).0 == key);
             triangle_pairs.push([here.unwrap() as u32, i as u32]);
         }
         triangle_pairs.sort();

@@ -1,7 +1,7 @@
 //! Surfaces without tetrahedra: whether they bound their regions.
 
-use super::findings::{Findings, Kind, at};
-use crate::faces::sorted;
+use super::table::sorted;
+use crate::check::findings::{Findings, Kind, at};
 use geom::edges::Edges;
 use tmesh::{Document, OUTSIDE};
 

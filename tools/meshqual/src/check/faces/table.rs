@@ -1,6 +1,6 @@
 //! The faces of a template's tetrahedra, matched with each other and with the surface triangles.
 
-use crate::Error;
+use crate::error::Error;
 use geom::tet::FACES;
 use tmesh::Template;
 

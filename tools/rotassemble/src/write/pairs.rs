@@ -35,34 +35,75 @@ pub fn write_pairs(
         points.extend(block);
         Ok(())
     })?;
-    let residual = |coupling: &Coupling, [low, high]: [u32; 2]| {
-        let [low, high] = [low, high].map(|v| points[v as usize]);
-        (coupling.apply(low) - high).length()
+    let table = Table {
+        mesh,
+        points,
+        first_id,
     };
-    let node = |v: u32| u64::from(v) + first_id;
-    if format == TableFormat::Csv {
+    match format {
+        TableFormat::Csv => table.write_csv(out)?,
+        TableFormat::Json => {
+            serde_json::to_writer(&mut *out, &table.json(document))?;
+            writeln!(out)?;
+        }
+    }
+    out.flush()
+}
+
+/// What a table is made of.
+struct Table<'a> {
+    mesh: &'a dyn MeshStream,
+    points: Vec<DVec3>,
+    first_id: u64,
+}
+
+impl Table<'_> {
+    fn node(&self, v: u32) -> u64 {
+        u64::from(v) + self.first_id
+    }
+
+    /// Distance of the low node's image from the high node.
+    fn residual(&self, coupling: &Coupling, pair: [u32; 2]) -> f64 {
+        let [low, high] = pair.map(|v| self.points[v as usize]);
+        (coupling.apply(low) - high).length()
+    }
+
+    fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "coupling,kind,low,high,residual")?;
-        for coupling in mesh.couplings() {
+        for coupling in self.mesh.couplings() {
             let name = csv(&coupling.name);
             for &pair in &coupling.points {
                 let kind = if pair[0] == pair[1] { "axis" } else { "node" };
-                let [low, high] = pair.map(node);
-                let residual = residual(coupling, pair);
+                let [low, high] = pair.map(|v| self.node(v));
+                let residual = self.residual(coupling, pair);
                 writeln!(out, "{name},{kind},{low},{high},{residual:?}")?;
             }
             for pair in &coupling.triangles {
-                let [low, high] = pair.map(|t| t + first_id);
+                let [low, high] = pair.map(|t| t + self.first_id);
                 writeln!(out, "{name},face,{low},{high},")?;
             }
         }
-        return out.flush();
+        Ok(())
     }
-    let wall = |at: u32| mesh.wall_names().get(at as usize).cloned();
-    let couplings = mesh.couplings().iter().map(|coupling| {
+
+    fn json(&self, document: &Document) -> Value {
+        let couplings = self.mesh.couplings().iter();
+        let axis: BTreeSet<u32> = self.mesh.axis_edges().iter().flatten().copied().collect();
+        json!({
+            "first_id": self.first_id,
+            "couplings": couplings.map(|c| self.coupling(c)).collect::<Vec<_>>(),
+            "mirrors": mirrors(document),
+            "axis": axis.into_iter().map(|v| self.node(v)).collect::<Vec<_>>(),
+        })
+    }
+
+    fn coupling(&self, coupling: &Coupling) -> Value {
+        let wall = |at: u32| self.mesh.wall_names().get(at as usize);
         let rows = coupling.matrix.transpose().to_cols_array_2d();
         let [a, b] = coupling.axis.map(|p| p.to_array());
         let nodes = coupling.points.iter();
-        let residuals = nodes.clone().map(|&pair| residual(coupling, pair));
+        let residuals = nodes.clone().map(|&pair| self.residual(coupling, pair));
+        let faces = coupling.triangles.iter();
         json!({
             "name": coupling.name,
             "low": wall(coupling.low),
@@ -74,12 +115,16 @@ pub fn write_pairs(
                 "axis": [a, b],
                 "angle_deg": coupling.sectors.map(|n| 360.0 / f64::from(n)),
             },
-            "nodes": nodes.clone().map(|p| p.map(node)).collect::<Vec<_>>(),
+            "nodes": nodes.map(|p| p.map(|v| self.node(v))).collect::<Vec<_>>(),
             "residuals": residuals.clone().collect::<Vec<_>>(),
             "max_residual": residuals.fold(0.0, f64::max),
-            "faces": coupling.triangles.iter().map(|p| p.map(|t| t + first_id)).collect::<Vec<_>>(),
+            "faces": faces.map(|p| p.map(|t| t + self.first_id)).collect::<Vec<_>>(),
         })
-    });
+    }
+}
+
+/// The mirror planes of a sector, in the world.
+fn mirrors(document: &Document) -> Vec<Value> {
     let frame = document.frame;
     let templates = document.templates.iter().enumerate();
     let gluings = templates.flat_map(|(t, template)| template.gluings.iter().map(move |g| (t, g)));
@@ -91,16 +136,7 @@ pub fn write_pairs(
             "normal": normal.to_array(),
         }))
     });
-    let axis: BTreeSet<u32> = mesh.axis_edges().iter().flatten().copied().collect();
-    let table: Value = json!({
-        "first_id": first_id,
-        "couplings": couplings.collect::<Vec<_>>(),
-        "mirrors": mirrors.collect::<Vec<_>>(),
-        "axis": axis.into_iter().map(node).collect::<Vec<_>>(),
-    });
-    serde_json::to_writer(&mut *out, &table)?;
-    writeln!(out)?;
-    out.flush()
+    mirrors.collect()
 }
 
 /// A field of a line.

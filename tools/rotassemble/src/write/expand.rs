@@ -1,6 +1,6 @@
 //! The assembled mesh as a tmesh document with one template, streamed.
 
-use crate::assembled::Assembled;
+use crate::mesh::Assembled;
 use interchange::MeshStream;
 use std::io::{self, Write};
 use tmesh::{
