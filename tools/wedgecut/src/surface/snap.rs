@@ -63,7 +63,7 @@ fn snap_columns(points: &mut [DVec3], reach: f64) {
     for i in 0..points.len() as u32 {
         let p = plane(points[i as usize]);
         let mut near: Option<u32> = None;
-        grid.each_within(p, reach, &mut u64::MAX.clone(), |j, _| {
+        grid.each_within(p, reach, |j, _| {
             near = Some(near.map_or(j, |k| k.min(j)));
             true
         });

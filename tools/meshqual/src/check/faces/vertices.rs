@@ -1,8 +1,8 @@
 //! No two vertices in one place.
 
 use crate::check::findings::{Findings, Kind, at};
-use geom::grid::coincident;
 use crate::check::tolerances::COINCIDENCE;
+use geom::grid::coincident;
 use tmesh::Document;
 
 /// Looks for vertices of a template that coincide with an earlier one.
