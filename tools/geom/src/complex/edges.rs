@@ -165,7 +165,7 @@ pub fn apex_of(triangle: &[u32; 3], corner: u8) -> u32 {
 
 /// Compares the angles of `p` and `q` about the directed line `a b`, measured right-handed from the
 /// half plane of `first`, exactly. `first` itself has angle 0.
-pub fn turn_order(a: DVec3, b: DVec3, first: DVec3, p: DVec3, q: DVec3) -> Ordering {
+fn turn_order(a: DVec3, b: DVec3, first: DVec3, p: DVec3, q: DVec3) -> Ordering {
     let half = |x: DVec3| {
         let side = orientation(a, b, first, x);
         if side > 0.0 {

@@ -9,6 +9,7 @@ use crate::shape::regions::Permutation;
 use crate::shape::samples::Samples;
 use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
+use geom::measure::double_area_vector;
 use geom::tree::{Nearest, Tree};
 use glam::DVec3;
 use std::sync::OnceLock;
@@ -73,7 +74,7 @@ impl Shape {
         let precision = precision.unwrap_or(placed.largest * f64::from(f32::EPSILON) / 2.0);
         let normal = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| vertices[v as usize]);
-            (b - a).cross(c - a).normalize_or_zero()
+            double_area_vector(a, b, c).normalize_or_zero()
         };
         let normals = triangles.iter().map(normal).collect();
         let corners = |t: u32| triangles[t as usize].map(|v| vertices[v as usize]);
