@@ -161,7 +161,10 @@ fn negative_numbers_are_values() {
             .unwrap()
             .symmetry
             .unwrap();
-        assert_eq!((symmetry.group.order, symmetry.axis.direction[2]), (7, -1.0));
+        assert_eq!(
+            (symmetry.group.order, symmetry.axis.direction[2]),
+            (7, -1.0)
+        );
     }
     // Only a mirror plane contains this one, and nothing the next.
     let output = symdetect(&["wheel.tmesh", "--axis", "-1,0,0"], folder.path());

@@ -176,6 +176,7 @@ fn check_numbers(document: &Document, found: &mut Collector) {
         (wishes.radius_edge, "radius-edge ratio"),
         (wishes.optimize, "largest dihedral angle"),
         (size, "size of elements"),
+        (wishes.timeout, "time limit"),
     ] {
         if let Some(value) = value {
             check(value, true, &|| format!("the {what} wished for"));
@@ -533,12 +534,14 @@ impl Side<'_> {
     /// Checks that first members are images of second ones.
     fn check_images(&self, other: &Template, found: &mut Collector) {
         let template = &self.document.templates[self.index];
-        let allowed = match self.gluing.is_seam(self.index) {
-            true => 0.0,
-            false => ROUNDING * self.extent,
-        };
+        let is_seam = self.gluing.is_seam(self.index);
         let placed = self.gluing.step.placed();
         for &[here, there] in &self.gluing.vertex_pairs {
+            // A vertex on the axis of the step is its own image only within rounding.
+            let allowed = match is_seam && here != there {
+                true => 0.0,
+                false => ROUNDING * self.extent,
+            };
             let image = placed.apply(other.vertices[there as usize]);
             let off = image - template.vertices[here as usize];
             if off.abs().max_element() > allowed {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tmesh::Template;
+use tmesh::{Isometry, Template};
 
 /// A wedge and its cut faces.
 pub struct Wedge<'a> {
@@ -33,22 +33,32 @@ impl<'a> Wedge<'a> {
         };
         let mut bits = (0..8).cycle().map(|i| 1_u8 << i);
         let mut next = || bits.next().unwrap_or(1);
-        // The wedge is the document's first template, and faces of a hub are none of the body's sections.
-        for gluing in template.gluings.iter().filter(|g| g.other == 0) {
-            // The low face of a seam; a mirror wall is its own partner.
-            wedge.sections.push(gluing.triangles_there().collect());
+        // Faces across the axis are no sections by radius and height, and those of another template no cuts.
+        for gluing in &template.gluings {
+            if gluing.other_than(0).is_some() {
+                continue;
+            }
+            let is_mirror = gluing.is_mirror(0);
+            let there = next();
+            let here = if is_mirror { there } else { next() };
+            for &[v, w] in &gluing.vertex_pairs {
+                wedge.faces[v as usize] |= here;
+                wedge.faces[w as usize] |= there;
+                if !is_mirror {
+                    wedge.partner.insert(v, w);
+                    wedge.partner.insert(w, v);
+                }
+            }
             for t in gluing.triangles_of(0) {
                 wedge.is_cut[t as usize] = true;
             }
-            let low = next();
-            let high = if gluing.is_mirror(0) { low } else { next() };
-            for &[here, there] in &gluing.vertex_pairs {
-                wedge.faces[there as usize] |= low;
-                wedge.faces[here as usize] |= high;
-                if low != high {
-                    wedge.partner.insert(here, there);
-                    wedge.partner.insert(there, here);
-                }
+            let section: Vec<u32> = match gluing.step.mirrored() && gluing.step.flipped() {
+                // The two halves of one face.
+                true => gluing.triangles_of(0).collect(),
+                false => gluing.triangles_there().collect(),
+            };
+            if gluing.step != Isometry::FLIP {
+                wedge.sections.push(section);
             }
         }
         wedge

@@ -1,6 +1,7 @@
 //! The command line of `wedgecut`.
 
-use crate::{Domain, Hub, Params, cut, names};
+use crate::params::{Domain, Hub, Params};
+use crate::{cut, names};
 use geom::tet::REGULAR_RADIUS_EDGE;
 use kit::{Command, CommonArgs, Failure, Session, ThreadArgs};
 

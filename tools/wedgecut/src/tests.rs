@@ -567,3 +567,155 @@ fn boundary_pieces_that_differ_between_sectors_are_told() {
         "{told}"
     );
 }
+
+/// The same body with operations that turn the axis over: half turns about the polygon's first corner at half the
+/// height, where the twist is half done.
+fn turned_over(mut body: Body, kind: Kind, order: u32, place: Option<u64>) -> Document {
+    let layers = body.heights.len() - 1;
+    body.heights = (0..=layers)
+        .map(|k| 2.0 * k as f64 / layers as f64 - 1.0)
+        .collect();
+    let mut document = body.document((order, false), place, 1.0);
+    let (rotation, _) = place.map_or((DMat3::IDENTITY, DVec3::ZERO), placement);
+    let symmetry = document.symmetry.as_mut().unwrap();
+    symmetry.group = Group::new(kind, order);
+    let (sin, cos) = (0.5 * body.twist).sin_cos();
+    symmetry.reference = (rotation * DVec3::new(cos, sin, 0.0)).to_array();
+    document
+}
+
+/// A ring of points at the top, and its image by the rotary reflection of half a step at the bottom, with a band of
+/// triangles between them; `sector` has radius and angle, as a part of a step, of an odd number of points.
+fn antiprism(kind: Kind, n: u32, sector: &[[f64; 2]], place: Option<u64>) -> Document {
+    let count = sector.len() as u32 * n;
+    let step = std::f64::consts::TAU / f64::from(n);
+    let mut t = Template::default();
+    for (z, shift) in [(0.7, 0.0), (-0.7, 0.5)] {
+        for k in 0..n {
+            for [r, part] in sector {
+                let a = step * (f64::from(k) + part + shift);
+                t.vertices.push(DVec3::new(r * a.cos(), r * a.sin(), z));
+            }
+        }
+    }
+    let middles = [0.7, -0.7].map(|z| {
+        t.vertices.push(DVec3::new(0.01, 0.004, z));
+        t.vertices.len() as u32 - 1
+    });
+    let top = |k: u32| k % count;
+    let bottom = |k: u32| count + k % count;
+    // So many points further on in the other ring.
+    let ahead = (sector.len() as u32 - 1) / 2;
+    let mut put = |vertices| {
+        t.triangles.push(Triangle {
+            vertices,
+            marker: 1,
+            front: OUTSIDE,
+            back: 1,
+        });
+    };
+    for k in 0..count {
+        let below = bottom(k + count - ahead);
+        put([top(k + 1), top(k), below]);
+        put([below, bottom(k + count - ahead + 1), top(k + 1)]);
+        put([middles[0], top(k), top(k + 1)]);
+        put([middles[1], bottom(k + 1), bottom(k)]);
+    }
+    let (rotation, shift) = place.map_or((DMat3::IDENTITY, DVec3::ZERO), placement);
+    for p in &mut t.vertices {
+        *p = rotation * *p + shift;
+    }
+    let mut document = Body::regular(3, &[1.0]).document((n, false), place, 1.0);
+    document.templates[0] = t;
+    document.symmetry.as_mut().unwrap().group = Group::new(kind, n);
+    document
+}
+
+fn of_order(order: u32) -> Params {
+    Params {
+        order: Some(order),
+        ..DEFAULT
+    }
+}
+
+#[test]
+fn half_turns_double_the_copies_of_twisted_bars() {
+    for place in [None, Some(3), Some(12)] {
+        for (n, layers) in [(4, 9), (4, 8), (2, 9), (3, 1), (7, 4), (1, 5)] {
+            let mut body = match n {
+                1 => Body::regular(1, &[1.0]),
+                2 => Body::regular(4, &[1.0]),
+                _ => Body::regular(n, &[1.0, 0.4]),
+            };
+            if n == 2 {
+                // A rectangle.
+                body.rings[0] = vec![[1.0, 0.4], [-1.0, 0.4], [-1.0, -0.4], [1.0, -0.4]];
+            }
+            if n == 1 {
+                body.rings[0] = vec![
+                    [1.0, 0.0],
+                    [0.2, 0.5],
+                    [-0.4, 0.3],
+                    [-0.4, -0.3],
+                    [0.2, -0.5],
+                ];
+            }
+            body.heights = vec![0.0; layers + 1];
+            body.twist = 0.8;
+            let body = turned_over(body, Kind::D, n as u32, place);
+            let wedge = check(&body, &of_order(n as u32), 2 * n);
+            let walls = if n == 1 { 1 } else { 2 };
+            assert_eq!(wedge.templates[0].gluings.len(), walls);
+        }
+    }
+}
+
+#[test]
+fn helical_gears_get_all_copies() {
+    let n = 16;
+    let mut body = Body::regular(4 * n, &[1.0, 0.4]);
+    for (k, p) in body.rings[0].iter_mut().enumerate() {
+        let r = if matches!(k % 4, 0 | 1 | 3) {
+            1.0
+        } else {
+            0.85
+        };
+        *p = p.map(|x| r * x);
+    }
+    body.bore = true;
+    body.heights = vec![0.0; 9];
+    body.twist = 0.3;
+    let body = turned_over(body, Kind::D, n as u32, Some(5));
+    for order in [1, 2, 4, 8, 16] {
+        check(&body, &of_order(order), 2 * order as usize);
+    }
+    // Without half turns if only rotations are wanted.
+    let params = Params {
+        domain: Domain::Rotation,
+        ..of_order(16)
+    };
+    check(&body, &params, 16);
+}
+
+#[test]
+fn antiprisms_and_rotary_reflections_get_all_copies() {
+    for place in [None, Some(2), Some(9)] {
+        for n in [1_u32, 2, 3, 4, 7] {
+            let chiral = [[1.0, 0.0], [0.9, 0.3], [0.6, 0.7]];
+            if n > 1 {
+                let body = antiprism(Kind::S, n, &chiral, place);
+                check(&body, &of_order(n), 2 * n as usize);
+            }
+            if n > 2 {
+                let body = antiprism(Kind::Dd, n, &[[1.0, 0.0]], place);
+                check(&body, &of_order(n), 4 * n as usize);
+            }
+        }
+    }
+    // Of an order that leaves an even number of steps there are no rotary reflections.
+    let body = antiprism(Kind::S, 4, &[[1.0, 0.0], [0.9, 0.3], [0.6, 0.7]], None);
+    check(&body, &of_order(2), 2);
+    let body = antiprism(Kind::Dd, 6, &[[1.0, 0.0]], None);
+    check(&body, &of_order(2), 8);
+    check(&body, &of_order(3), 6);
+}

@@ -7,6 +7,7 @@
 
 use crate::{Body, Face, Material};
 use glam::DVec3;
+use tmesh::{Group, Kind};
 
 /// How quadrilaterals and caps are split into triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -82,8 +83,13 @@ impl Sweep {
         });
     }
 
+    /// The body, of plane quadrilaterals and with all mirror planes of a right prism: the group is D_nh.
+    pub fn upright(self, order: u32, tessellation: Tessellation) -> Body {
+        self.build(Group::new(Kind::Dh, order), true, tessellation)
+    }
+
     /// The body. `flat` says that all strips are made of plane quadrilaterals.
-    pub fn build(self, order: u32, mirror: bool, flat: bool, tessellation: Tessellation) -> Body {
+    pub fn build(self, group: Group, flat: bool, tessellation: Tessellation) -> Body {
         let asymmetric = tessellation != Tessellation::Symmetric;
         let mut vertices = Vec::new();
         // First vertex of each ring; axis points are only added where a strip needs them.
@@ -170,8 +176,8 @@ impl Sweep {
             vertices,
             faces,
             materials: self.materials,
-            order,
-            mirror,
+            order: group.order,
+            group,
         }
     }
 }

@@ -1,0 +1,100 @@
+//! The body to be cut, and what is known of it whatever is cut.
+
+use crate::error::CutError;
+use crate::params::Params;
+use estimate::edge_of_volume;
+use geom::tolerance::{Extent, Tolerance};
+use glam::DVec3;
+use std::collections::BTreeMap;
+use tmesh::{Document, Frame, OUTSIDE, Symmetry, Template, Triangle};
+
+/// The body to be cut.
+pub struct Body<'a> {
+    /// The document it comes in.
+    pub document: &'a Document,
+    /// Its surface, in world coordinates.
+    pub surface: &'a Template,
+    /// Its symmetry.
+    pub symmetry: &'a Symmetry,
+    /// What is asked for.
+    pub params: &'a Params,
+    /// What counts as equal.
+    pub tolerance: Tolerance,
+    /// The frame with z along the axis and x along the symmetry's reference.
+    pub frame: Frame,
+}
+
+impl<'a> Body<'a> {
+    /// Takes a document with one surface in world coordinates and a symmetry.
+    ///
+    /// # Errors
+    /// A document that has been cut or meshed, without a symmetry or with one whose axis is none.
+    pub fn new(document: &'a Document, params: &'a Params) -> Result<Self, CutError> {
+        let symmetry = document.symmetry.as_ref().ok_or(CutError::NoSymmetry)?;
+        if !document.is_plain() || !document.frame.is_identity() {
+            return Err(CutError::NotASurface("this document has been cut already"));
+        }
+        let surface = &document.templates[0];
+        if !surface.tets.is_empty() {
+            return Err(CutError::NotASurface("this document holds a volume mesh"));
+        }
+        let [origin, axis] = [symmetry.axis.point, symmetry.axis.direction].map(DVec3::from);
+        let frame = symmetry
+            .frame()
+            .filter(|f| f.rotation.is_finite() && f.origin.is_finite())
+            .ok_or(CutError::BadAxis(axis.x, axis.y, axis.z))?;
+        let extent = Extent::about(&surface.vertices, origin, axis);
+        let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
+        let tolerance = Tolerance::new(extent, precision, symmetry.residual)
+            .with_snap(params.snap)
+            .with_detail(params.clean);
+        Ok(Self {
+            document,
+            surface,
+            symmetry,
+            params,
+            tolerance,
+            frame,
+        })
+    }
+
+    /// Largest volume of an element in a region that will be asked for, model units cubed.
+    pub fn max_volume(&self, region: u32) -> Option<f64> {
+        self.params.max_volume_of(&self.document.regions, region)
+    }
+
+    /// The size of elements beside a triangle, model units: as asked for, at most that of the body.
+    pub fn element_size(&self) -> impl Fn(&Triangle) -> f64 {
+        let vertices = self.surface.vertices.iter().copied();
+        let low = vertices.clone().reduce(DVec3::min);
+        let high = vertices.reduce(DVec3::max);
+        let extent = low.zip(high).map_or(0.0, |(a, b)| a.distance(b));
+        move |t| {
+            let cap = |region| self.max_volume(region).map(edge_of_volume);
+            let caps = [t.front, t.back].into_iter().filter_map(cap);
+            caps.fold(extent, f64::min)
+        }
+    }
+
+    /// The points in the canonical frame.
+    pub fn canonical(&self) -> Vec<DVec3> {
+        let to_canonical = |&p| self.frame.to_canonical(p);
+        self.surface.vertices.iter().map(to_canonical).collect()
+    }
+}
+
+/// Volume of each region of a surface, model units cubed.
+pub fn region_volumes(vertices: &[DVec3], triangles: &[Triangle]) -> BTreeMap<u32, f64> {
+    let origin = vertices.first().copied().unwrap_or_default();
+    let mut volumes = BTreeMap::new();
+    for t in triangles {
+        let [a, b, c] = geom::measure::corners(vertices, t);
+        let volume = geom::measure::tet_volume(origin, a, b, c);
+        for (region, sign) in [(t.back, 1.0), (t.front, -1.0)] {
+            if region != OUTSIDE {
+                *volumes.entry(region).or_default() += sign * volume;
+            }
+        }
+    }
+    volumes
+}

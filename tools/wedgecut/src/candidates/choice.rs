@@ -1,0 +1,128 @@
+//! The order in which candidates are tried: what is cheapest to mesh first.
+
+use super::groups::Groups;
+use super::places::Places;
+use crate::body::Body;
+use crate::cell::{hub_order, may_have_hub, opening};
+use crate::cutting::{Candidate, Cut};
+use crate::params::Hub;
+use estimate::{Bounds, CostModel, Estimate, Hubs, Way, Ways};
+use std::f64::consts::TAU;
+use tmesh::{Group, Kind};
+
+/// Candidates, and why they are in this order.
+pub struct Choice {
+    /// The candidates, best first; each way to mesh with fewer and fewer planes.
+    pub list: Vec<Candidate>,
+    /// The reason for the first.
+    pub why: String,
+}
+
+/// Orders what is left of the groups by the cost that a first wedge tells.
+pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> Option<Choice> {
+    let kinds: Vec<Group> = orders.iter().flat_map(|&n| groups.at(n)).collect();
+    let cuts: Vec<estimate::Cut> = kinds.iter().map(|&g| describe(body, g, first)).collect();
+    let needles = estimate::needles(body.surface, body.element_size());
+    let wedge = estimate::Wedge::new(&first.templates[0], first.wedges);
+    let max_volume = |region| body.max_volume(region);
+    let model = CostModel::CALIBRATED;
+    let estimate = Estimate::new(model, &wedge, needles, max_volume, body.params.threads);
+    let bounds = Bounds {
+        radius_edge: body.params.radius_edge,
+        hubs: match body.params.hub {
+            Hub::Radius(radius) => Hubs::Radius(radius),
+            Hub::None => Hubs::None,
+            Hub::Auto => Hubs::Free,
+        },
+    };
+    let ways = Ways::new(&estimate, &cuts, bounds);
+    let ranked = ways.ranked();
+    let chosen = ranked.first()?;
+    let planes = |way: &Way| {
+        let hub = way.hub.map(|r| format!(" with a hub of {r:.3}"));
+        hub.unwrap_or_default() + turning_over(kinds[way.cut])
+    };
+    let list: Vec<String> = (ways.list.iter())
+        .map(|way| {
+            let order = kinds[way.cut].order;
+            format!("{order}{} {:.2}", planes(way), way.elements)
+        })
+        .collect();
+    let why = format!(
+        "order {} of {}{}: the fastest that costs few elements; estimated elements over those of the whole body by \
+         order: {}",
+        kinds[chosen.cut].order,
+        body.symmetry.group.order,
+        planes(chosen),
+        list.join(", "),
+    );
+    let list = ranked
+        .iter()
+        .flat_map(|way| with_fewer_planes(body, groups, kinds[way.cut], way.hub))
+        .collect();
+    Some(Choice { list, why })
+}
+
+/// A way to mesh, and the same without the operations that turn the axis over, and without a hub unless it was asked
+/// for: a plane that nobody asked for must not be in the way.
+fn with_fewer_planes(
+    body: &Body<'_>,
+    groups: &Groups,
+    group: Group,
+    hub: Option<f64>,
+) -> Vec<Candidate> {
+    let plain = Group::new(groups.plain, group.order);
+    let mut list = vec![Candidate { group, hub }, Candidate { group: plain, hub }];
+    if body.params.hub == Hub::Auto {
+        list.extend([group, plain].map(|group| Candidate { group, hub: None }));
+    }
+    list.dedup();
+    list
+}
+
+/// What a group adds to the kind that leaves the axis its direction, in words.
+fn turning_over(group: Group) -> &'static str {
+    match group.kind {
+        Kind::C | Kind::Cv => "",
+        Kind::Ch | Kind::Dh => " halved",
+        Kind::D | Kind::Dd => " halved by half turns",
+        Kind::S => " halved by rotary reflections",
+    }
+}
+
+/// A group's wedge, as the estimate sees it.
+fn describe(body: &Body<'_>, group: Group, first: &Cut) -> estimate::Cut {
+    let turn = opening(group);
+    let fraction = match turn.k() {
+        0 => 1.0,
+        k => f64::from(k) / f64::from(turn.n()),
+    };
+    let angle = TAU * fraction;
+    let mirrors = group.has_vertical_mirrors();
+    let copies = f64::from(group.size());
+    // A seam costs at any order what it costs at the order of the first wedge.
+    let harm = match group.kind {
+        Kind::C | Kind::Ch => first.place.harm,
+        Kind::Cv | Kind::Dh => 0.0,
+        Kind::S | Kind::D | Kind::Dd => Places::new(body, group)
+            .ok()
+            .and_then(|places| Some(places.list.first()?.harm))
+            .unwrap_or(0.0),
+    };
+    estimate::Cut {
+        order: group.order,
+        angle,
+        copies,
+        hub_copies: copies / f64::from(group.order) * f64::from(hub_order(group)),
+        reach: 1.0
+            / if mirrors {
+                angle.cos()
+            } else {
+                (0.5 * angle).cos()
+            },
+        free: matches!(group.kind, Kind::Cv | Kind::Dh),
+        across: group.has_horizontal_mirror(),
+        harm: harm * f64::from(group.order),
+        hub: may_have_hub(group),
+    }
+}

@@ -1,0 +1,141 @@
+//! The subgroups that are wanted.
+
+use crate::body::Body;
+use crate::cell::{HUB_LEAST_ORDER, may_have_hub};
+use crate::cutting::Candidate;
+use crate::error::CutError;
+use crate::names;
+use crate::params::{Domain, Hub};
+use glam::DVec3;
+use tmesh::{Group, Kind};
+
+/// The subgroups to choose from, at each order first the one without operations that turn the axis over.
+pub struct Groups {
+    /// The kind of subgroup that leaves the axis its direction.
+    pub plain: Kind,
+    /// The kind with operations that turn the axis over, where there is one and it is wanted.
+    pub over: Option<Kind>,
+    /// Orders, increasing.
+    pub orders: Vec<u32>,
+    found: Group,
+}
+
+impl Groups {
+    /// What the parameters allow of the group found.
+    ///
+    /// # Errors
+    /// An order that does not divide the order found; mirror walls without mirror planes; a hub of a wedge that is
+    /// too wide.
+    pub fn new(body: &Body<'_>) -> Result<Self, CutError> {
+        let (found, params) = (body.symmetry.group, body.params);
+        let divisors = divisors(found.order);
+        if let Some(asked) = params.order
+            && !divisors.contains(&asked)
+        {
+            return Err(not_a_divisor(body, asked, &divisors));
+        }
+        let mirrors = match params.domain {
+            Domain::Auto => found.has_vertical_mirrors(),
+            Domain::Rotation => false,
+            Domain::Mirror if found.has_vertical_mirrors() => true,
+            Domain::Mirror => return Err(CutError::NoMirror(found.symbol())),
+        };
+        if let (Hub::Radius(radius), Some(order)) = (params.hub, params.order) {
+            check_hub(radius, order)?;
+        }
+        let mut groups = Self {
+            plain: if mirrors { Kind::Cv } else { Kind::C },
+            over: over(found.kind, mirrors, params.domain).filter(|_| keeps_names(body)),
+            orders: Vec::new(),
+            found,
+        };
+        if found.has_horizontal_mirror() && !params.level {
+            groups.over = None;
+        }
+        // A mesh without symmetry is not what a symmetric body is cut for.
+        let least = match params.hub {
+            _ if found.order == 1 => 1,
+            Hub::Radius(_) => HUB_LEAST_ORDER,
+            _ if mirrors || groups.at(1).len() > 1 => 1,
+            _ => 2,
+        };
+        groups.orders = match params.order {
+            Some(order) => vec![order],
+            None => divisors.into_iter().filter(|&n| n >= least).collect(),
+        };
+        Ok(groups)
+    }
+
+    /// The subgroups of an order.
+    pub fn at(&self, order: u32) -> Vec<Group> {
+        let kinds = [Some(self.plain), self.over].into_iter().flatten();
+        let groups = kinds.map(|kind| Group::new(kind, order));
+        // Half a turn between the faces of a seam is left whole: three walls in two planes.
+        let is_cut = |g: &Group| *g != Group::new(Kind::Ch, 2) && *g != Group::new(Kind::Ch, 1);
+        groups
+            .filter(|g| g.is_subgroup_of(self.found) && is_cut(g))
+            .collect()
+    }
+
+    /// The same without a hub, or with one of the radius asked for, as they are tried where nothing is chosen: the
+    /// most copies first.
+    pub fn unchosen(&self, order: u32, hub: Hub) -> Vec<Candidate> {
+        let radius = match hub {
+            Hub::Radius(radius) => Some(radius),
+            Hub::Auto | Hub::None => None,
+        };
+        let groups = self.at(order).into_iter().rev();
+        let groups = groups.filter(|g| radius.is_none() || may_have_hub(*g));
+        groups
+            .map(|group| Candidate { group, hub: radius })
+            .collect()
+    }
+}
+
+/// The kind with operations that turn the axis over as well.
+fn over(found: Kind, mirrors: bool, domain: Domain) -> Option<Kind> {
+    match (found, mirrors) {
+        (Kind::Dh, true) | (Kind::Dd, true) => Some(found),
+        (Kind::Dh | Kind::Ch, false) => Some(Kind::Ch),
+        (Kind::S | Kind::D, false) if domain == Domain::Auto => Some(found),
+        _ => None,
+    }
+}
+
+/// Whether boundary pieces have their own names in both halves of the body.
+fn keeps_names(body: &Body<'_>) -> bool {
+    let [origin, axis] = [body.symmetry.axis.point, body.symmetry.axis.direction].map(DVec3::from);
+    names::keeps_names(body.surface, origin, axis)
+}
+
+fn check_hub(radius: f64, order: u32) -> Result<(), CutError> {
+    if order >= HUB_LEAST_ORDER {
+        return Ok(());
+    }
+    Err(CutError::BadHub {
+        radius,
+        reason: format!(
+            "the wedge of order {order} is too wide for one; orders from {HUB_LEAST_ORDER} can have a hub"
+        ),
+    })
+}
+
+fn not_a_divisor(body: &Body<'_>, asked: u32, divisors: &[u32]) -> CutError {
+    let divisors: Vec<_> = divisors.iter().map(u32::to_string).collect();
+    CutError::NotADivisor {
+        asked,
+        found: body.symmetry.group.order,
+        divisors: divisors.join(", "),
+        hint: match body.symmetry.axisymmetric {
+            true => {
+                format!("; of a body of revolution, symdetect --order {asked} verifies another one")
+            }
+            false => String::new(),
+        },
+    }
+}
+
+/// All divisors, increasing.
+fn divisors(n: u32) -> Vec<u32> {
+    (1..=n).filter(|d| n.is_multiple_of(*d)).collect()
+}

@@ -1,0 +1,216 @@
+//! Where the first side of a wedge may lie.
+
+use super::angles::clear_angles;
+use crate::body::Body;
+use crate::cell::opening;
+use crate::cutting::Place;
+use crate::error::CutError;
+use estimate::CostModel;
+use estimate::harm::sliced::Harm;
+use estimate::harm::{halved, sliced};
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+use tmesh::{Frame, Group, Isometry, Kind};
+
+/// How many places of a seam are tried, at most: at the fourth, most bodies that cannot be cut have failed for a
+/// reason that holds everywhere.
+const TRIALS: usize = 4;
+/// Harm from which a seam at an angle that was asked for is told, if another place does so many times less: a few
+/// thousand elements in each copy, the size of a small wedge, and more than the estimate errs by.
+const HARMFUL: f64 = 20.0;
+const LESS: f64 = 4.0;
+/// Harm from which it is refused: each copy would get as many elements as a whole body usually has.
+const USELESS: f64 = 2000.0;
+
+/// Places to try for the wedge of a group, best first.
+pub struct Places {
+    /// The places.
+    pub list: Vec<Place>,
+    /// That the place asked for is a bad one.
+    pub warning: Option<String>,
+}
+
+impl Places {
+    /// The places of a group.
+    ///
+    /// # Errors
+    /// An angle asked for that is not one of the group's, or is useless.
+    pub fn new(body: &Body<'_>, group: Group) -> Result<Self, CutError> {
+        match group.kind {
+            _ if group.is_trivial() => Self::fixed(body, 0, 0.0),
+            Kind::Cv | Kind::Dh | Kind::Dd => Self::of_mirrors(body, group),
+            Kind::D => Self::of_half_turns(body, group),
+            Kind::C | Kind::Ch | Kind::S => Self::of_seams(body, group),
+        }
+    }
+
+    /// The one place that is `steps` half steps of the group found from the reference.
+    fn fixed(body: &Body<'_>, steps: i64, harm: f64) -> Result<Self, CutError> {
+        let found = body.symmetry.group.order;
+        let angle = match body.params.start_angle {
+            Some(angle) => angle,
+            None => steps as f64 * (PI / f64::from(found)),
+        };
+        let place = Place {
+            frame: turned(body, angle)?,
+            start: Isometry::rotation(steps, 2 * found),
+            harm,
+        };
+        Ok(Self {
+            list: vec![place],
+            warning: None,
+        })
+    }
+
+    /// The mirror plane, or half turn's axis, that was asked for, as a number of half steps.
+    fn asked(body: &Body<'_>) -> Result<Option<i64>, CutError> {
+        let Some(angle) = body.params.start_angle else {
+            return Ok(None);
+        };
+        let step = PI / f64::from(body.symmetry.group.order);
+        let steps = (angle / step).round();
+        if (angle - steps * step).abs() > f64::EPSILON.sqrt() {
+            let (angle, step) = (angle.to_degrees(), step.to_degrees());
+            return Err(CutError::NotAMirrorPlane { angle, step });
+        }
+        Ok(Some(steps as i64))
+    }
+
+    /// Whether planes at odd multiples of half a step are others than those at even ones, and may be chosen.
+    fn has_choice(body: &Body<'_>, group: Group) -> bool {
+        let found = body.symmetry.group.order;
+        let renames = !body.symmetry.rotation_regions().pairs.is_empty();
+        (found / group.order).is_multiple_of(2) && !renames
+    }
+
+    /// Both walls are images of the same mirror plane, and there may be others to choose.
+    fn of_mirrors(body: &Body<'_>, group: Group) -> Result<Self, CutError> {
+        if let Some(steps) = Self::asked(body)? {
+            return Self::fixed(body, steps, 0.0);
+        }
+        let harm = match group.kind {
+            // The half turns' axes lie between the mirror planes, and are images of each other.
+            Kind::Dd => {
+                let between = PI / f64::from(2 * group.order);
+                2.0 * slicing(body)(between).sliced
+            }
+            _ => 0.0,
+        };
+        if !Self::has_choice(body, group) {
+            return Self::fixed(body, 0, harm);
+        }
+        let vertices = body.canonical();
+        let triangles = &body.surface.triangles;
+        let plane = body.tolerance.on_plane();
+        let both = [0.0, PI / f64::from(body.symmetry.group.order)];
+        let [given, other] = both.map(|a| halved::harm(&vertices, triangles, a, plane));
+        let [cut, less] = both.map(|a| halved::crossed(&vertices, triangles, a, plane));
+        // Rounding does not choose.
+        let alike = (given - other).abs() <= 1e-6 * given.max(other);
+        let is_better = if alike { less < cut } else { other < given };
+        Self::fixed(body, i64::from(is_better), harm)
+    }
+
+    /// The sides lie along axes of half turns.
+    fn of_half_turns(body: &Body<'_>, group: Group) -> Result<Self, CutError> {
+        let step = PI / f64::from(body.symmetry.group.order);
+        let slicing = slicing(body);
+        let harm = |steps: i64| {
+            let first = steps as f64 * step;
+            let second = first + PI / f64::from(group.order);
+            [first, second]
+                .map(|a| slicing(a).sliced)
+                .iter()
+                .sum::<f64>()
+        };
+        if let Some(steps) = Self::asked(body)? {
+            return Self::fixed(body, steps, harm(steps));
+        }
+        let [given, other] = [0, 1].map(harm);
+        let is_better = Self::has_choice(body, group) && other < given;
+        Self::fixed(
+            body,
+            i64::from(is_better),
+            if is_better { other } else { given },
+        )
+    }
+
+    /// The sides may lie anywhere.
+    fn of_seams(body: &Body<'_>, group: Group) -> Result<Self, CutError> {
+        let turn = opening(group);
+        let opening = TAU * f64::from(turn.k()) / f64::from(turn.n());
+        let vertices = body.canonical();
+        let slicing = slicing(body);
+        let clear = clear_angles(&vertices, opening, body.tolerance.on_plane());
+        let mut list: Vec<_> = clear.into_iter().map(|a| (a, slicing(a))).collect();
+        // Stable, and rounding does not choose: the clearest place stays first among equals.
+        let class = |harm: Harm| (harm.total() * 1e3).round();
+        list.sort_by(|a, b| class(a.1).total_cmp(&class(b.1)));
+        let mut warning = None;
+        if let Some(angle) = body.params.start_angle {
+            let given = slicing(angle);
+            warning = is_harmful(angle, given, list[0])?;
+            list = vec![(angle, given)];
+        }
+        list.truncate(TRIALS);
+        // Turns of the rotation have as many faces as it has sides.
+        let sides = if group.kind == Kind::S { 2.0 } else { 1.0 };
+        let place = |(angle, harm): (f64, Harm)| {
+            Ok(Place {
+                frame: turned(body, angle)?,
+                start: Isometry::IDENTITY,
+                harm: sides * harm.sliced,
+            })
+        };
+        Ok(Self {
+            list: list
+                .into_iter()
+                .map(place)
+                .collect::<Result<_, CutError>>()?,
+            warning,
+        })
+    }
+}
+
+/// The symmetry's frame, turned by an angle, radians.
+fn turned(body: &Body<'_>, angle: f64) -> Result<Frame, CutError> {
+    if angle == 0.0 {
+        return Ok(body.frame);
+    }
+    let axis = DVec3::from(body.symmetry.axis.direction);
+    let x = body.frame.rotation * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0);
+    Frame::from_axis(body.frame.origin, axis, x).ok_or(CutError::BadAxis(axis.x, axis.y, axis.z))
+}
+
+/// The harm of the half plane at an angle from the reference, radians.
+fn slicing(body: &Body<'_>) -> impl Fn(f64) -> Harm {
+    let vertices = body.canonical();
+    let size = body.element_size();
+    let plane = body.tolerance.on_plane();
+    move |angle| sliced::harm(&vertices, &body.surface.triangles, angle, plane, &size)
+}
+
+/// Says that the place of a seam, as an angle (radians) and the harm there, is a bad one, if there is a much
+/// better one.
+///
+/// # Errors
+/// The same of a place that makes the mesh useless.
+fn is_harmful(angle: f64, harm: Harm, best: (f64, Harm)) -> Result<Option<String>, CutError> {
+    let (given, least) = (harm.total(), best.1.total());
+    if given <= HARMFUL.max(LESS * least) {
+        return Ok(None);
+    }
+    // What a unit of harm costs.
+    let model = CostModel::CALIBRATED;
+    let elements = model.sliced * model.tetrahedra;
+    let error = CutError::BadPlace {
+        angle: (angle.to_degrees() * 1e9).round() / 1e9,
+        elements: elements * given,
+        better: (best.0.to_degrees() * 1e4).round() / 1e4,
+        fewer: elements * least,
+    };
+    if given > USELESS {
+        return Err(error);
+    }
+    Ok(Some(error.to_string()))
+}

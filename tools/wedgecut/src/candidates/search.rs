@@ -1,0 +1,113 @@
+//! The first candidate that can be cut.
+
+use super::choice::choose;
+use super::groups::Groups;
+use super::places::Places;
+use super::refusals::Refusals;
+use crate::body::Body;
+use crate::cutting::{Candidate, Cut, cut};
+use crate::error::CutError;
+use tmesh::Group;
+
+/// What was found.
+pub struct Found {
+    /// The wedge.
+    pub cut: Cut,
+    /// Why it was chosen and what was refused before, in sentences.
+    pub notes: Vec<String>,
+    /// That the cut is at a bad place, and where a better one is.
+    pub warning: Option<String>,
+}
+
+/// Cuts the best candidate that can be cut.
+///
+/// # Errors
+/// Parameters that the body does not allow; why the first candidate could not be cut, if none can.
+pub fn search(body: &Body<'_>) -> Result<Found, CutError> {
+    let groups = Groups::new(body)?;
+    let mut refusals = Refusals::default();
+    let highest = groups.orders.last().copied().unwrap_or(1);
+    let unchosen = |order| groups.unchosen(order, body.params.hub);
+    if !body.params.chooses() || highest == 1 && unchosen(1).iter().all(|c| c.group.is_trivial()) {
+        let order = body.params.order.unwrap_or(body.symmetry.group.order);
+        let found = first_of(body, unchosen(order), None, &mut refusals)?;
+        return finish(found, refusals, None);
+    }
+    // What the others are estimated by: a wedge of the highest order that can be cut, without any plane that could
+    // be left out.
+    let plain = |&order: &u32| Candidate {
+        group: Group::new(groups.plain, order),
+        hub: None,
+    };
+    let is_wedge = |c: &Candidate| !c.group.is_trivial();
+    let probes = groups.orders.iter().rev().map(plain).filter(is_wedge);
+    let Some((first, _)) = first_of(body, probes.collect(), None, &mut refusals)? else {
+        let rest = groups
+            .orders
+            .iter()
+            .rev()
+            .flat_map(|&order| unchosen(order));
+        let found = first_of(body, rest.collect(), None, &mut refusals)?;
+        return finish(found, refusals, None);
+    };
+    let is_left = |order: &u32| !refusals.has(plain(order)) || plain(order) == first.candidate;
+    let left: Vec<u32> = groups.orders.iter().copied().filter(is_left).collect();
+    let Some(choice) = choose(body, &groups, &left, &first) else {
+        let order = body.params.order.unwrap_or(first.candidate.group.order);
+        let found = first_of(body, unchosen(order), Some(first), &mut refusals)?;
+        return finish(found, refusals, None);
+    };
+    let found = first_of(body, choice.list, Some(first), &mut refusals)?;
+    finish(found, refusals, Some(choice.why))
+}
+
+fn finish(
+    found: Option<(Cut, Option<String>)>,
+    refusals: Refusals,
+    why: Option<String>,
+) -> Result<Found, CutError> {
+    match found {
+        Some((cut, warning)) => {
+            let mut notes = refusals.notes(cut.candidate);
+            notes.extend(why);
+            Ok(Found {
+                cut,
+                notes,
+                warning,
+            })
+        }
+        None => Err(refusals.into_first()),
+    }
+}
+
+/// Cuts the first of a list that can be cut, and says what is bad about its place; `known` has been cut already.
+///
+/// # Errors
+/// What holds of any candidate.
+fn first_of(
+    body: &Body<'_>,
+    list: Vec<Candidate>,
+    mut known: Option<Cut>,
+    refusals: &mut Refusals,
+) -> Result<Option<(Cut, Option<String>)>, CutError> {
+    for candidate in list {
+        let places = match Places::new(body, candidate.group) {
+            Ok(places) => places,
+            Err(error) => return Err(error),
+        };
+        if let Some(known) = known.take_if(|known| known.candidate == candidate) {
+            return Ok(Some((known, places.warning)));
+        }
+        if refusals.has(candidate) {
+            continue;
+        }
+        for place in places.list {
+            match cut(body, candidate, place) {
+                Ok(cut) => return Ok(Some((cut, places.warning))),
+                Err(error) if error.is_of_the_shape() => refusals.add(candidate, error),
+                Err(error) => return Err(error),
+            }
+        }
+    }
+    Ok(None)
+}

@@ -1,0 +1,69 @@
+//! What to cut.
+
+use tmesh::Region;
+
+/// Which walls the wedge gets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Domain {
+    /// Mirror walls where the body has mirror planes, a seam elsewhere; half turns and rotary reflections where it
+    /// has these
+    #[default]
+    Auto,
+    /// A wedge between two mirror planes
+    Mirror,
+    /// A wedge of angle 2 pi/n whose sides are images of each other by the rotation
+    Rotation,
+}
+
+/// Whether the column around the axis is made a template of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Hub {
+    /// Where it pays.
+    #[default]
+    Auto,
+    /// No.
+    None,
+    /// Yes, with this inscribed radius, model units.
+    Radius(f64),
+}
+
+/// What to cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Params {
+    /// Walls.
+    pub domain: Domain,
+    /// Order used for meshing, a divisor of the order found; `None` chooses.
+    pub order: Option<u32>,
+    /// Angle of the first side from the reference direction, radians; `None` chooses.
+    pub start_angle: Option<f64>,
+    /// Distance up to which points are moved onto a cutting face or the axis, relative to the radius
+    /// about the axis; `None` derives it from the precision of the input and the residual of the
+    /// symmetry.
+    pub snap: Option<f64>,
+    /// The hub.
+    pub hub: Hub,
+    /// Whether a mirror plane across the axis halves the wedge where it pays; false for never.
+    pub level: bool,
+    /// Largest volume of an element that will be asked of the mesher, model units cubed, where the
+    /// document has none for the region.
+    pub max_volume: Option<f64>,
+    /// Bound on the ratio of circumradius to shortest edge that will be asked of the mesher.
+    pub radius_edge: f64,
+    /// Edges shorter than this, relative to the radius about the axis, are collapsed; 0 for none.
+    pub clean: f64,
+    /// Threads used at most; the result does not depend on it.
+    pub threads: usize,
+}
+
+impl Params {
+    /// Whether anything is left to choose once the order found is known.
+    pub fn chooses(&self) -> bool {
+        self.order.is_none() || self.hub == Hub::Auto || self.level
+    }
+
+    /// Largest volume of an element in a region that will be asked for, model units cubed.
+    pub fn max_volume_of(&self, regions: &[Region], region: u32) -> Option<f64> {
+        let at = regions.binary_search_by_key(&region, |r| r.id).ok()?;
+        regions[at].max_volume.or(self.max_volume)
+    }
+}
