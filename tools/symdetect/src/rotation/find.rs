@@ -51,8 +51,10 @@ impl Rotation {
 
 /// Rotations by golden turns that an axis is adjusted to where no order is to be preferred.
 const GOLDEN: usize = 12;
-/// Candidate orders from which on a body is taken for nearly one of revolution: those orders have more divisors
-/// between them than any single order below 1024 has.
+/// Candidate orders from which on a body counts as nearly one of revolution, and is adjusted to rotations by any angle.
+/// The divisors of an order are candidates together with it, up to 12 of them below 100: with a smaller number,
+/// ordinary parts would count too; with a larger one, nearly round bodies would be adjusted to whatever order
+/// happens to be the highest.
 const MANY: usize = 20;
 
 /// A search for the highest order about an axis.
