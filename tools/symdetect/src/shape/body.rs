@@ -1,7 +1,7 @@
 //! The body, made ready for symmetry tests: centred, scaled to unit size, sampled, and searchable.
 
-use crate::shape::faces::{Exactness, Faces, Surface};
 use crate::shape::facets::Facets;
+use crate::shape::flat::{Exactness, Faces, Surface};
 use crate::shape::interfaces::Interfaces;
 use crate::shape::moments::Moments;
 use crate::shape::motion::Target;

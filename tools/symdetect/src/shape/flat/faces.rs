@@ -6,8 +6,8 @@
 //! wanted holds everywhere, as well as it does in the corners. That is quicker to see than that many places of the
 //! surface land on it, and says more.
 
+use crate::shape::flat::outlines::Outlines;
 use crate::shape::motion::{Motion, Target};
-use crate::shape::outlines::Outlines;
 use crate::shape::table::Table;
 use geom::edges::{EdgeUse, Edges};
 use geom::grid::Grid;
