@@ -1,7 +1,7 @@
 //! The command line of `rotassemble`, over the real binary.
 
 use bodies::structured::Structured;
-use bodies::{Encoding, Placement, Tessellation, Tsv};
+use bodies::{Encoding, Placement, Tsv};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{Read, Write};
@@ -113,14 +113,12 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
         core: 0.2,
         thickness: 0.02,
         height: 0.5,
-        radius: 1.0,
-        tessellation: Tessellation::Symmetric,
+        ..Tsv::default()
     }
     .build();
     let place = Placement {
         rotate: Some(3),
-        scale: 1.0,
-        jitter: 0.0,
+        ..Placement::default()
     };
     place.apply(&mut body);
     let mut meshed = Vec::new();

@@ -2,7 +2,7 @@
 //! conditions at mirror planes.
 
 use crate::tools::{coarse_mesh, rotassemble};
-use bodies::{Body, Encoding, Gear, Impeller, Placement, Ratchet, Tessellation};
+use bodies::{Body, Encoding, Gear, Impeller, Placement, Ratchet};
 use std::path::Path;
 use std::process::Command;
 use support::encode;
@@ -103,12 +103,11 @@ fn same(what: &str, mut found: Vec<f64>, mut whole: Vec<f64>, limit: f64) {
 fn impeller(order: u32, bore: f64) -> Body {
     let body = Impeller {
         order,
-        radius: 1.0,
         bore,
         height: 1.0,
         twist: 0.5,
         layers: 4,
-        tessellation: Tessellation::Symmetric,
+        ..Impeller::default()
     };
     body.build()
 }
@@ -117,8 +116,7 @@ fn impeller(order: u32, bore: f64) -> Body {
 fn placed(mut body: Body) -> Body {
     let placement = Placement {
         rotate: Some(7),
-        scale: 1.0,
-        jitter: 0.0,
+        ..Placement::default()
     };
     placement.apply(&mut body);
     body
@@ -155,11 +153,9 @@ fn half_a_sector_has_the_frequencies_of_the_whole() {
     }
     let body = Ratchet {
         order: 5,
-        radius: 1.0,
         bore: 0.3,
-        coating: 0.0,
         height: 0.8,
-        tessellation: Tessellation::Symmetric,
+        ..Ratchet::default()
     };
     let temporary = tempfile::tempdir().expect("a folder");
     let folder = temporary.path();
@@ -187,10 +183,7 @@ fn a_wedge_between_mirror_planes_has_the_frequencies_of_the_whole() {
     }
     let body = Gear {
         order: 6,
-        radius: 1.0,
-        bore: 0.0,
-        height: 0.5,
-        tessellation: Tessellation::Symmetric,
+        ..Gear::default()
     };
     let temporary = tempfile::tempdir().expect("a folder");
     let folder = temporary.path();

@@ -11,7 +11,7 @@ mod referee;
 mod sweep;
 mod tools;
 
-use bodies::{Encoding, Impeller, Placement, Tessellation, Tsv};
+use bodies::{Encoding, Impeller, Placement, Tsv};
 use referee::{Job, close, read};
 use serde_json::Value;
 use std::path::Path;
@@ -22,17 +22,15 @@ use tools::{mesh, rotassemble};
 fn via() -> bodies::Body {
     let mut body = Tsv {
         order: 8,
-        radius: 1.0,
         core: 0.3,
         thickness: 5e-2,
-        height: 1.0,
-        tessellation: Tessellation::Symmetric,
+        ..Tsv::default()
     }
     .build();
     let placement = Placement {
         rotate: Some(11),
         scale: 10.0,
-        jitter: 0.0,
+        ..Placement::default()
     };
     placement.apply(&mut body);
     body
@@ -213,12 +211,10 @@ fn a_hub_of_the_same_order_is_part_of_the_sector() {
     }
     let body = Impeller {
         order: 5,
-        radius: 1.0,
-        bore: 0.0,
         height: 1.0,
         twist: 0.4,
         layers: 3,
-        tessellation: Tessellation::Symmetric,
+        ..Impeller::default()
     }
     .build();
     let folder = tempfile::tempdir().expect("a folder");

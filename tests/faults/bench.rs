@@ -1,8 +1,7 @@
 //! Where faults are injected: an input and the right answer of each stage, folders, and the count of
 //! what went wrong.
 
-use bodies::Random;
-use bodies::{Gear, Tessellation};
+use bodies::{Gear, Random};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -27,10 +26,8 @@ pub fn stages() -> &'static [Stage] {
     STAGES.get_or_init(|| {
         let gear = Gear {
             order: 12,
-            radius: 1.0,
             bore: 0.3,
-            height: 0.5,
-            tessellation: Tessellation::Symmetric,
+            ..Gear::default()
         };
         let mut input = encode(&gear.build(), EXACT_STL);
         let mut stages = Vec::new();

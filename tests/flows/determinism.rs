@@ -16,11 +16,10 @@ fn bodies() -> [(&'static str, Body); 3] {
             "via",
             Tsv {
                 order: 16,
-                radius: 1.0,
                 core: 0.2,
                 thickness: 0.02,
                 height: 0.5,
-                tessellation: Tessellation::Symmetric,
+                ..Tsv::default()
             }
             .build(),
         ),
@@ -28,10 +27,9 @@ fn bodies() -> [(&'static str, Body); 3] {
             "gear",
             Gear {
                 order: 12,
-                radius: 1.0,
                 bore: 0.3,
-                height: 0.5,
                 tessellation: Tessellation::Asymmetric,
+                ..Gear::default()
             }
             .build(),
         ),
@@ -39,11 +37,9 @@ fn bodies() -> [(&'static str, Body); 3] {
             "ratchet",
             Ratchet {
                 order: 7,
-                radius: 1.0,
                 bore: 0.3,
-                coating: 0.0,
-                height: 0.5,
                 tessellation: Tessellation::Asymmetric,
+                ..Ratchet::default()
             }
             .build(),
         ),
@@ -51,8 +47,7 @@ fn bodies() -> [(&'static str, Body); 3] {
     for (i, (_, body)) in bodies.iter_mut().enumerate() {
         Placement {
             rotate: Some(i as u64),
-            scale: 1.0,
-            jitter: 0.0,
+            ..Placement::default()
         }
         .apply(body);
     }

@@ -8,10 +8,8 @@ fn bodies() -> [(&'static str, Body); 2] {
     let tessellation = Tessellation::Symmetric;
     let prism = Prism {
         order: 12,
-        radius: 1.0,
-        height: 1.0,
-        bore: 0.0,
         tessellation,
+        ..Prism::default()
     };
     let ring = Coating {
         order: 8,

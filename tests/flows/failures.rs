@@ -179,10 +179,8 @@ fn sound(tool: &str) -> &'static [u8] {
 fn square_prism() -> Body {
     Prism {
         order: 4,
-        radius: 1.0,
         height: 0.5,
-        bore: 0.0,
-        tessellation: Tessellation::Symmetric,
+        ..Prism::default()
     }
     .build()
 }
@@ -267,10 +265,8 @@ fn detect(body: &Body, arguments: &[&str]) -> Outcome {
 pub fn gear() -> Body {
     Gear {
         order: 12,
-        radius: 1.0,
         bore: 0.3,
-        height: 0.5,
-        tessellation: Tessellation::Symmetric,
+        ..Gear::default()
     }
     .build()
 }
@@ -313,8 +309,7 @@ fn solids_that_overlap() {
     let mut other = cube(1.0, Tessellation::Asymmetric);
     Placement {
         rotate: Some(8),
-        scale: 1.0,
-        jitter: 0.0,
+        ..Placement::default()
     }
     .apply(&mut other);
     let middle = |b: &Body| b.vertices.iter().sum::<glam::DVec3>() / b.vertices.len() as f64;
@@ -366,10 +361,9 @@ fn an_order_that_does_not_hold() {
 fn an_order_of_a_body_of_revolution() {
     let drum = Prism {
         order: 80,
-        radius: 1.0,
         height: 0.5,
         bore: 0.2,
-        tessellation: Tessellation::Symmetric,
+        ..Prism::default()
     };
     let found = detect(&drum.build(), &[]).success();
     let told = ["80", "symdetect --order 7 verifies"];

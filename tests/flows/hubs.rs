@@ -20,8 +20,7 @@ fn tsv(order: u32) -> Body {
         core: 0.2,
         thickness: 0.02,
         height: 0.5,
-        radius: 1.0,
-        tessellation: Tessellation::Symmetric,
+        ..Tsv::default()
     }
     .build()
 }
@@ -29,10 +28,7 @@ fn tsv(order: u32) -> Body {
 fn gear(teeth: u32) -> Body {
     Gear {
         order: teeth,
-        radius: 1.0,
-        bore: 0.0,
-        height: 0.5,
-        tessellation: Tessellation::Symmetric,
+        ..Gear::default()
     }
     .build()
 }
@@ -40,11 +36,8 @@ fn gear(teeth: u32) -> Body {
 fn ratchet(order: u32) -> Body {
     Ratchet {
         order,
-        radius: 1.0,
-        bore: 0.0,
-        coating: 0.0,
-        height: 0.5,
         tessellation: Tessellation::Asymmetric,
+        ..Ratchet::default()
     }
     .build()
 }
@@ -52,12 +45,9 @@ fn ratchet(order: u32) -> Body {
 fn impeller(order: u32) -> Body {
     Impeller {
         order,
-        radius: 1.0,
-        bore: 0.0,
-        height: 0.5,
         twist: 0.3,
         layers: 3,
-        tessellation: Tessellation::Symmetric,
+        ..Impeller::default()
     }
     .build()
 }
@@ -201,9 +191,7 @@ fn the_surface_of_a_hub_spoils_no_element() {
             order,
             core: 0.2,
             thickness,
-            height: 1.0,
-            radius: 1.0,
-            tessellation: Tessellation::Symmetric,
+            ..Tsv::default()
         }
         .build();
         let sizes = ["-q", "--radius-edge", ratio, "--max-volume", volume];
@@ -260,10 +248,7 @@ fn orders_are_chosen_by_what_they_cost() {
     };
     let prism = Prism {
         order: 60,
-        radius: 1.0,
-        height: 1.0,
-        bore: 0.0,
-        tessellation: Tessellation::Symmetric,
+        ..Prism::default()
     }
     .build();
     // Plain and solid: wedges as wide as elements are.
@@ -288,24 +273,21 @@ fn mirror_planes_across_the_axis_halve_wedges() {
         order: 16,
         core: 0.2,
         thickness: 0.01,
-        height: 1.0,
-        radius: 1.0,
-        tessellation: Tessellation::Symmetric,
+        ..Tsv::default()
     }
     .build();
     let mut wheel = Ratchet {
         order: 9,
-        radius: 1.0,
         bore: 0.3,
         coating: 0.01,
-        height: 0.5,
         tessellation: Tessellation::Asymmetric,
+        ..Ratchet::default()
     }
     .build();
     let placement = Placement {
         rotate: Some(5),
         scale: 1e3,
-        jitter: 0.0,
+        ..Placement::default()
     };
     placement.apply(&mut wheel);
     for (name, body, cut, edge, templates) in [
@@ -350,10 +332,8 @@ fn hubs_that_cannot_be() {
     cut(&both, &solid).fails(2, &["--edge-length"]);
     let bored = Gear {
         order: 12,
-        radius: 1.0,
         bore: 0.5,
-        height: 0.5,
-        tessellation: Tessellation::Symmetric,
+        ..Gear::default()
     }
     .build();
     cut(&["--hub", "0.2"], &found(&bored)).fails(1, &["nothing of the body"]);

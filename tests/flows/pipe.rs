@@ -120,10 +120,8 @@ fn check_report(name: &str, report: &Value, expected: &Expected) {
 fn prism(order: u32, tessellation: Tessellation) -> Body {
     Prism {
         order,
-        radius: 1.0,
-        height: 1.0,
-        bore: 0.0,
         tessellation,
+        ..Prism::default()
     }
     .build()
 }
@@ -143,11 +141,9 @@ fn ring(order: u32, thickness: f64) -> Body {
 fn tsv(order: u32, thickness: f64) -> Body {
     Tsv {
         order,
-        radius: 1.0,
         core: 0.2,
         thickness,
-        height: 1.0,
-        tessellation: Tessellation::Symmetric,
+        ..Tsv::default()
     }
     .build()
 }
@@ -168,10 +164,10 @@ fn practical_tsv(thickness: f64, hole: f64) -> Body {
 fn gear(order: u32, bore: f64) -> Body {
     Gear {
         order,
-        radius: 1.0,
         bore,
         height: 0.4,
         tessellation: Tessellation::Asymmetric,
+        ..Gear::default()
     }
     .build()
 }
@@ -179,11 +175,9 @@ fn gear(order: u32, bore: f64) -> Body {
 fn ratchet(order: u32, bore: f64) -> Body {
     Ratchet {
         order,
-        radius: 1.0,
         bore,
-        coating: 0.0,
         height: 0.4,
-        tessellation: Tessellation::Symmetric,
+        ..Ratchet::default()
     }
     .build()
 }
@@ -191,12 +185,10 @@ fn ratchet(order: u32, bore: f64) -> Body {
 fn impeller(order: u32, bore: f64) -> Body {
     Impeller {
         order,
-        radius: 1.0,
         bore,
-        height: 0.5,
         twist: 0.4,
         layers: 4,
-        tessellation: Tessellation::Symmetric,
+        ..Impeller::default()
     }
     .build()
 }
@@ -205,7 +197,7 @@ fn placed(mut body: Body, seed: u64, scale: f64) -> Body {
     let placement = Placement {
         rotate: Some(seed),
         scale,
-        jitter: 0.0,
+        ..Placement::default()
     };
     placement.apply(&mut body);
     body

@@ -3,7 +3,7 @@
 //! `make test` installs both into the folder that REFEREE names. Without them these tests check
 //! nothing and say so.
 
-use bodies::{Placement, Tessellation, Tsv};
+use bodies::{Placement, Tsv};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -82,17 +82,15 @@ fn meshio_and_vtk_read_what_was_meshed() {
     let Some(python) = python() else { return };
     let mut body = Tsv {
         order: 8,
-        radius: 1.0,
         core: 0.3,
         thickness: 1e-2,
-        height: 1.0,
-        tessellation: Tessellation::Symmetric,
+        ..Tsv::default()
     }
     .build();
     let placement = Placement {
         rotate: Some(11),
         scale: 10.0,
-        jitter: 0.0,
+        ..Placement::default()
     };
     placement.apply(&mut body);
     let stages: [&[&str]; 3] = [

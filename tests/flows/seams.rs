@@ -106,11 +106,10 @@ fn mesh(name: &str, body: &Body, options: &[&str]) {
 fn ratchet(order: u32, bore: f64, coating: f64) -> Body {
     Ratchet {
         order,
-        radius: 1.0,
         bore,
         coating,
-        height: 0.5,
         tessellation: Tessellation::Asymmetric,
+        ..Ratchet::default()
     }
     .build()
 }
@@ -118,12 +117,10 @@ fn ratchet(order: u32, bore: f64, coating: f64) -> Body {
 fn impeller(order: u32, bore: f64) -> Body {
     Impeller {
         order,
-        radius: 1.0,
         bore,
-        height: 0.5,
         twist: 0.3,
         layers: 3,
-        tessellation: Tessellation::Symmetric,
+        ..Impeller::default()
     }
     .build()
 }
@@ -183,10 +180,7 @@ fn thin_layers_across_the_seam_are_graded() {
 fn mirror_wedges_pass_unchanged() {
     let body = Prism {
         order: 6,
-        radius: 1.0,
-        height: 1.0,
-        bore: 0.0,
-        tessellation: Tessellation::Symmetric,
+        ..Prism::default()
     }
     .build();
     let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();

@@ -1,7 +1,7 @@
 //! Chiral bodies drawn with facets that do not share their symmetry: the two sections of a wedge are
 //! different drawings of one curve.
 
-use bodies::{Body, Face, Placement, Ratchet, Screw, Tessellation};
+use bodies::{Body, Face, Placement, Ratchet, Screw};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -119,11 +119,8 @@ fn sections_that_differ_more_are_refused() {
 fn sections_that_differ_in_topology_are_refused() {
     let body = Ratchet {
         order: 3,
-        radius: 1.0,
         bore: 0.3,
-        coating: 0.0,
-        height: 0.5,
-        tessellation: Tessellation::Symmetric,
+        ..Ratchet::default()
     }
     .build();
     let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();

@@ -1,10 +1,8 @@
 //! Writes the corpus that the targets start from into the folder given, a subfolder per target: small
 //! bodies in every format, made by this project's own writers where there are such.
 
-#[path = "../../formats/interchange/tests/common/mod.rs"]
-mod common;
-
-use interchange::{Format, Surface, WriteOptions, read, second_order};
+use heal::read;
+use interchange::{Format, Surface, WriteOptions, second_order};
 use rotassemble::{Assembled, write_expanded};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -22,7 +20,8 @@ fn main() {
     let folder = std::env::args_os().nth(1).expect("usage: seeds FOLDER");
     let mut seeds = Seeds::new();
     let mut documents: Vec<Document> = Vec::new();
-    for (format, bytes) in common::samples::samples() {
+    for (name, bytes) in bodies::files::samples() {
+        let format = Format::from_name(name).expect("it is known");
         // One of them is not sound: that too is a start.
         documents.extend(read(&bytes, format).map(|imported| imported.document));
         add(&mut seeds, format, bytes);

@@ -176,6 +176,7 @@ fn check_numbers(document: &Document, found: &mut Collector) {
         (wishes.radius_edge, "radius-edge ratio"),
         (wishes.optimize, "largest dihedral angle"),
         (size, "size of elements"),
+        (wishes.timeout, "time limit"),
     ] {
         if let Some(value) = value {
             check(value, true, &|| format!("the {what} wished for"));

@@ -1,6 +1,7 @@
 //! What is asked of the elements, by whoever said so first.
 
 use serde::{Deserialize, Serialize};
+use std::time::Duration;
 
 /// Bounds and sizes of elements. The first tool that is told writes them into the document, the
 /// others inherit them, and each may be told otherwise. Limits of single regions are in
@@ -22,6 +23,9 @@ pub struct Wishes {
     /// Size of elements wanted.
     #[serde(default, flatten, skip_serializing_if = "Option::is_none")]
     pub size: Option<Size>,
+    /// Time limit of the mesher for each template, seconds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timeout: Option<f64>,
     /// Whether the surface is settled, and the mesher has to keep every triangle of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keep_surface: Option<bool>,
@@ -70,6 +74,7 @@ impl Wishes {
             min_dihedral: self.min_dihedral.or(earlier.min_dihedral),
             optimize: self.optimize.or(earlier.optimize),
             size: self.size.or(earlier.size),
+            timeout: self.timeout.or(earlier.timeout),
             keep_surface: self.keep_surface.or(earlier.keep_surface),
         }
     }
@@ -102,6 +107,11 @@ impl Wishes {
     /// Largest volume of an element where a region has no limit of its own, model units cubed.
     pub fn max_volume(&self) -> Option<f64> {
         self.size.map(Size::max_volume)
+    }
+
+    /// Time limit of the mesher for each template; none if it is longer than can be told.
+    pub fn timeout(&self) -> Option<Duration> {
+        Duration::try_from_secs_f64(self.timeout?).ok()
     }
 
     /// Whether the surface has to be kept as it is.

@@ -33,6 +33,8 @@ pub struct Body {
     pub order: u32,
     /// Whether mirror planes contain that axis.
     pub mirror: bool,
+    /// Schoenflies symbol of the point group about that axis.
+    pub group: String,
 }
 
 impl Body {

@@ -15,6 +15,17 @@ pub struct Placement {
     pub jitter: f64,
 }
 
+impl Default for Placement {
+    /// Where the body is made.
+    fn default() -> Self {
+        Self {
+            rotate: None,
+            scale: 1.0,
+            jitter: 0.0,
+        }
+    }
+}
+
 impl Placement {
     /// Rotation and shift of the placement.
     fn motion(&self) -> (DMat3, DVec3) {

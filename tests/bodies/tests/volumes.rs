@@ -1,44 +1,15 @@
 //! The generated bodies are what they say: closed, of the volume of their formula.
 
-use bodies::{
-    Body, Coating, Gear, Impeller, Placement, PracticalTsv, Prism, Ratchet, Tessellation, Tsv, cube,
-};
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
+mod common;
 
-/// Area of a regular polygon.
-fn polygon(order: u32, radius: f64) -> f64 {
-    let n = f64::from(order);
-    0.5 * n * radius * radius * (2.0 * PI / n).sin()
-}
+use bodies::{
+    Coating, Gear, Impeller, Placement, PracticalTsv, Prism, Ratchet, Tessellation, Tsv, cube,
+};
+use common::{has_volumes, is_closed, polygon};
+use std::f64::consts::PI;
 
 fn step(order: u32, distance: f64) -> f64 {
     distance / (PI / f64::from(order)).cos()
-}
-
-#[track_caller]
-fn has_volumes(body: &Body, expected: &[f64]) {
-    assert_eq!(body.materials.len(), expected.len());
-    for (material, &expected) in expected.iter().enumerate() {
-        let found = body.volume(material);
-        let error = (found - expected).abs() / expected;
-        assert!(error < 1e-11, "material {material}: {found} for {expected}");
-    }
-}
-
-/// Every directed edge of a solid has its opposite, equally often.
-#[track_caller]
-fn is_closed(body: &Body) {
-    for material in 0..body.materials.len() {
-        let mut edges: BTreeMap<(u32, u32), i32> = BTreeMap::new();
-        for [a, b, c] in body.solid(material) {
-            for (u, v) in [(a, b), (b, c), (c, a)] {
-                *edges.entry((u.min(v), u.max(v))).or_default() += if u < v { 1 } else { -1 };
-            }
-        }
-        assert!(edges.values().all(|&count| count == 0));
-        assert!(body.volume(material) > 0.0);
-    }
 }
 
 const BOTH: [Tessellation; 2] = [Tessellation::Symmetric, Tessellation::Asymmetric];

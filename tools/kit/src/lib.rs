@@ -12,6 +12,7 @@ mod run;
 mod session;
 mod threads;
 mod unfinished;
+mod wishes;
 
 pub use args::CommonArgs;
 pub use failure::Failure;
@@ -21,3 +22,4 @@ pub use output::{Closed, Output};
 pub use run::{Command, main};
 pub use session::{Progress, Session};
 pub use threads::{ThreadArgs, available_threads, both, in_parallel};
+pub use wishes::WishArgs;

@@ -6,7 +6,7 @@ use crate::{
 };
 use clap::ValueEnum;
 use interchange::{
-    Format, MeshStream, Middles, Plain, Surface, WriteError, WriteOptions, file_parts,
+    Format, MeshStream, Middles, Plain, Surface, WriteError, WriteOptions, Writer, file_parts,
     second_order, write_part, write_pieces,
 };
 use kit::{Command, CommonArgs, Failure, Progress, Session};
@@ -114,14 +114,14 @@ impl Command for Cli {
             Format::Vtk
         };
         let format = session.output_format(default)?;
-        let as_is = matches!(format, Format::Tmesh | Format::Text);
+        let as_is = format.holds_document();
         if self.instances && !as_is {
             return Err(Failure::Usage(format!(
                 "{} has no instances; --instances goes with --to tmesh or --to txt",
                 format.name()
             )));
         }
-        if !self.mirror.is_empty() && format != Format::Inp {
+        if !self.mirror.is_empty() && !format.entry().conditions {
             return Err(Failure::Usage(format!(
                 "{} has no conditions; --mirror goes with --to inp",
                 format.name()
@@ -150,7 +150,7 @@ impl Command for Cli {
         if self.sector {
             document = sector(document);
         }
-        if matches!(format, Format::Msh | Format::Inp) {
+        if format.entry().by_region {
             sort_by_region(&mut document);
         }
         let mut middles = None;
@@ -166,7 +166,7 @@ impl Command for Cli {
             NumberingError::TooManyPoints { .. } => Failure::Impossible(error.to_string()),
             error => Failure::Input(error.to_string()),
         })?;
-        if format == Format::Pvtu {
+        if matches!(format.entry().writer, Writer::Pieces) {
             return write_pvtu(session, &mesh, &document, &options);
         }
         // Nothing to assemble: each template as it is, with all its walls.
@@ -180,7 +180,7 @@ impl Command for Cli {
             Some(plain) if apart => plain,
             _ => &mesh,
         };
-        if self.sector && format == Format::Inp {
+        if self.sector && format.entry().conditions {
             let settled = conditions(shown, &self.mirror)?;
             settled.note.iter().for_each(|note| session.note(note));
             options.parities = settled.parities;
@@ -191,7 +191,7 @@ impl Command for Cli {
                 _ => TableFormat::Json,
             };
             session.write_files(std::slice::from_ref(path), |_, out| {
-                let first = first_id(format);
+                let first = format.entry().first_id;
                 Ok(write_pairs(shown, &document, first, table, out)?)
             })?;
         }
@@ -222,14 +222,6 @@ impl Command for Cli {
 
 fn plain<'a>(document: &'a Document, middles: Option<&'a Middles>) -> Result<Plain<'a>, Failure> {
     Plain::of_order(document, middles).map_err(|e| Failure::Impossible(e.to_string()))
-}
-
-/// Number of the first node and element in files of a format.
-fn first_id(format: Format) -> u64 {
-    match format {
-        Format::Msh | Format::Msh2 | Format::Medit | Format::Inp | Format::Node => 1,
-        _ => 0,
-    }
 }
 
 /// The path to write several files beside.

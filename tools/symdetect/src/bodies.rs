@@ -1,6 +1,6 @@
 //! Bodies for tests.
 
-use crate::samples::Random;
+use crate::shape::Random;
 use glam::{DMat3, DQuat, DVec3};
 use std::f64::consts::TAU;
 use tmesh::{Document, OUTSIDE, Region, Template, Triangle};

@@ -1,12 +1,14 @@
 //! The command line of `symdetect`.
 
-use crate::report::FailureReport;
-use crate::{Defects, Detection, Error, Params, Report, detect, svg};
+use crate::detect::detect;
+use crate::error::Error;
+use crate::params::Params;
+use crate::report::{Defects, Detection, FailureReport, Report, svg};
+use crate::threads;
 use glam::DVec3;
 use kit::{Command, CommonArgs, Failure, Output, Session, ThreadArgs};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::{panic, thread};
 use tmesh::{Document, MAX_TURN_DENOMINATOR};
 
 const EXAMPLES: &str = "\
@@ -138,28 +140,16 @@ impl Cli {
         session: &Session,
     ) -> (Defects, Result<Detection, Error>) {
         let search = || detect(document, params, &mut |text| session.info(text));
-        let tell = |defects: Option<Defects>| {
-            if let Some(defects) = &defects {
-                for note in defects.notes() {
-                    session.note(&note);
-                }
-                session.info("surface checked");
+        let (defects, found) = threads::with(params.threads, || {
+            threads::both(|| self.defects(document), search)
+        });
+        if let Some(defects) = &defects {
+            for note in defects.notes() {
+                session.note(&note);
             }
-            defects.unwrap_or_default()
-        };
-        if params.threads < 2 {
-            return (tell(self.defects(document)), search());
+            session.info("surface checked");
         }
-        thread::scope(|scope| {
-            let other = thread::Builder::new().spawn_scoped(scope, || self.defects(document));
-            let found = search();
-            // Where no thread is to be had, it goes without.
-            let defects = match other {
-                Ok(other) => other.join().unwrap_or_else(|e| panic::resume_unwind(e)),
-                Err(_) => self.defects(document),
-            };
-            (tell(defects), found)
-        })
+        (defects.unwrap_or_default(), found)
     }
 
     /// Writes the report of a failure; what goes wrong with that is only told.

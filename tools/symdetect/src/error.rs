@@ -1,30 +1,7 @@
 //! Why no symmetry could be reported.
 
 use glam::DVec3;
-use std::fmt;
 use thiserror::Error;
-
-/// A point, for messages.
-#[derive(Clone, Copy, Debug)]
-pub struct At(pub DVec3);
-
-impl fmt::Display for At {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.to_array().map(short);
-        write!(f, "({x}, {y}, {z})")
-    }
-}
-
-/// A number with six significant digits.
-pub fn short(x: f64) -> String {
-    let text = format!("{x:.5e}");
-    match text.parse::<f64>() {
-        Ok(0.0) => "0".to_owned(),
-        Ok(y) if (1e-4..1e7).contains(&y.abs()) => format!("{y}"),
-        Ok(y) => format!("{y:e}"),
-        Err(_) => text,
-    }
-}
 
 /// Why detection failed.
 #[derive(Debug, Error)]
@@ -58,7 +35,10 @@ pub enum Error {
     },
     /// `--order` does not hold.
     #[error(
-        "order {order} does not hold within {tolerance:e} of the radius: about the axis {axis} through {centre} the surface is off by {residual:.2e} of the radius at {place}; raise --tolerance, or leave --order away to have the order found"
+        "order {order} does not hold within {tolerance:e} of the radius: about the axis {} through {} the surface is off by {residual:.2e} of the radius at {}; raise --tolerance, or leave --order away to have the order found",
+        at(axis),
+        at(centre),
+        at(place)
     )]
     OrderFails {
         /// The order asked for.
@@ -68,11 +48,11 @@ pub enum Error {
         /// Deviation, relative to the radius.
         residual: f64,
         /// Direction of the axis.
-        axis: At,
+        axis: DVec3,
         /// A point on it.
-        centre: At,
+        centre: DVec3,
         /// Where the deviation was found.
-        place: At,
+        place: DVec3,
     },
 }
 
@@ -84,22 +64,27 @@ pub struct Closest {
     /// Deviation, relative to the radius.
     pub residual: f64,
     /// Direction of the axis, or normal of the mirror plane.
-    pub direction: At,
+    pub direction: DVec3,
     /// Where the deviation was found.
-    pub place: At,
+    pub place: DVec3,
+}
+
+fn at(p: &DVec3) -> String {
+    kit::point(p.to_array())
 }
 
 fn asymmetric(closest: &Option<Closest>, tolerance: f64) -> String {
     let mut text = format!("no symmetry within {tolerance:e} of the radius");
     if let Some(c) = closest {
         let what = if c.order > 1 {
-            format!("order {} about the axis {}", c.order, c.direction)
+            format!("order {} about the axis {}", c.order, at(&c.direction))
         } else {
-            format!("a mirror plane with normal {}", c.direction)
+            format!("a mirror plane with normal {}", at(&c.direction))
         };
         text += &format!(
             ": closest is {what}, off by {:.2e} of the radius at {}",
-            c.residual, c.place
+            c.residual,
+            at(&c.place)
         );
     }
     text + "; raise --tolerance, or pass the body on as it is with --allow-asymmetric"

@@ -1,7 +1,7 @@
 //! Detection on made bodies.
 
 use crate::bodies::{self, Kind};
-use crate::samples::Random;
+use crate::shape::Random;
 use crate::{Error, Params, detect};
 use glam::DVec3;
 use std::f64::consts::TAU;

@@ -93,6 +93,7 @@ pub fn solid(seed: u64) -> Solid {
     };
     body.order = turns.max(family.highest_order(order)) as u32;
     body.mirror = motions.iter().any(|m| m.mirror && !m.flip);
+    body.group = family.symbol(order);
     tidy(&mut body);
     if tessellation::touches(&body) {
         features.push("touching edges".to_owned());
@@ -247,6 +248,7 @@ fn assemble(
             .collect(),
         order: 1,
         mirror: false,
+        group: String::new(),
     }
 }
 

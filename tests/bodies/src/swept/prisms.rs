@@ -62,7 +62,7 @@ impl Prism {
         };
         sweep.strip(outer[0], outer[1], Some(0), None);
         caps(&mut sweep, inner, outer, 0);
-        sweep.build(self.order, true, true, self.tessellation)
+        sweep.upright(self.order, self.tessellation)
     }
 }
 
@@ -101,7 +101,7 @@ impl Coating {
         sweep.strip(inner[0], inner[1], None, Some(1));
         caps(&mut sweep, middle, outer, 0);
         caps(&mut sweep, inner, middle, 1);
-        sweep.build(n, true, true, self.tessellation)
+        sweep.upright(n, self.tessellation)
     }
 }
 
@@ -142,7 +142,7 @@ impl Tsv {
         caps(&mut sweep, middle, outer, 0);
         caps(&mut sweep, core, middle, 1);
         caps(&mut sweep, axis, core, 2);
-        sweep.build(n, true, true, self.tessellation)
+        sweep.upright(n, self.tessellation)
     }
 }
 
@@ -218,5 +218,5 @@ pub fn cube(edge: f64, tessellation: Tessellation) -> Body {
     let axis = [0.0, edge].map(|z| sweep.axis(z));
     sweep.strip(bottom, top, Some(0), None);
     caps(&mut sweep, axis, [bottom, top], 0);
-    sweep.build(4, true, true, tessellation)
+    sweep.upright(4, tessellation)
 }

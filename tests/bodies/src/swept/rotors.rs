@@ -13,40 +13,75 @@ struct Point {
     radius: f64,
 }
 
-/// The section of one tooth, repeated `order` times; angles are exact fractions of a turn.
-struct Section<'a> {
+/// A section: its corners, each as direction (cosine and sine of the angle) and radius.
+pub struct Section {
     order: u32,
-    parts: u32,
-    points: &'a [Point],
+    corners: Vec<((f64, f64), f64)>,
 }
 
-impl Section<'_> {
-    /// The ring at height `z`, turned by `twist` radians, with radii as `radius` makes them.
-    fn ring(&self, z: f64, twist: f64, radius: impl Fn(f64) -> f64) -> Vec<DVec3> {
-        let (tc, ts) = (libm::cos(twist), libm::sin(twist));
-        let mut ring = Vec::new();
-        for tooth in 0..i64::from(self.order) {
-            for p in self.points {
-                let part = tooth * i64::from(self.parts) + p.part;
-                let (c, s) = Isometry::rotation(part, self.parts * self.order).cos_sin();
-                let r = radius(p.radius);
-                ring.push(DVec3::new(r * (c * tc - s * ts), r * (s * tc + c * ts), z));
-            }
-        }
-        ring
+/// A section's place in an extrusion.
+#[derive(Clone, Copy)]
+pub struct Level {
+    /// Height.
+    pub z: f64,
+    /// Angle by which the section is turned, radians.
+    pub twist: f64,
+    /// Factor on its radii.
+    pub scale: f64,
+}
+
+/// How a section is extruded.
+pub struct Extrusion<'a> {
+    /// Radius at the corners of the bore, which lie at the angles of the section's; 0 for none.
+    pub bore: f64,
+    /// Thickness at the corners of a second material that lines the bore; 0 for none.
+    pub coating: f64,
+    /// The section's places, from the bottom up.
+    pub levels: &'a [Level],
+    /// Whether mirror planes contain the axis.
+    pub mirror: bool,
+    /// How flat parts are split.
+    pub tessellation: Tessellation,
+}
+
+impl Section {
+    /// A section with these corners, counter-clockwise.
+    pub fn of_corners(order: u32, corners: Vec<((f64, f64), f64)>) -> Self {
+        Self { order, corners }
     }
 
-    /// One material between this section (placed at each level by `levels`: height, twist, scale
-    /// of the radii) and a bore whose corners lie at the same angles, or the axis. A second one
-    /// lines the bore where `coating`, its thickness at the corners, is not 0.
-    fn extrude(
-        &self,
-        bore: f64,
-        coating: f64,
-        levels: &[(f64, f64, f64)],
-        mirror: bool,
-        tessellation: Tessellation,
-    ) -> Body {
+    /// The section of one tooth, repeated `order` times; angles are exact fractions of a turn.
+    fn of_tooth(order: u32, parts: u32, points: &[Point]) -> Self {
+        let teeth = 0..i64::from(order);
+        let corners = teeth.flat_map(|tooth| {
+            points.iter().map(move |p| {
+                let part = tooth * i64::from(parts) + p.part;
+                let direction = Isometry::rotation(part, parts * order).cos_sin();
+                (direction, p.radius)
+            })
+        });
+        Self::of_corners(order, corners.collect())
+    }
+
+    /// The ring at a level, with radii as `radius` makes them.
+    fn ring(&self, level: Level, radius: impl Fn(f64) -> f64) -> Vec<DVec3> {
+        let (tc, ts) = (libm::cos(level.twist), libm::sin(level.twist));
+        let corner = |&((c, s), r): &((f64, f64), f64)| {
+            let r = radius(r);
+            DVec3::new(r * (c * tc - s * ts), r * (s * tc + c * ts), level.z)
+        };
+        self.corners.iter().map(corner).collect()
+    }
+
+    /// One material between this section and the bore, or the axis, and the second one that lines the bore.
+    pub fn extrude(&self, extrusion: &Extrusion) -> Body {
+        let Extrusion {
+            bore,
+            coating,
+            levels,
+            mirror,
+            tessellation,
+        } = *extrusion;
         let coated = coating > 0.0 && bore > 0.0;
         let names: &[&str] = if coated {
             &["body", "coating"]
@@ -57,15 +92,15 @@ impl Section<'_> {
         let mut outer = Vec::new();
         let mut inner = Vec::new();
         let mut lining = Vec::new();
-        for (i, &(z, twist, scale)) in levels.iter().enumerate() {
-            outer.push(sweep.ring(self.ring(z, twist, |r| r * scale)));
+        for (i, &level) in levels.iter().enumerate() {
+            outer.push(sweep.ring(self.ring(level, |r| r * level.scale)));
             if bore > 0.0 {
-                inner.push(sweep.ring(self.ring(z, twist, |_| bore + coating)));
+                inner.push(sweep.ring(self.ring(level, |_| bore + coating)));
                 if coated {
-                    lining.push(sweep.ring(self.ring(z, twist, |_| bore)));
+                    lining.push(sweep.ring(self.ring(level, |_| bore)));
                 }
             } else if i == 0 || i + 1 == levels.len() {
-                inner.push(sweep.axis(z));
+                inner.push(sweep.axis(level.z));
             }
         }
         let last = |rings: &[_]| rings[rings.len() - 1];
@@ -88,9 +123,35 @@ impl Section<'_> {
         }
         let flat = levels
             .iter()
-            .all(|&(_, twist, scale)| twist == 0.0 && scale == 1.0);
+            .all(|level| level.twist == 0.0 && level.scale == 1.0);
         sweep.build(self.order, mirror, flat, tessellation)
     }
+}
+
+/// A body without twist or taper, from z = 0 up: the group of its section and a horizontal mirror.
+fn upright(section: &Section, height: f64, extrusion: Extrusion) -> Body {
+    let levels = [0.0, height].map(|z| Level {
+        z,
+        twist: 0.0,
+        scale: 1.0,
+    });
+    let body = section.extrude(&Extrusion {
+        levels: &levels,
+        ..extrusion
+    });
+    let kind = if body.mirror { 'D' } else { 'C' };
+    Body {
+        group: format!("{kind}{}h", body.order),
+        ..body
+    }
+}
+
+/// The section of a gear with straight-flanked teeth; mirror planes run through teeth and gaps.
+pub fn tooth(order: u32, radius: f64) -> Section {
+    let root = Gear::ROOT * radius;
+    let points = [(-7, root), (-4, radius), (4, radius), (7, root)];
+    let points = points.map(|(part, radius)| Point { part, radius });
+    Section::of_tooth(order, 20, &points)
 }
 
 /// A spur gear with straight-flanked teeth; mirror planes run through teeth and gaps.
@@ -114,15 +175,14 @@ impl Gear {
 
     /// The body.
     pub fn build(&self) -> Body {
-        let root = Self::ROOT * self.radius;
-        let points = [(-7, root), (-4, self.radius), (4, self.radius), (7, root)];
-        let section = Section {
-            order: self.order,
-            parts: 20,
-            points: &points.map(|(part, radius)| Point { part, radius }),
+        let extrusion = Extrusion {
+            bore: self.bore,
+            coating: 0.0,
+            levels: &[],
+            mirror: true,
+            tessellation: self.tessellation,
         };
-        let levels = [(0.0, 0.0, 1.0), (self.height, 0.0, 1.0)];
-        section.extrude(self.bore, 0.0, &levels, true, self.tessellation)
+        upright(&tooth(self.order, self.radius), self.height, extrusion)
     }
 }
 
@@ -150,13 +210,16 @@ impl Ratchet {
     /// The body.
     pub fn build(&self) -> Body {
         let points = [(0, self.radius), (3, Self::ROOT * self.radius)];
-        let section = Section {
-            order: self.order,
-            parts: 20,
-            points: &points.map(|(part, radius)| Point { part, radius }),
+        let points = points.map(|(part, radius)| Point { part, radius });
+        let extrusion = Extrusion {
+            bore: self.bore,
+            coating: self.coating,
+            levels: &[],
+            mirror: false,
+            tessellation: self.tessellation,
         };
-        let levels = [(0.0, 0.0, 1.0), (self.height, 0.0, 1.0)];
-        section.extrude(self.bore, self.coating, &levels, false, self.tessellation)
+        let section = Section::of_tooth(self.order, 20, &points);
+        upright(&section, self.height, extrusion)
     }
 }
 
@@ -196,24 +259,24 @@ impl Impeller {
             (15, hub),
             (25, hub),
         ];
-        let section = Section {
-            order: self.order,
-            parts: 40,
-            points: &points.map(|(part, radius)| Point { part, radius }),
-        };
+        let points = points.map(|(part, radius)| Point { part, radius });
+        let section = Section::of_tooth(self.order, 40, &points);
         let levels: Vec<_> = (0..=self.layers)
             .map(|k| {
                 let share = f64::from(k) / f64::from(self.layers);
-                let scale = 1.0 - (1.0 - Self::TOP) * share;
-                (self.height * share, self.twist * share, scale)
+                Level {
+                    z: self.height * share,
+                    twist: self.twist * share,
+                    scale: 1.0 - (1.0 - Self::TOP) * share,
+                }
             })
             .collect();
-        section.extrude(
-            self.bore,
-            0.0,
-            &levels,
-            self.twist == 0.0,
-            self.tessellation,
-        )
+        section.extrude(&Extrusion {
+            bore: self.bore,
+            coating: 0.0,
+            levels: &levels,
+            mirror: self.twist == 0.0,
+            tessellation: self.tessellation,
+        })
     }
 }

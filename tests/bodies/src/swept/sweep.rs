@@ -82,7 +82,15 @@ impl Sweep {
         });
     }
 
-    /// The body. `flat` says that all strips are made of plane quadrilaterals.
+    /// The body, of plane quadrilaterals and with all mirror planes of a right prism: the group is D_nh.
+    pub fn upright(self, order: u32, tessellation: Tessellation) -> Body {
+        Body {
+            group: format!("D{order}h"),
+            ..self.build(order, true, true, tessellation)
+        }
+    }
+
+    /// The body, whose group is C_n or C_nv. `flat` says that all strips are made of plane quadrilaterals.
     pub fn build(self, order: u32, mirror: bool, flat: bool, tessellation: Tessellation) -> Body {
         let asymmetric = tessellation != Tessellation::Symmetric;
         let mut vertices = Vec::new();
@@ -172,6 +180,7 @@ impl Sweep {
             materials: self.materials,
             order,
             mirror,
+            group: format!("C{order}{}", if mirror { "v" } else { "" }),
         }
     }
 }

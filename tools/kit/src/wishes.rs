@@ -1,0 +1,262 @@
+//! What is asked of the elements on the command line, by every tool that meshes or prepares for it.
+
+use crate::Failure;
+use tmesh::{Document, Size, Wishes};
+
+/// Bounds and sizes of elements. What is not given is inherited from the tools before.
+#[derive(clap::Args, Clone, Debug, Default)]
+pub struct WishArgs {
+    /// Largest ratio of circumradius to shortest edge of a tetrahedron [default: inherited, or 1.4]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = radius_edge)]
+    radius_edge: Option<f64>,
+
+    /// Smallest dihedral angle, degrees [default: inherited, or 10]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = min_dihedral)]
+    min_dihedral: Option<f64>,
+
+    /// Largest tetrahedron volume, model units cubed
+    #[arg(long, value_name = "V", allow_negative_numbers = true, value_parser = positive)]
+    #[arg(conflicts_with = "edge_length")]
+    max_volume: Option<f64>,
+
+    /// Largest tetrahedron volume, as that of the regular tetrahedron with this edge
+    #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = positive)]
+    edge_length: Option<f64>,
+
+    /// Largest tetrahedron volume in one region, by its name or id; repeatable
+    #[arg(long, value_name = "NAME:max-volume=V", value_parser = region_size)]
+    region: Vec<RegionSize>,
+
+    /// Dihedral angle, degrees, above which tetrahedra are optimized away, and half of what it leaves of 180
+    /// the angle below which they are; `off` removes only the nearly flat ones [default: inherited, or 130]
+    #[arg(long, value_name = "DEG|off", value_parser = optimize)]
+    optimize: Option<f64>,
+
+    /// A plain constrained tetrahedralization: no quality bounds, no optimization; `=false` asks for quality where
+    /// a tool before was told otherwise
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "true")]
+    no_quality: Option<bool>,
+
+    /// Time limit for the mesher, per template [default: inherited, or none]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
+    timeout: Option<f64>,
+}
+
+/// A size limit for one region.
+#[derive(Clone, Debug, PartialEq)]
+struct RegionSize {
+    /// Name or id.
+    region: String,
+    /// Model units cubed.
+    max_volume: f64,
+}
+
+/// Dihedral angle of the regular tetrahedron, degrees, arccos(1/3): no tetrahedron's smallest one is
+/// larger, nor its largest one smaller.
+const REGULAR_DIHEDRAL: f64 = 70.528_779_365_509_31;
+
+/// Ratio of circumradius to edge of the regular tetrahedron, sqrt(6)/4: no tetrahedron's is smaller.
+const REGULAR_RADIUS_EDGE: f64 = 0.612_372_435_695_794_5;
+
+impl WishArgs {
+    /// The wishes of the command line alone.
+    pub fn wishes(&self) -> Wishes {
+        let volume = self.max_volume.map(Size::MaxVolume);
+        Wishes {
+            quality: self.no_quality.map(|plain| !plain),
+            radius_edge: self.radius_edge,
+            min_dihedral: self.min_dihedral,
+            optimize: self.optimize,
+            size: volume.or(self.edge_length.map(Size::EdgeLength)),
+            timeout: self.timeout,
+            keep_surface: None,
+        }
+    }
+
+    /// Writes the wishes into a document, over those of earlier tools.
+    ///
+    /// # Errors
+    /// A region that the document does not have, as wrong usage.
+    pub fn apply(&self, document: &mut Document) -> Result<(), Failure> {
+        document.wishes = self.wishes().over(&document.wishes);
+        for size in &self.region {
+            let regions = &document.regions;
+            let named = regions.iter().position(|r| r.name == size.region);
+            let numbered = || regions.iter().position(|r| size.region.parse() == Ok(r.id));
+            let Some(index) = named.or_else(numbered) else {
+                let known: Vec<_> = regions
+                    .iter()
+                    .map(|r| format!("'{}' ({})", r.name, r.id))
+                    .collect();
+                return Err(Failure::Usage(format!(
+                    "there is no region '{}'; there are {}",
+                    size.region,
+                    known.join(", ")
+                )));
+            };
+            document.regions[index].max_volume = Some(size.max_volume);
+        }
+        Ok(())
+    }
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        _ => Err("not a finite number".to_owned()),
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let x = number(text)?;
+    if x > 0.0 {
+        Ok(x)
+    } else {
+        Err("must be above 0".to_owned())
+    }
+}
+
+fn radius_edge(text: &str) -> Result<f64, String> {
+    let x = number(text)?;
+    if x > REGULAR_RADIUS_EDGE {
+        Ok(x)
+    } else {
+        Err(format!(
+            "must be above {REGULAR_RADIUS_EDGE:.3}, the ratio of the regular tetrahedron"
+        ))
+    }
+}
+
+fn min_dihedral(text: &str) -> Result<f64, String> {
+    let x = number(text)?;
+    if (0.0..REGULAR_DIHEDRAL).contains(&x) {
+        Ok(x)
+    } else {
+        Err(format!(
+            "must be at least 0 and below {REGULAR_DIHEDRAL:.2}, the angle of the regular tetrahedron"
+        ))
+    }
+}
+
+fn optimize(text: &str) -> Result<f64, String> {
+    if text == "off" {
+        return Ok(180.0);
+    }
+    let x = number(text)?;
+    if x > REGULAR_DIHEDRAL && x < 180.0 {
+        Ok(x)
+    } else {
+        Err(format!(
+            "must be between {REGULAR_DIHEDRAL:.2} and 180, or off"
+        ))
+    }
+}
+
+fn region_size(text: &str) -> Result<RegionSize, String> {
+    let Some((region, volume)) = text.rsplit_once(":max-volume=") else {
+        return Err("expected NAME:max-volume=V".to_owned());
+    };
+    if region.is_empty() {
+        return Err("the region's name is missing".to_owned());
+    }
+    Ok(RegionSize {
+        region: region.to_owned(),
+        max_volume: positive(volume)?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+    use tmesh::{Region, Template};
+
+    #[derive(Parser, Debug)]
+    struct Tool {
+        #[command(flatten)]
+        wishes: WishArgs,
+    }
+
+    fn parse(arguments: &[&str]) -> Result<WishArgs, clap::Error> {
+        let all = std::iter::once("tool").chain(arguments.iter().copied());
+        Ok(Tool::try_parse_from(all)?.wishes)
+    }
+
+    #[test]
+    fn silence_inherits_and_options_overrule() {
+        let mut document = Document::single(Template::default());
+        document.wishes.radius_edge = Some(2.0);
+        document.wishes.quality = Some(false);
+        parse(&["--edge-length", "0.5", "--optimize", "off"])
+            .unwrap()
+            .apply(&mut document)
+            .unwrap();
+        let wishes = &document.wishes;
+        assert_eq!((wishes.radius_edge(), wishes.quality()), (2.0, false));
+        assert_eq!(wishes.optimize(), None);
+        assert_eq!(
+            wishes.max_volume(),
+            Some(Size::EdgeLength(0.5).max_volume())
+        );
+        let more = ["--max-volume", "1", "--no-quality=false"];
+        parse(&more).unwrap().apply(&mut document).unwrap();
+        assert!(document.wishes.quality());
+        assert_eq!(document.wishes.max_volume(), Some(1.0));
+        parse(&["--no-quality"])
+            .unwrap()
+            .apply(&mut document)
+            .unwrap();
+        assert!(!document.wishes.quality());
+    }
+
+    #[test]
+    fn sizes_of_regions_are_found_by_name_then_id() {
+        let mut document = Document::single(Template::default());
+        for (id, name) in [(3, "core"), (5, "7"), (7, "a:b")] {
+            document.regions.push(Region {
+                id,
+                name: name.to_owned(),
+                max_volume: None,
+                volume: None,
+            });
+        }
+        let sizes = ["--region", "7:max-volume=0.1", "--region", "3:max-volume=4"];
+        parse(&sizes).unwrap().apply(&mut document).unwrap();
+        parse(&["--region", "a:b:max-volume=1e-3"])
+            .unwrap()
+            .apply(&mut document)
+            .unwrap();
+        let limits: Vec<_> = document.regions.iter().map(|r| r.max_volume).collect();
+        assert_eq!(limits, [Some(4.0), Some(0.1), Some(1e-3)]);
+        let unknown = parse(&["--region", "copper:max-volume=1"]).unwrap();
+        let text = unknown.apply(&mut document).unwrap_err().to_string();
+        assert!(
+            text.contains("'copper'") && text.contains("'core' (3)"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn impossible_numbers_are_usage_errors() {
+        for bad in [
+            ["--radius-edge", "nan"],
+            ["--radius-edge", "0.5"],
+            ["--radius-edge", "-1"],
+            ["--min-dihedral", "71"],
+            ["--min-dihedral", "-1"],
+            ["--max-volume", "0"],
+            ["--max-volume", "inf"],
+            ["--edge-length", "-2"],
+            ["--optimize", "180"],
+            ["--optimize", "on"],
+            ["--region", "copper"],
+            ["--region", ":max-volume=1"],
+            ["--region", "copper:max-volume=x"],
+            ["--timeout", "0"],
+        ] {
+            let error = parse(&bad).unwrap_err();
+            assert_eq!(error.exit_code(), 2, "{bad:?}");
+        }
+    }
+}

@@ -1,0 +1,32 @@
+//! How many tests each stage of the search spends: all sampling budgets of the crate.
+//!
+//! `m` tests at places drawn evenly from the surface all miss a flaw that covers the share `p` of it with a
+//! probability of about `exp(-m p)`, so that `5 / p` tests overlook one such flaw in 150. Stages that try hundreds of
+//! candidates spend few tests on each and leave it to later ones to reject what they let pass; only [`FULL`] and what
+//! is proved from faces decide. More tests in an early stage cost time in proportion, fewer leave more candidates to
+//! the next, dearer stage.
+
+use std::ops::Range;
+
+/// Tests of one order where hundreds are ranked for a list: flaws of a fifth of the surface.
+pub const GLANCE: usize = 24;
+/// Tests of one of hundreds of orders or angles in a scan: flaws of 5 % of the surface.
+pub const SCAN: usize = 96;
+/// Tests for a residual that is only reported: of an order that does not hold, or of one in a plot.
+pub const REPORTED: usize = 600;
+/// Tests of one operation, or spread over all of a family, in a quick verification: flaws of 0.3 % of the surface.
+pub const QUICK: usize = 1_500;
+/// Equations of a least-squares adjustment from which a verification goes on; the error of a fit to facets, which
+/// deviate by the tolerance at most, is that over the root of the number of facets, far below the tolerance.
+pub const FIT: usize = 4_000;
+/// Tests of everything but the first operation of a full verification, at least and at most, and what statistics over
+/// neighbourhoods of the surface are taken from, which must suffice for each of some hundred neighbourhoods.
+pub const FULL: Range<usize> = 8_000..60_000;
+/// Tests, equations or places for each triangle in a full verification and in the last adjustment, within the bounds
+/// above: every triangle is looked at from all powers of a rotation together.
+pub const PER_TRIANGLE: usize = 8;
+/// Places that statistics over neighbourhoods are taken from: enough for each of some hundred of them.
+pub const NEIGHBOURHOODS: usize = 16_000;
+/// Tests of an order that is listed as not holding, and corners that powers of an operation proved from faces are
+/// measured in: a maximum over so many places is the largest but for a hundredth of the surface.
+pub const LISTED: usize = 128;

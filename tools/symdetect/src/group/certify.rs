@@ -1,0 +1,153 @@
+//! The best group that holds everywhere.
+
+use crate::allowance::model::COARSE;
+use crate::allowance::{displaces, is_of_facets};
+use crate::group::found::Found;
+use crate::rotation::{Limits, Query, Rotation};
+use crate::tolerance::compare_along_axes;
+use crate::verify::{Check, Depth, Operation, Verified};
+use glam::DVec3;
+use kit::point;
+use tmesh::{Frame, Group, Isometry, Kind};
+
+impl Query<'_> {
+    /// The best of the rotations that holds everywhere, with all that holds beside it.
+    pub fn certified(
+        &self,
+        mut candidates: Vec<Rotation>,
+        log: &mut dyn FnMut(&str),
+    ) -> Option<Found> {
+        while let Some(best) = self.take_best(&mut candidates) {
+            log(&format!(
+                "order {} about {} by a quick test",
+                best.order,
+                point(best.frame.rotation.z_axis.to_array())
+            ));
+            let mut found = self.complete(best.clone());
+            // Among half-turn axes the main one is that with the most operations beside it.
+            if best.order == 2 {
+                for other in candidates.iter().filter(|c| c.order == 2 && c.distinct) {
+                    let other = self.complete(other.clone());
+                    if rank(&other.group) > rank(&found.group) {
+                        found = other;
+                    }
+                }
+            }
+            log(&format!("group {} by a quick test", found.group.symbol()));
+            if self.certify(&mut found) {
+                log(&format!("group {} verified in full", found.group.symbol()));
+                return Some(found);
+            }
+            let z = found.frame.rotation.z_axis;
+            candidates.retain(|c| !self.same_axis(c.frame.rotation.z_axis, z));
+            let mut search = self.search(self.orders(), self.limits);
+            search.depth = Depth::Full;
+            let lower = search.find(found.frame.origin, z, false);
+            candidates.extend(lower.filter(|r| r.order < found.group.order));
+            log("some operation does not hold everywhere");
+        }
+        None
+    }
+
+    /// Verifies the whole group in full, and where a place that the quick test passed over is beyond
+    /// the tolerance, with allowance for facets; mirrors and what turns the axis over are dropped where they do not
+    /// hold. Returns whether the rotation holds.
+    fn certify(&self, found: &mut Found) -> bool {
+        let bound = self.limits.bound(found.radius);
+        let mut bounds = vec![bound];
+        if !self.limits.facets && self.shape.facets().largest() >= COARSE * bound.limit {
+            let limits = Limits {
+                facets: true,
+                ..self.limits
+            };
+            bounds.push(limits.bound(found.radius));
+        }
+        // What holds without the allowance is not widened by it.
+        for bound in bounds {
+            for kind in parts(found.group.kind) {
+                let group = Group::new(*kind, found.group.order);
+                for frame in [found.frame, found.rough] {
+                    let check = Check {
+                        shape: self.shape,
+                        frame: &frame,
+                        bound,
+                        depth: Depth::Full,
+                    };
+                    if let Ok(verified) = check.group(&group)
+                        && self.group_is_of_facets(&group, &frame, &verified, bound.limit)
+                    {
+                        (found.frame, found.group, found.verified) = (frame, group, verified);
+                        return true;
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether what a group deviates by beyond the limit, if anything, looks like differences between
+    /// facets.
+    fn group_is_of_facets(
+        &self,
+        group: &Group,
+        frame: &Frame,
+        found: &Verified,
+        limit: f64,
+    ) -> bool {
+        let (shape, value) = (self.shape, found.deviation.value);
+        if value <= limit {
+            return true;
+        }
+        let mirror = group.has_vertical_mirrors();
+        let mirror = mirror.then(|| (Isometry::MIRROR, &found.mirror));
+        let turning = group.turning_over().map(|o| (o, &found.turning));
+        (group.order < 2 || is_of_facets(shape, frame, group.order, value, limit))
+            && mirror
+                .into_iter()
+                .chain(turning)
+                .all(|(isometry, regions)| {
+                    let operation = Operation::new(frame, isometry, shape.target(regions));
+                    !displaces(shape, frame, &operation, limit)
+                })
+    }
+
+    /// Removes and returns the best rotation: highest order, then clearly smaller deviation, then the
+    /// axis nearest to z, x, y.
+    fn take_best(&self, candidates: &mut Vec<Rotation>) -> Option<Rotation> {
+        let mut best = 0;
+        for i in 1..candidates.len() {
+            let (a, b) = (&candidates[i], &candidates[best]);
+            let residual = |r: &Rotation| r.deviation.value.max(self.noise(r.radius)) / r.radius;
+            let better = if a.rank() != b.rank() {
+                a.rank() > b.rank()
+            } else if residual(a) < 0.5 * residual(b) || residual(b) < 0.5 * residual(a) {
+                residual(a) < residual(b)
+            } else {
+                let (za, zb) = (a.frame.rotation.z_axis.abs(), b.frame.rotation.z_axis.abs());
+                compare_along_axes(za, zb, [DVec3::Z, DVec3::X, DVec3::Y]) > 0.0
+            };
+            if better {
+                best = i;
+            }
+        }
+        (!candidates.is_empty()).then(|| candidates.swap_remove(best))
+    }
+}
+
+/// How much there is beside the rotation: mirrors that contain the axis count most.
+fn rank(group: &Group) -> u32 {
+    2 * u32::from(group.has_vertical_mirrors()) + u32::from(group.turning_over().is_some())
+}
+
+/// Kinds that may be left of one when some of its operations do not hold, the largest first.
+fn parts(kind: Kind) -> &'static [Kind] {
+    match kind {
+        Kind::C => &[Kind::C],
+        Kind::Cv => &[Kind::Cv, Kind::C],
+        Kind::Ch => &[Kind::Ch, Kind::C],
+        Kind::S => &[Kind::S, Kind::C],
+        Kind::D => &[Kind::D, Kind::C],
+        Kind::Dd => &[Kind::Dd, Kind::Cv, Kind::S, Kind::C],
+        Kind::Dh => &[Kind::Dh, Kind::Cv, Kind::Ch, Kind::C],
+    }
+}

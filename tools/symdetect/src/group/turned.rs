@@ -1,0 +1,178 @@
+//! Mirrors that contain the axis, and half turns about axes across it.
+
+use crate::budget::{FIT, SCAN};
+use crate::group::found::Beside;
+use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, powers, refine};
+use crate::shape::{Motion, Target};
+use crate::threads;
+use crate::tolerance::{EXACT, SINGLE};
+use crate::verify::{Depth, turn_matrix};
+use glam::DVec3;
+use std::f64::consts::PI;
+use tmesh::{Frame, Isometry};
+
+/// Candidate angles looked at closely: of mirrors all equivalent ones are merged into one, so that others are chance.
+const CLOSE: usize = 6;
+/// Angles tried at least over one period, however loose the limits.
+const FEWEST_ANGLES: usize = 32;
+
+/// An operation to be turned about the axis of a rotation until it holds.
+pub struct Turned<'a> {
+    /// The body and the limits.
+    pub query: &'a Query<'a>,
+    /// The rotation beside which it holds.
+    pub rotation: &'a Rotation,
+    /// The mirror y -> -y or the half turn about x.
+    pub operation: Isometry,
+    /// Whether axis and centre stay where they are.
+    pub fixed: bool,
+}
+
+impl Turned<'_> {
+    /// The operation at some angle about the axis: in steps over one period, then adjusted. The frame's x direction
+    /// lies in the mirror or on the axis of the half turn; that with the smallest deviation if there are several.
+    pub fn find(&self) -> Option<Beside> {
+        if self.operation.reverses_orientation()
+            && let Some(exact) = self.mirror_of_faces()
+        {
+            return Some(exact);
+        }
+        let (shape, rotation) = (self.query.shape, self.rotation);
+        let bound = self.query.limits.bound(rotation.radius);
+        let mut best: Option<Beside> = None;
+        for angle in self.candidates() {
+            let Some(frame) = self.turned_to(angle).map(|f| self.adjusted(f)) else {
+                continue;
+            };
+            let motion = Motion::new(&frame, self.operation.matrix());
+            let Ok((deviation, permutation)) = shape.verify_one(motion, bound, Depth::Quick) else {
+                continue;
+            };
+            let better = best
+                .as_ref()
+                .is_none_or(|b| deviation.value < 0.5 * b.deviation.value);
+            if better {
+                best = Some(Beside {
+                    frame,
+                    deviation,
+                    permutation,
+                });
+            }
+            // No other angle can be better than the rotations themselves.
+            if deviation.value <= shape.rounding().max(rotation.deviation.value) {
+                break;
+            }
+        }
+        best
+    }
+
+    /// The rotation's frame turned about its axis.
+    fn turned_to(&self, angle: f64) -> Option<Frame> {
+        let frame = &self.rotation.frame;
+        let (s, c) = libm::sincos(angle);
+        let x = frame.rotation * DVec3::new(c, s, 0.0);
+        Frame::from_axis(frame.origin, frame.rotation.z_axis, x)
+    }
+
+    /// Angles at which few samples are off, the best first.
+    fn candidates(&self) -> Vec<f64> {
+        let loose = self.query.limits.loose;
+        let period = PI / f64::from(self.rotation.order);
+        // An angle off by half a step moves an image by one step times the radius.
+        let steps = ((2.0 * period / loose).ceil() as usize).max(FEWEST_ANGLES);
+        let angles: Vec<f64> = (0..steps)
+            .map(|i| period * i as f64 / steps as f64)
+            .collect();
+        let scores = threads::map(&angles, |&angle| self.score(angle));
+        let mut candidates: Vec<usize> = (0..steps)
+            .filter(|&i| {
+                let s = scores[i];
+                let least = s <= scores[(i + 1) % steps] && s <= scores[(i + steps - 1) % steps];
+                s.is_finite() && least
+            })
+            .collect();
+        candidates.sort_by(|&i, &j| scores[i].total_cmp(&scores[j]).then(i.cmp(&j)));
+        candidates.truncate(CLOSE);
+        candidates.into_iter().map(|i| angles[i]).collect()
+    }
+
+    /// Sum of the deviations of a few samples; infinite where too many are off.
+    fn score(&self, angle: f64) -> f64 {
+        let shape = self.query.shape;
+        let loose = self.query.limits.loose * self.rotation.radius;
+        let samples = &shape.samples.mixed[..SCAN.min(shape.samples.mixed.len())];
+        let allowed = (OUTLIERS * samples.len() as f64) as usize;
+        let turned = turn_matrix(angle / PI) * self.operation.matrix();
+        let motion = Motion::new(&self.rotation.frame, turned);
+        let (mut sum, mut missed) = (0.0, 0);
+        for s in samples {
+            match shape.nearest(motion.apply(s.point), 0, &Target::Any, loose) {
+                Some(n) => sum += n.distance,
+                None => {
+                    sum += loose;
+                    missed += 1;
+                    if missed > allowed {
+                        return f64::INFINITY;
+                    }
+                }
+            }
+        }
+        sum
+    }
+
+    /// The frame adjusted to the operation: together with the rotation, or, where axis and centre are fixed, the angle
+    /// alone.
+    fn adjusted(&self, frame: Frame) -> Frame {
+        let (shape, rotation) = (self.query.shape, self.rotation);
+        let loose = self.query.limits.loose * rotation.radius;
+        let mut operations = vec![Canonical::new(self.operation, Target::Any)];
+        if self.fixed {
+            let adjusted = refine(shape, frame, &operations, FIT / 2, loose);
+            let (z, x) = (frame.rotation.z_axis, adjusted.rotation.x_axis);
+            return Frame::from_axis(frame.origin, z, x).unwrap_or(frame);
+        }
+        if rotation.distinct {
+            operations.extend(powers(rotation.order, &Target::Any));
+        }
+        // Where the rotations are exact, few samples tell the angle.
+        let exact = rotation.deviation.value <= EXACT;
+        let equations = if exact { FIT / 8 } else { FIT / 2 };
+        refine(shape, frame, &operations, equations, loose)
+    }
+
+    /// The mirror that contains the axis of a rotation which takes faces to faces, if it does so too: it takes the
+    /// corner that is farthest from the axis to one that is as far, on the same height.
+    fn mirror_of_faces(&self) -> Option<Beside> {
+        let (shape, rotation) = (self.query.shape, self.rotation);
+        let frame = &rotation.frame;
+        let faces = rotation.deviation.everywhere.then(|| shape.faces())??;
+        let place = |p: DVec3| {
+            let p = frame.to_canonical(p);
+            (libm::hypot(p.x, p.y), p.z)
+        };
+        let corners = faces.farthest(place, 2.0 * shape.same_corner());
+        // Angles from the first of them, as parts of a step of the rotation: others are equivalent.
+        let angles: Vec<f64> = (corners.iter())
+            .map(|p| frame.to_canonical(*p))
+            .map(|p| libm::atan2(p.y, p.x))
+            .collect();
+        let step = 2.0 * PI / f64::from(rotation.order);
+        let mut parts: Vec<f64> = (angles.iter())
+            .map(|a| ((a - angles[0]) / step).rem_euclid(1.0))
+            .collect();
+        parts.sort_unstable_by(f64::total_cmp);
+        parts.dedup_by(|a, b| *a - *b < SINGLE);
+        parts.truncate(CLOSE);
+        let bound = self.query.limits.bound(rotation.radius);
+        parts.into_iter().find_map(|part| {
+            let frame = self.turned_to(angles[0] + 0.5 * part * step)?;
+            let motion = Motion::new(&frame, self.operation.matrix());
+            let (deviation, permutation) = shape.verify_one(motion, bound, Depth::Quick).ok()?;
+            deviation.everywhere.then_some(Beside {
+                frame,
+                deviation,
+                permutation,
+            })
+        })
+    }
+}

@@ -1,0 +1,143 @@
+//! The JSON report.
+
+use crate::report::defects::Defects;
+use crate::report::detection::{Detection, OrderResidual};
+use serde::Serialize;
+use tmesh::{Axis, Document, Group, Isometry, OtherAxis, RejectedOrder, Symmetry};
+
+/// What `--report` writes: the symmetry, and what it was found in.
+#[derive(Debug, Serialize)]
+pub struct Report<'a> {
+    /// The group about the main axis.
+    pub group: Group,
+    /// Order of the rotation about the main axis.
+    pub order: u32,
+    /// Whether mirror planes contain the axis.
+    pub mirror: bool,
+    /// Whether a mirror plane is orthogonal to the axis.
+    pub horizontal_mirror: bool,
+    /// The main axis.
+    pub axis: &'a Axis,
+    /// The canonical x axis; see [`Symmetry::reference`].
+    pub mirror_direction: [f64; 3],
+    /// Largest deviation, relative to the radius.
+    pub residual: f64,
+    /// Deviation allowed, relative to the radius.
+    pub tolerance: f64,
+    /// Whether the body is one of revolution.
+    pub axisymmetric: bool,
+    /// Largest distance of a surface point from the axis.
+    pub radius: f64,
+    /// Further axes, and orders that do not hold.
+    #[serde(flatten)]
+    pub search: ReportSearch<'a>,
+    /// How the rotation and the mirrors permute regions.
+    #[serde(flatten)]
+    pub permutations: ReportPermutations,
+    /// Triangles of the surface.
+    pub triangles: usize,
+    /// Regions of the document.
+    pub regions: Vec<ReportRegion<'a>>,
+    /// How far the body is off under each order about the axis.
+    pub orders: &'a [OrderResidual],
+    /// Defects of the surface.
+    pub defects: &'a Defects,
+    /// What reading the input had to mend or leave, a sentence each.
+    pub input: &'a [String],
+    /// Remarks, a sentence each.
+    pub notes: &'a [String],
+}
+
+/// What else the search came across.
+#[derive(Debug, Serialize)]
+pub struct ReportSearch<'a> {
+    /// Further symmetry axes, strongest first.
+    pub other_axes: &'a [OtherAxis],
+    /// Orders that were tried and do not hold.
+    pub rejected: &'a [RejectedOrder],
+}
+
+/// Pairs (from, to) of region ids that operations exchange; left out where there are none.
+#[derive(Debug, Serialize)]
+pub struct ReportPermutations {
+    /// By one step of the rotation.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rotation_regions: Vec<[u32; 2]>,
+    /// By the mirror at the mirror direction.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mirror_regions: Vec<[u32; 2]>,
+    /// By the mirror across the axis.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub horizontal_regions: Vec<[u32; 2]>,
+}
+
+impl ReportPermutations {
+    fn of(symmetry: &Symmetry) -> Self {
+        let pairs = |g: Isometry| symmetry.region_map(g).pairs;
+        Self {
+            rotation_regions: pairs(symmetry.group.rotation()),
+            mirror_regions: pairs(Isometry::MIRROR),
+            horizontal_regions: pairs(Isometry::FLIP),
+        }
+    }
+}
+
+/// A region in the report.
+#[derive(Debug, Serialize)]
+pub struct ReportRegion<'a> {
+    /// Id.
+    pub id: u32,
+    /// Name.
+    pub name: &'a str,
+}
+
+impl<'a> Report<'a> {
+    /// The report on a document.
+    pub fn new(
+        document: &'a Document,
+        found: &'a Detection,
+        defects: &'a Defects,
+        input: &'a [String],
+    ) -> Self {
+        let symmetry = &found.symmetry;
+        Self {
+            group: symmetry.group,
+            order: symmetry.group.order,
+            mirror: symmetry.group.has_vertical_mirrors(),
+            horizontal_mirror: symmetry.group.has_horizontal_mirror(),
+            axis: &symmetry.axis,
+            mirror_direction: symmetry.reference,
+            residual: symmetry.residual,
+            tolerance: symmetry.tolerance,
+            axisymmetric: symmetry.axisymmetric,
+            radius: symmetry.radius,
+            search: ReportSearch {
+                other_axes: &found.search.other_axes,
+                rejected: &found.search.rejected,
+            },
+            permutations: ReportPermutations::of(symmetry),
+            triangles: document.templates.iter().map(|t| t.triangles.len()).sum(),
+            regions: (document.regions.iter())
+                .map(|r| ReportRegion {
+                    id: r.id,
+                    name: &r.name,
+                })
+                .collect(),
+            orders: &found.profile,
+            defects,
+            input,
+            notes: &found.notes,
+        }
+    }
+}
+
+/// What `--report` writes when there is no symmetry to report.
+#[derive(Debug, Serialize)]
+pub struct FailureReport<'a> {
+    /// Why, as on standard error.
+    pub error: String,
+    /// Defects of the surface.
+    pub defects: &'a Defects,
+    /// What reading the input had to mend or leave, a sentence each.
+    pub input: &'a [String],
+}

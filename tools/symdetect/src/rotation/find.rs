@@ -1,0 +1,157 @@
+//! The highest rotation order about one axis.
+
+use crate::budget::FIT;
+use crate::rotation::limits::{Limits, OUTLIERS};
+use crate::rotation::refine::{Canonical, refine};
+use crate::shape::{Permutation, Shape, Target};
+use crate::verify::{Depth, Deviation, golden_turns, some_powers};
+use glam::DVec3;
+use std::ops::RangeInclusive;
+use tmesh::Frame;
+
+/// A rotation symmetry found.
+#[derive(Clone, Debug)]
+pub struct Rotation {
+    /// Axis z, centre at the origin.
+    pub frame: Frame,
+    /// Largest distance of the surface from the axis.
+    pub radius: f64,
+    /// Order.
+    pub order: u32,
+    /// Regions under one step.
+    pub permutation: Permutation,
+    /// Largest deviation, in the units of the shape.
+    pub deviation: Deviation,
+    /// Whether all orders hold.
+    pub axisymmetric: bool,
+    /// Whether the order stands out; false for a body of revolution without a facet count.
+    pub distinct: bool,
+}
+
+impl Rotation {
+    /// High orders come before low ones; a body of revolution whose order does not stand out comes
+    /// between two and three: besides it there can only be half turns, unless the body is a ball.
+    pub fn rank(&self) -> u32 {
+        if self.distinct { 2 * self.order } else { 5 }
+    }
+
+    /// Whether no axis across this one can have an order above two, unless the body is isotropic.
+    pub fn is_high(&self) -> bool {
+        self.order > 2 && (self.distinct || self.axisymmetric)
+    }
+
+    /// Whether this is the better find. `noise` is the deviation that is not worth a distinction.
+    fn beats(&self, other: &Self, noise: f64) -> bool {
+        if self.rank() != other.rank() {
+            return self.rank() > other.rank();
+        }
+        self.deviation.value.max(noise) < other.deviation.value.max(noise)
+    }
+}
+
+/// Rotations by golden turns that an axis is adjusted to where no order is to be preferred.
+const GOLDEN: usize = 12;
+/// Candidate orders from which on a body is taken for nearly one of revolution: those orders have more divisors
+/// between them than any single order below 1024 has.
+const MANY: usize = 20;
+/// Lower candidates for whose orders axis and centre are adjusted when the highest one turns out not to hold.
+const SECOND_CHOICES: usize = 5;
+
+/// A search for the highest order about an axis.
+pub struct OrderSearch<'a> {
+    /// The body.
+    pub shape: &'a Shape,
+    /// Orders looked for.
+    pub orders: RangeInclusive<u32>,
+    /// Tolerances.
+    pub limits: Limits,
+    /// How thoroughly they are verified.
+    pub depth: Depth,
+}
+
+impl OrderSearch<'_> {
+    /// Finds the highest order about an axis near `direction` through a point near `centre`.
+    ///
+    /// The axis and centre are adjusted to the shape unless `fixed`. Near a body of revolution, where
+    /// many orders hold within the tolerance, the facet count is told by its deviation.
+    pub fn find(&self, centre: DVec3, direction: DVec3, fixed: bool) -> Option<Rotation> {
+        let shape = self.shape;
+        let start = Frame::from_axis(centre, direction, direction.any_orthogonal_vector())?;
+        let radius = shape.radius(&start);
+        if radius <= 0.0 {
+            return None;
+        }
+        let as_is = self.in_frame(&start);
+        let exact = |r: &Rotation| r.distinct && r.deviation.value <= shape.rounding();
+        if fixed || as_is.as_ref().is_some_and(exact) {
+            return as_is;
+        }
+        let found = self.adjusted(start, radius, as_is)?;
+        let polished = self.polished(&found, radius);
+        self.better(Some(found), polished)
+    }
+
+    fn better(&self, one: Option<Rotation>, other: Option<Rotation>) -> Option<Rotation> {
+        match (one, other) {
+            (Some(a), Some(b)) if b.beats(&a, 0.5 * self.shape.precision) => Some(b),
+            (a, b) => a.or(b),
+        }
+    }
+
+    /// The best of what holds in the frame as it is and what holds after an adjustment to the orders that a scan
+    /// leaves possible.
+    fn adjusted(&self, start: Frame, radius: f64, as_is: Option<Rotation>) -> Option<Rotation> {
+        let shape = self.shape;
+        let loose = self.limits.loose * radius;
+        let revolution = shape.deviation_from_revolution(&start, loose);
+        let candidates = if revolution.is_some() && self.orders.end() > self.orders.start() {
+            let all = self.orders.clone();
+            all.filter(|&n| self.limits.admit(n)).collect()
+        } else {
+            self.scan(&start, loose, OUTLIERS)
+        };
+        let largest = *candidates.last()?;
+        let near_revolution = candidates.len() > MANY;
+        let in_frame_for =
+            |operations: &[Canonical]| self.in_frame(&refine(shape, start, operations, FIT, loose));
+        if near_revolution {
+            return self.better(as_is, in_frame_for(&golden()));
+        }
+        let target = shape.target_in_place();
+        let best = self.better(as_is, in_frame_for(&powers(largest, &target)));
+        best.or_else(|| {
+            let others = candidates.iter().rev().skip(1).take(SECOND_CHOICES);
+            others
+                .map(|&n| in_frame_for(&powers(n, &target)))
+                .find_map(|found| found)
+        })
+    }
+
+    /// What holds after an adjustment to the order found.
+    fn polished(&self, found: &Rotation, radius: f64) -> Option<Rotation> {
+        let shape = self.shape;
+        let operations = match found.distinct {
+            false => golden(),
+            true if found.permutation.is_identity() => {
+                powers(found.order, &shape.target_in_place())
+            }
+            true => powers(found.order, &Target::Any),
+        };
+        let reach = self.limits.reach(found.deviation.value, radius);
+        self.in_frame(&refine(shape, found.frame, &operations, 3 * FIT, reach))
+    }
+}
+
+/// A handful of powers of the rotation by a turn over `n`, for an adjustment.
+pub fn powers(n: u32, target: &Target) -> Vec<Canonical> {
+    let canonical = |power| Canonical::new(power, target.clone());
+    some_powers(n).into_iter().map(canonical).collect()
+}
+
+fn golden() -> Vec<Canonical> {
+    let canonical = |matrix| Canonical {
+        matrix,
+        target: Target::Any,
+    };
+    golden_turns(GOLDEN).map(canonical).collect()
+}

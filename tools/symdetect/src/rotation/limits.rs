@@ -1,0 +1,66 @@
+//! Tolerances of a search.
+
+use crate::allowance::model::FACETS;
+use crate::verify::Bound;
+
+/// Share of samples that may be off in a scan, while axis and centre are still rough: one in eight.
+pub const OUTLIERS: f64 = 0.125;
+
+/// Deviations, in tolerances, that a candidate may have before axis and centre are adjusted. The centre of mass is off
+/// the centre by what a flaw weighs, and both halves of a deviation by as much again.
+const LOOSE: f64 = 8.0;
+/// Bounds on that, relative to the radius: with less, the default tolerance's candidates would be lost at tight
+/// tolerances, though their axes are no better known; with more, anything is a candidate.
+const LOOSE_RANGE: [f64; 2] = [8e-3, 0.2];
+
+/// Tolerances of a search, relative to the radius about the axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// What verified operations keep to.
+    pub tolerance: f64,
+    /// What candidates keep to before axis and centre are adjusted.
+    pub loose: f64,
+    /// Whether up to [`FACETS`] is allowed on top where facets that stand for a smooth surface
+    /// explain it.
+    pub facets: bool,
+    /// Only multiples of this order are looked for.
+    pub multiples_of: u32,
+}
+
+impl Limits {
+    /// For a tolerance.
+    pub fn new(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            loose: (LOOSE * tolerance).clamp(LOOSE_RANGE[0], LOOSE_RANGE[1]),
+            facets: false,
+            multiples_of: 1,
+        }
+    }
+
+    /// The same with the allowance for facets everywhere.
+    pub fn widened(&self) -> Self {
+        Self::new((1.0 + FACETS) * self.tolerance)
+    }
+
+    /// How far from the surface images are taken into account when an operation that holds is adjusted: a few times
+    /// what it deviates by or the tolerance, and never so little that the first sample that is off a little drops out.
+    pub fn reach(&self, deviation: f64, radius: f64) -> f64 {
+        let most = 0.5 * LOOSE * self.tolerance * radius;
+        (4.0 * deviation).clamp(0.025 * most, most)
+    }
+
+    /// Whether an order is looked for.
+    pub fn admit(&self, order: u32) -> bool {
+        order.is_multiple_of(self.multiples_of)
+    }
+
+    /// The bound on deviations of verified operations for a radius.
+    pub fn bound(&self, radius: f64) -> Bound {
+        let limit = self.tolerance * radius;
+        Bound {
+            limit,
+            facets: if self.facets { FACETS * limit } else { 0.0 },
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! The rotations of a body: candidate axes, and the highest order about each of them.
+
+mod axes;
+mod candidates;
+mod facet_count;
+mod find;
+mod highest;
+mod limits;
+mod query;
+mod refine;
+mod scan;
+
+pub use axes::FIRST_DIRECTIONS;
+pub use find::{Rotation, powers};
+pub use limits::{Limits, OUTLIERS};
+pub use query::Query;
+pub use refine::{Canonical, refine};

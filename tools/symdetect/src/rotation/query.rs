@@ -1,0 +1,81 @@
+//! What is asked of a body.
+
+use crate::params::Params;
+use crate::rotation::find::OrderSearch;
+use crate::rotation::limits::Limits;
+use crate::shape::Shape;
+use crate::tolerance::{ROUNDINGS, SINGLE};
+use crate::verify::Depth;
+use geom::tolerance::{Extent, Tolerance};
+use glam::DVec3;
+use std::ops::RangeInclusive;
+use tmesh::Frame;
+
+/// A body and what is wanted of it.
+pub struct Query<'a> {
+    /// The body.
+    pub shape: &'a Shape,
+    /// The options.
+    pub params: &'a Params,
+    /// The tolerances at present.
+    pub limits: Limits,
+    /// Sine of the angle up to which two directions are the same axis.
+    pub parallel: f64,
+    /// The centre, given or that of mass, in the coordinates of the shape.
+    pub centre: DVec3,
+}
+
+impl<'a> Query<'a> {
+    /// Of the options.
+    pub fn new(shape: &'a Shape, params: &'a Params) -> Self {
+        // The shape fills the unit ball.
+        let extent = Extent {
+            radius: 1.0,
+            height: 1.0,
+        };
+        Self {
+            shape,
+            params,
+            parallel: Tolerance::new(extent, shape.precision, params.tolerance).parallel(),
+            limits: Limits::new(params.tolerance),
+            centre: params.center.map_or(DVec3::ZERO, |c| shape.of_world(c)),
+        }
+    }
+
+    /// Whether two unit vectors are, either way round, the direction of the same axis.
+    pub fn same_axis(&self, a: DVec3, b: DVec3) -> bool {
+        a.cross(b).length() < self.parallel
+    }
+
+    /// Orders asked for.
+    pub fn orders(&self) -> RangeInclusive<u32> {
+        match self.params.order {
+            Some(n) => n..=n,
+            None => 2..=self.params.max_order,
+        }
+    }
+
+    /// A search for orders about one axis, by quick tests.
+    pub fn search(&self, orders: RangeInclusive<u32>, limits: Limits) -> OrderSearch<'a> {
+        OrderSearch {
+            shape: self.shape,
+            orders,
+            limits,
+            depth: Depth::Quick,
+        }
+    }
+
+    /// Whether the line along `free` (or, with `free` zero, the point) through the frame's origin
+    /// passes the centre that the user gave; an adjustment may move it by as much as it adjusts.
+    pub fn passes_centre(&self, frame: &Frame, free: DVec3, radius: f64) -> bool {
+        let off = frame.origin - self.centre;
+        let off = (off - free * off.dot(free)).length();
+        self.params.center.is_none() || off <= 0.5 * self.limits.loose * radius
+    }
+
+    /// Deviation that the input's precision explains, in the units of the shape; never less than that of single
+    /// precision, which the input may have had before.
+    pub fn noise(&self, radius: f64) -> f64 {
+        (SINGLE * radius).max(ROUNDINGS * self.shape.precision)
+    }
+}

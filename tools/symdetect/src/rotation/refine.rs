@@ -1,0 +1,161 @@
+//! Adjusting axis, centre and mirror plane to the shape.
+
+use crate::shape::{Motion, Shape, Target};
+use crate::tolerance::VANISHING;
+use geom::eigen;
+use glam::{DMat3, DVec3};
+use tmesh::{Frame, Isometry};
+
+/// Triangles whose normals differ by more than this cosine are not taken for images of each other.
+const SAME_FACE: f64 = 0.7;
+
+/// An operation by its matrix in the frame that is being adjusted.
+pub struct Canonical {
+    /// Orthogonal matrix.
+    pub matrix: DMat3,
+    /// Where triangles may land.
+    pub target: Target,
+}
+
+impl Canonical {
+    /// An isometry of the frame.
+    pub fn new(isometry: Isometry, target: Target) -> Self {
+        Self {
+            matrix: isometry.matrix(),
+            target,
+        }
+    }
+}
+
+/// Moves and turns the frame so that the operations, which are fixed in the frame, map the surface
+/// onto itself as well as can be in the sense of least squares.
+///
+/// Gauss-Newton on point-to-plane distances of face samples to the nearest triangle (Chen and
+/// Medioni 1992), where the unknown is the frame rather than the motion. Samples farther off than
+/// `reach` are left out. The result has no larger mean square than the start.
+pub fn refine(
+    shape: &Shape,
+    start: Frame,
+    operations: &[Canonical],
+    samples: usize,
+    reach: f64,
+) -> Frame {
+    let mut best = start;
+    let mut reach = reach;
+    let mut best_error = f64::INFINITY;
+    let mut frame = start;
+    for _ in 0..12 {
+        let Some(step) = gauss_newton(shape, &frame, operations, samples, reach) else {
+            break;
+        };
+        if step.mean_square >= best_error {
+            break;
+        }
+        let gain = step.mean_square < 0.9 * best_error;
+        best_error = step.mean_square;
+        best = frame;
+        if !gain || step.mean_square == 0.0 {
+            break;
+        }
+        frame = step.frame;
+        // Outliers leave as the fit gets better, but never what a good fit would keep.
+        reach = reach.min(20.0 * step.mean_square.sqrt()).max(0.05 * reach);
+    }
+    best
+}
+
+struct Step {
+    frame: Frame,
+    mean_square: f64,
+}
+
+fn gauss_newton(
+    shape: &Shape,
+    frame: &Frame,
+    operations: &[Canonical],
+    samples: usize,
+    reach: f64,
+) -> Option<Step> {
+    let motions: Vec<Motion> = operations
+        .iter()
+        .map(|o| Motion::new(frame, o.matrix))
+        .collect();
+    let mut a = [[0.0; 6]; 6];
+    let mut b = [0.0; 6];
+    let (mut sum, mut count) = (0.0, 0_usize);
+    let faces = &shape.samples.faces;
+    let taken = samples.min(faces.len() * operations.len());
+    for i in 0..taken {
+        let sample = &faces[i % faces.len()];
+        let which = (i + i / faces.len()) % operations.len();
+        let (motion, target) = (&motions[which], &operations[which].target);
+        let y = motion.apply(sample.point);
+        let turned = motion.linear * shape.normals[sample.triangle as usize];
+        let Some(hit) = shape.nearest(y, sample.triangle, target, reach) else {
+            sum += reach * reach;
+            count += 1;
+            continue;
+        };
+        // The plane of the sample's own face, moved: same plane as the one it lands on when the
+        // faces match, and defined on edges as well.
+        let normal = turned;
+        let off = y - hit.point;
+        if hit.distance > 0.0 && off.dot(normal).abs() < SAME_FACE * hit.distance {
+            // Slid off the edge of a face: says nothing about the distance between faces.
+            sum += hit.distance * hit.distance;
+            count += 1;
+            continue;
+        }
+        let e = normal.dot(off);
+        let back = motion.linear.transpose() * normal;
+        let (x, z) = (sample.point - motion.centre, y - motion.centre);
+        let turn = z.cross(normal) - x.cross(back);
+        let shift = normal - back;
+        let row = [turn.x, turn.y, turn.z, shift.x, shift.y, shift.z];
+        for (p, u) in row.iter().enumerate() {
+            for (q, v) in row.iter().enumerate() {
+                a[p][q] += u * v;
+            }
+            b[p] -= u * e;
+        }
+        sum += e * e;
+        count += 1;
+    }
+    if count < 6 {
+        return None;
+    }
+    let solution = eigen::symmetric(a);
+    let mut x = [0.0; 6];
+    for (value, vector) in solution.values.iter().zip(&solution.vectors) {
+        // Motions that the operations do not see, such as a slide along the axis, are left out.
+        if *value > VANISHING * solution.values[5] {
+            let along: f64 = vector.iter().zip(&b).map(|(v, b)| v * b).sum::<f64>() / value;
+            for (x, v) in x.iter_mut().zip(vector) {
+                *x += along * v;
+            }
+        }
+    }
+    let turn = DVec3::new(x[0], x[1], x[2]);
+    let shift = DVec3::new(x[3], x[4], x[5]);
+    let scale = (0.1 / turn.length().max(shift.length())).min(1.0);
+    Some(Step {
+        frame: moved(frame, turn * scale, shift * scale),
+        mean_square: sum / count as f64,
+    })
+}
+
+/// The frame turned by a small rotation vector about its origin and shifted.
+fn moved(frame: &Frame, turn: DVec3, shift: DVec3) -> Frame {
+    let angle = turn.length();
+    let rotate = |v: DVec3| {
+        if angle == 0.0 {
+            return v;
+        }
+        let (s, c) = libm::sincos(angle);
+        let axis = turn / angle;
+        v * c + axis.cross(v) * s + axis * (axis.dot(v) * (1.0 - c))
+    };
+    let z = rotate(frame.rotation.z_axis);
+    let x = rotate(frame.rotation.x_axis);
+    Frame::from_axis(frame.origin + shift, z, x).unwrap_or(*frame)
+}

@@ -1,0 +1,309 @@
+//! The body, made ready for symmetry tests: centred, scaled to unit size, sampled, and searchable.
+
+use crate::shape::faces::{Exactness, Faces, Surface};
+use crate::shape::facets::Facets;
+use crate::shape::interfaces::Interfaces;
+use crate::shape::moments::Moments;
+use crate::shape::motion::Target;
+use crate::shape::regions::Permutation;
+use crate::shape::samples::Samples;
+use crate::threads::both;
+use crate::tolerance::{ARITHMETIC, ROUNDINGS};
+use geom::bvh::{Bvh, Nearest};
+use glam::DVec3;
+use std::sync::OnceLock;
+use tmesh::{Frame, Template};
+
+/// A surface in coordinates where its centre is the origin and its farthest point is at distance 1.
+pub struct Shape {
+    /// Vertex positions; those no triangle uses are at the origin.
+    pub vertices: Vec<DVec3>,
+    /// Vertex ids.
+    pub triangles: Vec<[u32; 3]>,
+    /// Unit normals; zero for triangles without area.
+    pub normals: Vec<DVec3>,
+    /// Regions on the sides of the triangles.
+    pub interfaces: Interfaces,
+    /// World position of the origin.
+    pub origin: DVec3,
+    /// World length of 1.
+    pub scale: f64,
+    /// Absolute error of a coordinate in this frame.
+    pub precision: f64,
+    /// Moments, in this frame.
+    pub moments: Moments,
+    /// Test points.
+    pub samples: Samples,
+    all: Bvh,
+    by_class: Vec<ClassSurface>,
+    facets: OnceLock<Facets>,
+    faces: OnceLock<Option<Faces>>,
+}
+
+/// The triangles of one class.
+struct ClassSurface {
+    bvh: Bvh,
+    /// Index of each of them in the whole surface.
+    triangles: Vec<u32>,
+}
+
+/// Triangles up to which flat faces are looked for. Finding them takes some 0.3 microseconds a triangle and a test of
+/// them as long again, where samples take the same time however many triangles there are: with more, samples tell
+/// sooner; with fewer, faces tell more.
+const FACES_LOOKED_FOR: usize = 100_000;
+
+/// Distance, in the units of the shape, up to which corners may be images of each other where the precision of
+/// coordinates does not explain more: coordinates written with ten digits. With less, corners from text are told by
+/// samples; with more, corners that are no images of each other may be as near.
+const SAME_CORNER: f64 = 1e-10;
+/// Rounding, in the units of the shape, up to which flat faces are looked for: a tenth of the default tolerance. Of
+/// coarser coordinates, as far away from the origin, corners that are no images of each other may be as near; of
+/// finer ones, faces prove what samples can only support.
+const COARSEST: f64 = 1e-4;
+
+impl Shape {
+    /// Prepares a surface. `precision` is the absolute error of a coordinate, world units. Returns
+    /// `None` when the surface has no triangles or no extent.
+    pub fn new(template: &Template, precision: Option<f64>) -> Option<Self> {
+        let triangles: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
+        let interfaces = Interfaces::new(template);
+        let placed = Placed::new(template, &triangles, &interfaces)?;
+        let vertices = placed.vertices;
+        // Without better knowledge, single precision.
+        let precision = precision.unwrap_or(placed.largest * f64::from(f32::EPSILON) / 2.0);
+        let normal = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| vertices[v as usize]);
+            (b - a).cross(c - a).normalize_or_zero()
+        };
+        let normals = triangles.iter().map(normal).collect();
+        let corners = |t: u32| triangles[t as usize].map(|v| vertices[v as usize]);
+        let sample = || {
+            let samples = Samples::new(&vertices, &triangles, &interfaces);
+            (samples, Bvh::new((0..triangles.len() as u32).map(corners)))
+        };
+        let (by_class, (samples, all)) = both(|| sort_out(&interfaces, corners), sample);
+        Some(Self {
+            origin: placed.origin,
+            scale: placed.scale,
+            precision: precision / placed.scale,
+            moments: placed.moments,
+            samples,
+            all,
+            by_class,
+            facets: OnceLock::new(),
+            faces: OnceLock::new(),
+            vertices,
+            triangles,
+            normals,
+            interfaces,
+        })
+    }
+
+    /// Regions in use, outside included.
+    pub fn region_count(&self) -> usize {
+        self.interfaces.regions.len()
+    }
+
+    /// Corners and material sign of every triangle, as the moments want them.
+    pub fn signed_triangles(&self) -> impl Iterator<Item = ([DVec3; 3], f64)> + '_ {
+        let corners = |t: &[u32; 3]| t.map(|v| self.vertices[v as usize]);
+        let signed = self.triangles.iter().enumerate();
+        signed.map(move |(i, t)| (corners(t), self.interfaces.sign(i)))
+    }
+
+    /// Largest distance of a vertex from the z axis of a frame.
+    pub fn radius(&self, frame: &Frame) -> f64 {
+        let axis = frame.rotation.z_axis;
+        self.vertices
+            .iter()
+            .map(|p| {
+                let d = *p - frame.origin;
+                (d - axis * d.dot(axis)).length_squared()
+            })
+            .fold(0.0, f64::max)
+            .sqrt()
+    }
+
+    /// The nearest point of the surface to the image of a sample, if nearer than `within`.
+    #[inline]
+    pub fn nearest(
+        &self,
+        image: DVec3,
+        triangle: u32,
+        target: &Target,
+        within: f64,
+    ) -> Option<Nearest> {
+        self.near_enough(image, triangle, target, within, 0.0)
+    }
+
+    /// The same, content with any point no farther than `enough`.
+    #[inline]
+    pub fn near_enough(
+        &self,
+        image: DVec3,
+        triangle: u32,
+        target: &Target,
+        within: f64,
+        enough: f64,
+    ) -> Option<Nearest> {
+        match target {
+            Target::Classes(map) if !self.by_class.is_empty() => {
+                let class = map[self.interfaces.class[triangle as usize] as usize];
+                let surface = self.by_class.get(class as usize)?;
+                let mut hit = surface.bvh.near_enough(image, within, enough)?;
+                hit.triangle = surface.triangles[hit.triangle as usize];
+                Some(hit)
+            }
+            _ => self.all.near_enough(image, within, enough),
+        }
+    }
+
+    /// What the facets may hide.
+    pub fn facets(&self) -> &Facets {
+        let make = || Facets::new(&self.vertices, &self.triangles, &self.normals);
+        self.facets.get_or_init(make)
+    }
+
+    /// Flat faces, where there are any that tell more than samples do.
+    pub fn faces(&self) -> Option<&Faces> {
+        let make = || {
+            let surface = Surface {
+                vertices: &self.vertices,
+                triangles: &self.triangles,
+                sides: &self.interfaces.sides,
+                class: &self.interfaces.class,
+            };
+            let few = self.triangles.len() <= FACES_LOOKED_FOR;
+            let told = few && self.rounding() <= COARSEST;
+            let exact = Exactness {
+                flat: self.rounding(),
+                reach: self.same_corner(),
+            };
+            told.then(|| Faces::new(&surface, &self.normals, exact))?
+        };
+        self.faces.get_or_init(make).as_ref()
+    }
+
+    /// The target that a permutation of regions asks for.
+    pub fn target(&self, permutation: &Permutation) -> Target {
+        self.interfaces.target(permutation)
+    }
+
+    /// Every region stays where it is.
+    pub fn target_in_place(&self) -> Target {
+        self.target(&Permutation::identity(self.region_count()))
+    }
+
+    /// Deviation that the rounding of coordinates explains.
+    pub fn rounding(&self) -> f64 {
+        ROUNDINGS * self.precision + ARITHMETIC
+    }
+
+    /// Distance up to which corners may be images of each other.
+    pub fn same_corner(&self) -> f64 {
+        self.rounding().max(SAME_CORNER)
+    }
+
+    /// World position of a point.
+    pub fn to_world(&self, p: DVec3) -> DVec3 {
+        self.origin + self.scale * p
+    }
+
+    /// Position of a world point in this frame.
+    pub fn of_world(&self, p: DVec3) -> DVec3 {
+        (p - self.origin) / self.scale
+    }
+}
+
+/// A surface moved and scaled into the unit ball.
+struct Placed {
+    vertices: Vec<DVec3>,
+    moments: Moments,
+    origin: DVec3,
+    scale: f64,
+    /// The largest coordinate, world units.
+    largest: f64,
+}
+
+impl Placed {
+    fn new(template: &Template, triangles: &[[u32; 3]], interfaces: &Interfaces) -> Option<Self> {
+        let mut used = vec![false; template.vertices.len()];
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &v in triangles.iter().flatten() {
+            used[v as usize] = true;
+            low = low.min(template.vertices[v as usize]);
+            high = high.max(template.vertices[v as usize]);
+        }
+        let half = 0.5 * (high - low).length();
+        // Halving before adding keeps enormous coordinates finite.
+        let middle = 0.5 * low + 0.5 * high;
+        if triangles.is_empty() || !half.is_finite() || half <= 0.0 {
+            return None;
+        }
+        let moments_of = |vertices: &[DVec3]| {
+            let corners = |t: &[u32; 3]| t.map(|v| vertices[v as usize]);
+            let signed = triangles.iter().enumerate();
+            Moments::new(signed.map(|(i, t)| (corners(t), interfaces.sign(i))))
+        };
+        let mut vertices: Vec<DVec3> = (template.vertices.iter().zip(&used))
+            .map(|(p, used)| {
+                if *used {
+                    (*p - middle) / half
+                } else {
+                    DVec3::ZERO
+                }
+            })
+            .collect();
+        let centre = moments_of(&vertices).centre();
+        let reach = (vertices.iter().zip(&used))
+            .filter(|(_, used)| **used)
+            .map(|(p, _)| (*p - centre).length())
+            .fold(0.0, f64::max);
+        for (p, used) in vertices.iter_mut().zip(&used) {
+            if *used {
+                *p = (*p - centre) / reach;
+            }
+        }
+        Some(Self {
+            moments: moments_of(&vertices),
+            vertices,
+            origin: middle + half * centre,
+            scale: half * reach,
+            largest: low.abs().max(high.abs()).max_element(),
+        })
+    }
+}
+
+/// The triangles of each class, where there are several.
+fn sort_out(interfaces: &Interfaces, corners: impl Fn(u32) -> [DVec3; 3]) -> Vec<ClassSurface> {
+    let count = interfaces.classes.len();
+    let mut members = vec![Vec::new(); if count > 1 { count } else { 0 }];
+    for (t, &c) in interfaces.class.iter().enumerate() {
+        if let Some(members) = members.get_mut(c as usize) {
+            members.push(t as u32);
+        }
+    }
+    let surface = |members: Vec<u32>| ClassSurface {
+        bvh: Bvh::new(members.iter().map(|&t| corners(t))),
+        triangles: members,
+    };
+    members.into_iter().map(surface).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies::prism;
+
+    #[test]
+    fn corners_are_told_by_coordinates_that_are_good_enough() {
+        let document = prism(12, 1.0, 1.0);
+        let has_faces = |precision| {
+            let shape = Shape::new(&document.templates[0], Some(precision)).unwrap();
+            shape.faces().is_some()
+        };
+        assert!(has_faces(1e-15) && has_faces(1e-7));
+        // A grid would be searched far and wide.
+        assert!(!has_faces(1e-3) && !has_faces(1.0));
+    }
+}

@@ -1,0 +1,47 @@
+//! Flats of a surface: what lies in one plane.
+
+use crate::shape::table::Table;
+use geom::edges::Edges;
+use geom::flat::Regions;
+use glam::DVec3;
+
+/// Cosine of the angle between triangles of one flat: a tenth of a degree.
+const COPLANAR: f64 = 1.0 - 1.5e-6;
+/// Vertices by which the width of a flat is measured at most.
+const MOST_CORNERS: usize = 64;
+
+/// Triangles that lie in one plane and hang together.
+pub struct Flats {
+    /// Flat of each triangle.
+    pub of: Vec<u32>,
+    /// Some vertices of each flat.
+    corners: Table,
+}
+
+impl Flats {
+    /// Grows flats from their first triangle, so that they cannot creep around a bend. Linear.
+    pub fn new(triangles: &[[u32; 3]], normals: &[DVec3], edges: &Edges) -> Self {
+        let count = triangles.len() as u32;
+        let regions = Regions::grow(&edges.across(), 0..count, |seed, t| {
+            normals[t as usize].dot(normals[seed as usize]) > COPLANAR
+        });
+        let corners = regions.of.iter().zip(triangles);
+        let corners = corners.flat_map(|(&flat, corners)| corners.iter().map(move |&v| (flat, v)));
+        let mut vertices = Table::new(regions.seeds.len(), corners);
+        vertices.thin_out(MOST_CORNERS);
+        Self {
+            of: regions.of,
+            corners: vertices,
+        }
+    }
+
+    /// How many.
+    pub fn count(&self) -> usize {
+        self.corners.len()
+    }
+
+    /// Some vertices of a flat.
+    pub fn corners(&self, flat: u32) -> &[u32] {
+        self.corners.of(flat)
+    }
+}

@@ -1,0 +1,24 @@
+//! The body as arrays that symmetry tests can work on: vertices, triangles, interfaces, samples, flat faces, moments.
+
+mod body;
+mod directional;
+mod faces;
+mod facets;
+mod flats;
+mod interfaces;
+mod moments;
+mod motion;
+mod outlines;
+mod random;
+mod regions;
+mod samples;
+mod table;
+
+pub use body::Shape;
+pub use directional::DirectionalMoment;
+pub use faces::Faces;
+pub use flats::Flats;
+pub use motion::{Motion, NO_CLASS, Target};
+pub use random::Random;
+pub use regions::Permutation;
+pub use samples::Sample;

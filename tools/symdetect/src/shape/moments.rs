@@ -1,0 +1,105 @@
+//! Moments of a body and of its surface, as exact integrals of polynomials over triangles, so that
+//! they depend on the shape and not on its tessellation.
+
+use crate::tolerance::VANISHING;
+use glam::{DMat3, DVec3};
+
+/// Volume moments of the material and area moments of all triangles (boundary and interfaces).
+pub struct Moments {
+    /// Volume of the material, units cubed.
+    pub volume: f64,
+    /// Centre of the volume.
+    pub volume_centre: DVec3,
+    /// Second moments of the volume about its centre, divided by the volume.
+    pub volume_tensor: DMat3,
+    /// Area of all triangles, units squared.
+    pub area: f64,
+    /// Centre of the area.
+    pub area_centre: DVec3,
+    /// Second moments of the area about its centre, divided by the area.
+    pub area_tensor: DMat3,
+}
+
+impl Moments {
+    /// Integrates over triangles given by their corners and the sign with which each bounds material:
+    /// 1 with material behind it, -1 with material in front, 0 between two materials.
+    pub fn new(triangles: impl Iterator<Item = ([DVec3; 3], f64)>) -> Self {
+        let (mut volume, mut first, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
+        let (mut area, mut area_first, mut area_second) = (0.0, DVec3::ZERO, DMat3::ZERO);
+        for ([a, b, c], sign) in triangles {
+            let sum = a + b + c;
+            let squares = outer(a) + outer(b) + outer(c) + outer(sum);
+            let v = sign * a.dot(b.cross(c)) / 6.0;
+            volume += v;
+            first += sum * (v / 4.0);
+            second += squares * (v / 20.0);
+            let s = 0.5 * (b - a).cross(c - a).length();
+            area += s;
+            area_first += sum * (s / 3.0);
+            area_second += squares * (s / 12.0);
+        }
+        let about = |mass: f64, first: DVec3, second: DMat3| {
+            if mass > 0.0 {
+                let centre = first / mass;
+                (centre, second * (1.0 / mass) - outer(centre))
+            } else {
+                (DVec3::ZERO, DMat3::ZERO)
+            }
+        };
+        let (volume_centre, volume_tensor) = about(volume, first, second);
+        let (area_centre, area_tensor) = about(area, area_first, area_second);
+        Self {
+            volume,
+            volume_centre,
+            volume_tensor,
+            area,
+            area_centre,
+            area_tensor,
+        }
+    }
+}
+
+impl Moments {
+    /// Whether the surface encloses more than rounding.
+    pub fn has_volume(&self) -> bool {
+        self.volume > VANISHING * self.area
+    }
+
+    /// Centre of the volume, or of the surface when it encloses hardly any.
+    pub fn centre(&self) -> DVec3 {
+        if self.has_volume() {
+            self.volume_centre
+        } else {
+            self.area_centre
+        }
+    }
+}
+
+fn outer(v: DVec3) -> DMat3 {
+    DMat3::from_cols(v * v.x, v * v.y, v * v.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies;
+
+    fn cube() -> Vec<([DVec3; 3], f64)> {
+        let body = bodies::prism(4, 1.0, std::f64::consts::SQRT_2);
+        let t = &body.templates[0];
+        t.triangles
+            .iter()
+            .map(|x| (x.vertices.map(|v| t.vertices[v as usize]), 1.0))
+            .collect()
+    }
+
+    #[test]
+    fn moments_of_a_cube() {
+        let m = Moments::new(cube().into_iter());
+        let side = std::f64::consts::SQRT_2;
+        assert!((m.volume - side.powi(3)).abs() < 1e-12);
+        assert!((m.area - 6.0 * side * side).abs() < 1e-12);
+        let expected = DMat3::from_diagonal(DVec3::splat(side * side / 12.0));
+        assert!(m.volume_tensor.abs_diff_eq(expected, 1e-12));
+    }
+}

@@ -1,0 +1,106 @@
+//! Tests of operations at samples of the surface.
+
+use crate::shape::{Sample, Shape, Target};
+use crate::threads;
+use crate::tolerance::ARITHMETIC;
+use crate::verify::deviation::{Bound, Deviation};
+use crate::verify::operation::Operation;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use tmesh::{Frame, Isometry};
+
+/// Tests that a thread does in one go: half a millisecond, long against the microseconds that handing them over takes.
+const SHARE: usize = 512;
+
+impl Shape {
+    /// Deviation of one test, and whether it passes. Beyond the bound, the distance to any triangle
+    /// that would do, or 1 when there is none.
+    fn test(&self, sample: &Sample, operation: &Operation, bound: Bound) -> (f64, bool) {
+        let image = operation.motion.apply(sample.point);
+        let enough = ARITHMETIC.min(0.1 * bound.limit);
+        let find =
+            |within| self.near_enough(image, sample.triangle, &operation.target, within, enough);
+        // A little beyond the bound, so that what is found within it is found exactly.
+        if let Some(n) = find(1.01 * bound.most()) {
+            let passes = n.distance <= bound.limit
+                || (n.distance <= bound.most()
+                    && n.distance - bound.limit <= self.explained(sample.triangle, n.triangle));
+            return (n.distance, passes);
+        }
+        // Where many triangles are about equally far, an open search would visit them all.
+        let mut within = 4.0 * bound.most();
+        while within < 2.0 {
+            if let Some(n) = find(within) {
+                return (n.distance, false);
+            }
+            within *= 4.0;
+        }
+        (find(f64::INFINITY).map_or(1.0, |n| n.distance), false)
+    }
+
+    /// Distance of the image of a sample under an isometry of the frame from any triangle, if within a limit.
+    pub fn distance_of_image(
+        &self,
+        frame: &Frame,
+        isometry: Isometry,
+        sample: &Sample,
+        within: f64,
+    ) -> Option<f64> {
+        let image = frame.to_world(isometry.apply(frame.to_canonical(sample.point)));
+        let hit = self.nearest(image, sample.triangle, &Target::Any, within)?;
+        Some(hit.distance)
+    }
+
+    /// The deviation between two triangles that facets explain: what they explain for both.
+    fn explained(&self, a: u32, b: u32) -> f64 {
+        let bulge = |t: u32| self.facets().around(self.triangles[t as usize]);
+        bulge(a).min(bulge(b))
+    }
+
+    /// Runs tests 0 to `count - 1`; `job` names sample and operation of each. Returns the largest
+    /// deviation, or as an error the first one that does not pass.
+    pub fn worst<'a>(
+        &self,
+        count: usize,
+        bound: Bound,
+        job: impl Fn(usize) -> (&'a Sample, &'a Operation) + Sync,
+    ) -> Result<Deviation, Deviation> {
+        let run = |range: Range<usize>| {
+            let mut worst = Deviation::UNTESTED;
+            for i in range {
+                let (sample, operation) = job(i);
+                let (value, passes) = self.test(sample, operation, bound);
+                let deviation = Deviation {
+                    value,
+                    at: sample.point,
+                    image: operation.motion.apply(sample.point),
+                    everywhere: false,
+                };
+                if !passes {
+                    return Err(deviation);
+                }
+                worst = worst.max(deviation);
+            }
+            Ok(worst)
+        };
+        // What fails mostly fails early.
+        let first = count.min(SHARE / 2);
+        let mut worst = run(0..first)?;
+        let shares: Vec<Range<usize>> = (first..count)
+            .step_by(SHARE)
+            .map(|i| i..(i + SHARE).min(count))
+            .collect();
+        // Shares behind the first one that fails make no difference.
+        let failed = AtomicUsize::new(usize::MAX);
+        let unless_failed = |share: &Range<usize>| {
+            if share.start > failed.load(Ordering::Relaxed) {
+                return Ok(Deviation::UNTESTED);
+            }
+            run(share.clone()).inspect_err(|_| _ = failed.fetch_min(share.start, Ordering::Relaxed))
+        };
+        for result in threads::map(&shares, unless_failed) {
+            worst = worst.max(result?);
+        }
+        Ok(worst)
+    }
+}
