@@ -39,7 +39,7 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let kinds: Vec<Group> = kinds.filter(wanted).collect();
     let cuts: Vec<estimate::Cut> = kinds.iter().map(|&g| describe(body, g, first)).collect();
     let bounds = Bounds {
-        radius_edge: body.params.radius_edge,
+        radius_edge: body.document.wishes.radius_edge(),
         hubs: match body.params.hub {
             Hub::Radius(radius) => Hubs::Radius(radius),
             Hub::None => Hubs::None,
