@@ -9,8 +9,6 @@ use tmesh::{
 
 const DEFAULT: Params = Params {
     hub: crate::Hub::None,
-    max_volume: None,
-    radius_edge: crate::cli::RADIUS_EDGE,
     level: false,
     domain: Domain::Auto,
     order: None,
