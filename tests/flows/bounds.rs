@@ -54,9 +54,7 @@ fn shells_in_line() {
 #[test]
 fn reading_takes_memory_in_proportion_to_the_file() {
     let off = shapes::off(&shapes::coplanar(200_000)).into_bytes();
-    let document = interchange::read(&off, Format::Off)
-        .expect("it is sound")
-        .document;
+    let document = heal::read(&off, Format::Off).expect("it is sound").document;
     let mut files = vec![(Format::Off, off)];
     for format in [
         Format::Tmesh,

@@ -1,7 +1,8 @@
 //! Writes the corpus that the targets start from into the folder given, a subfolder per target: small
 //! bodies in every format, made by this project's own writers where there are such.
 
-use interchange::{Format, Surface, WriteOptions, read, second_order};
+use heal::read;
+use interchange::{Format, Surface, WriteOptions, second_order};
 use rotassemble::{Assembled, write_expanded};
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,9 +1,9 @@
-//! Why a foreign file could not be read.
+//! Why a foreign file could not be read or written.
 
-use glam::DVec3;
+use std::io;
 use thiserror::Error;
 
-/// Why a foreign file could not be read. Each message names the place in the file or in space.
+/// Why a foreign file could not be read. Each message names the place in the file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ReadError {
@@ -18,27 +18,42 @@ pub enum ReadError {
     /// The format is known, but not for input.
     #[error("{0} is not an input format")]
     NotAnInput(&'static str),
-    /// The surface is well-formed but not what the pipe can work with.
-    #[error("{0}")]
-    BadSurface(String),
-    /// The surface is well-formed but not closed.
-    #[error("{message}")]
-    NotClosed {
-        /// How many edges, and where the first ones are.
-        message: String,
-        /// All of them.
-        edges: Box<OddEdges>,
-    },
     /// The document inside is damaged.
     #[error(transparent)]
     Tmesh(#[from] tmesh::DecodeError),
 }
 
-/// Edges that keep a surface from being closed, by their ends in world coordinates.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct OddEdges {
-    /// Edges of one triangle only.
-    pub open: Vec<[DVec3; 2]>,
-    /// Edges with three triangles or a higher odd number.
-    pub crowded: Vec<[DVec3; 2]>,
+/// Why a mesh could not be written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// Writing failed.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// The format is known, but not for output.
+    #[error("{0} is not an output format")]
+    NotAnOutput(&'static str),
+    /// The mesh has more of something than the format can count.
+    #[error("the mesh has {count} {what}, and {format} counts no further than {limit}")]
+    TooLarge {
+        /// Format name.
+        format: &'static str,
+        /// What there is too much of.
+        what: &'static str,
+        /// How many there are.
+        count: u64,
+        /// How many the format can count.
+        limit: u64,
+    },
+    /// A surface format, and no surface.
+    #[error("the mesh has no surface triangles, so there is nothing to write as {0}")]
+    NoSurface(&'static str),
+    /// A format of several files, and one place to write to.
+    #[error(
+        "a mesh in the format {0} is several files; give a path with rotassemble -o, such as mesh.{0}"
+    )]
+    SeveralFiles(&'static str),
+    /// Second-order elements in a format that is written with first-order ones only.
+    #[error("{0} is written with first-order elements only")]
+    NoSecondOrder(&'static str),
 }

@@ -1,49 +1,41 @@
-//! Readers and writers of foreign mesh formats, one module per format, and content sniffing.
+//! Readers and writers of foreign mesh formats: a folder per format, and one table of them.
+//!
+//! Readers return what the file lists ([`parsed`]); writers take a mesh block by block ([`MeshStream`]).
+//! Nothing here judges or repairs geometry.
 
-mod closure;
-mod coincident;
-mod decimal;
-mod document;
+mod binary;
 mod error;
-mod facet;
-mod format;
-mod grid;
-mod middles;
+mod formats;
+mod inp;
+mod listing;
+mod medit;
 mod msh;
-mod near;
-mod needles;
 mod obj;
 mod off;
-mod place;
-mod plc;
+mod options;
+pub mod parsed;
 mod ply;
-mod poly;
-mod polygon;
-mod read;
-mod segments;
-mod shells;
-pub mod sides;
-mod skin;
-mod solids;
-mod soup;
+mod sink;
 mod stl;
 mod stream;
-mod surface;
-mod tokens;
+mod tetgen;
+pub mod text;
+mod title;
 mod vtk;
 mod vtu;
-mod weld;
-mod write;
 
-pub use error::{OddEdges, ReadError};
-pub use format::Format;
-pub use middles::{Middles, TooManyPoints, second_order};
-pub use read::{Imported, read, sniff};
+pub use error::{ReadError, WriteError};
+pub use formats::{
+    Entry, Format, Writer, file_parts, parse, size_estimate, sniff, write, write_document,
+    write_part,
+};
+pub use listing::write_text;
+pub use options::{Parity, Surface, WriteOptions};
+pub use parsed::Parsed;
 pub use stream::{
-    Coupling, Label, MeshStream, Patch, PatchBlock, PatchSink, PointSink, Side, TetBlock,
-    TetRegionBlock, TetRegionSink, TetSink, TriangleBlock, TriangleSink,
+    Coupling, Label, MeshStream, Middles, Patch, PatchBlock, PatchSink, Plain, PointSink, Side,
+    TetBlock, TetRegionBlock, TetRegionSink, TetSink, TooManyPoints, TriangleBlock, TriangleSink,
+    placed_side, second_order, sides,
 };
-pub use write::{
-    Parity, Plain, Surface, WriteError, WriteOptions, file_parts, parse_promise, placed_side,
-    promise_title, size_estimate, write, write_document, write_part, write_pieces, write_text,
-};
+pub use title::{parse_promise, promise_title};
+pub use vtu::write_pieces;

@@ -1,7 +1,8 @@
 //! What has to hold of every reader.
 
 use crate::limited;
-use interchange::{Format, read, sniff, write_document};
+use heal::read;
+use interchange::{Format, sniff, write_document};
 use std::collections::BTreeMap;
 use tmesh::Document;
 

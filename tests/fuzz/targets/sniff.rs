@@ -1,6 +1,7 @@
 #![no_main]
 
-use interchange::{read, sniff};
+use heal::read;
+use interchange::sniff;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {

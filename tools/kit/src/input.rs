@@ -1,7 +1,8 @@
 //! Reading the one input document.
 
 use crate::{Failure, Session};
-use interchange::{Format, Imported, ReadError, sniff};
+use heal::{HealError, Imported};
+use interchange::{Format, sniff};
 use std::fs::File;
 use std::io::{BufReader, IsTerminal, Read};
 use std::path::Path;
@@ -99,9 +100,9 @@ impl Session {
             return Ok(document);
         }
         input.read_to_end(&mut head).map_err(read)?;
-        let Imported { document, notices } = interchange::read(&head, format).map_err(|error| {
+        let Imported { document, notices } = heal::read(&head, format).map_err(|error| {
             let text = error.to_string();
-            if let ReadError::NotClosed { edges, .. } = error {
+            if let HealError::NotClosed { edges, .. } = error {
                 let _ = self.odd_edges.set(*edges);
             }
             text

@@ -2,8 +2,8 @@
 
 use crate::messages::{self, Level};
 use crate::{CommonArgs, MessageFormat};
+use heal::OddEdges;
 use indicatif::{ProgressBar, ProgressStyle};
-use interchange::OddEdges;
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::sync::OnceLock;

@@ -6,10 +6,8 @@
 mod check;
 mod cli;
 mod error;
-mod faces;
 mod instances;
 mod measure;
-mod nearby;
 mod present;
 mod report;
 mod soundness;

@@ -4,7 +4,7 @@ use crate::shape::Flats;
 use geom::contacts::{Search, contacts};
 use geom::edges::Edges;
 use glam::DVec3;
-use interchange::OddEdges;
+use heal::OddEdges;
 use kit::point;
 use serde::Serialize;
 use tmesh::{OUTSIDE, Template};

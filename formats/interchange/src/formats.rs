@@ -1,0 +1,437 @@
+//! The table of all formats, and what asks it: names, extensions, sniffing, readers and writers.
+//!
+//! A new format is a folder with its reader and writer, an entry here, and tests.
+
+use crate::parsed::Parsed;
+use crate::stream::{MeshStream, Plain};
+use crate::{
+    ReadError, WriteError, WriteOptions, inp, listing, medit, msh, obj, off, ply, stl, tetgen, vtk,
+    vtu,
+};
+use std::io::Write;
+use std::path::Path;
+use tmesh::Document;
+
+/// What is known of one format.
+pub struct Entry {
+    /// The name used with `--from` and `--to`, which is also the usual extension.
+    pub name: &'static str,
+    /// Other names and extensions.
+    pub also: &'static [&'static str],
+    /// Whether its bytes are not text.
+    pub is_binary: bool,
+    /// How its content shows.
+    sniff: Sniff,
+    /// Parses a whole file; none where the format is not for input.
+    read: Option<Reader>,
+    /// How it is written.
+    pub writer: Writer,
+    /// Whether it has elements of second order.
+    pub second_order: bool,
+    /// Whether it has conditions at mirror planes, [`WriteOptions::parities`].
+    pub conditions: bool,
+    /// Whether elements are listed in blocks of one region, so that meshes are best sorted by region.
+    pub by_region: bool,
+    /// Number of the first point and element.
+    pub first_id: u64,
+}
+
+/// Parses a whole file.
+type Reader = fn(&[u8]) -> Result<Parsed, ReadError>;
+/// Writes a mesh to one file.
+type MeshWriter = fn(&dyn MeshStream, &WriteOptions, &mut dyn Write) -> Result<(), WriteError>;
+/// Writes one of the files of a mesh, by position.
+type PartWriter = fn(&dyn MeshStream, usize, &mut dyn Write) -> Result<(), WriteError>;
+/// Bytes that are written, for progress bars: to within a few kilobytes where the format is binary and
+/// not compressed.
+type SizeEstimate = fn(&dyn MeshStream, &WriteOptions) -> u64;
+
+/// How the first bytes of a file show its format.
+enum Sniff {
+    /// They do not.
+    Never,
+    /// Words or bytes that files of this format begin with, and no others.
+    Signature(fn(&[u8]) -> bool),
+    /// Statements or numbers such as files of this format begin with. Signatures go first.
+    Likeness(fn(&[u8]) -> bool),
+}
+
+/// How a format is written.
+pub enum Writer {
+    /// Not at all.
+    None,
+    /// A document as it is, with its templates and instances.
+    Document(fn(&Document, &mut dyn Write) -> Result<(), WriteError>),
+    /// A mesh in one file.
+    Mesh(MeshWriter, SizeEstimate),
+    /// A mesh in files with these extensions.
+    Parts(&'static [&'static str], PartWriter, SizeEstimate),
+    /// A file for every instance of a mesh, and one that lists them.
+    Pieces,
+}
+
+/// An entry that says nothing.
+const NOTHING: Entry = Entry {
+    name: "",
+    also: &[],
+    is_binary: false,
+    sniff: Sniff::Never,
+    read: None,
+    writer: Writer::None,
+    second_order: true,
+    conditions: false,
+    by_region: false,
+    first_id: 0,
+};
+
+macro_rules! table {
+    ($($(#[$doc:meta])* $format:ident { $($field:ident: $value:expr,)* })*) => {
+        /// A format the tools can read or write, in the order they are listed to users.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Format {
+            $($(#[$doc])* $format,)*
+        }
+
+        const COUNT: usize = [$(Format::$format),*].len();
+
+        static TABLE: [Entry; COUNT] = [$(Entry { $($field: $value,)* ..NOTHING }),*];
+
+        impl Format {
+            /// All formats, in the order they are listed to users.
+            pub const ALL: [Self; COUNT] = [$(Self::$format),*];
+        }
+    };
+}
+
+table! {
+    /// The document itself.
+    Tmesh {
+        name: "tmesh",
+        is_binary: true,
+        sniff: Sniff::Signature(|head| head.starts_with(&tmesh::MAGIC)),
+        read: Some(|bytes| Ok(Parsed::Document(Box::new(tmesh::read(bytes)?)))),
+        writer: Writer::Document(|document, out| Ok(tmesh::write(document, out)?)),
+        second_order: false,
+    }
+    /// Stereolithography, binary or ASCII, one or several solids.
+    Stl {
+        name: "stl",
+        is_binary: true,
+        sniff: Sniff::Likeness(stl::looks_like),
+        read: Some(stl::read),
+        writer: Writer::Mesh(stl::write, stl::size_estimate),
+    }
+    /// Wavefront OBJ.
+    Obj {
+        name: "obj",
+        sniff: Sniff::Likeness(obj::looks_like),
+        read: Some(obj::read),
+    }
+    /// Stanford PLY.
+    Ply {
+        name: "ply",
+        sniff: Sniff::Signature(ply::looks_like),
+        read: Some(ply::read),
+    }
+    /// Object File Format.
+    Off {
+        name: "off",
+        sniff: Sniff::Likeness(off::looks_like),
+        read: Some(off::read),
+    }
+    /// TetGen piecewise linear complex.
+    Poly {
+        name: "poly",
+        sniff: Sniff::Likeness(tetgen::looks_like),
+        read: Some(tetgen::read_poly),
+    }
+    /// TetGen surface mesh, which begins like a piecewise linear complex.
+    Smesh {
+        name: "smesh",
+        sniff: Sniff::Likeness(tetgen::looks_like),
+        read: Some(tetgen::read_smesh),
+    }
+    /// Legacy VTK.
+    Vtk {
+        name: "vtk",
+        is_binary: true,
+        sniff: Sniff::Signature(vtk::looks_like),
+        read: Some(vtk::read),
+        writer: Writer::Mesh(vtk::write, vtk::size_estimate),
+    }
+    /// VTK XML unstructured grid.
+    Vtu {
+        name: "vtu",
+        is_binary: true,
+        sniff: Sniff::Signature(vtu::looks_like),
+        read: Some(vtu::read),
+        writer: Writer::Mesh(vtu::write, vtu::size_estimate),
+    }
+    /// VTK XML unstructured grid in pieces, one per instance.
+    Pvtu {
+        name: "pvtu",
+        writer: Writer::Pieces,
+    }
+    /// Gmsh, version 4.1.
+    Msh {
+        name: "msh",
+        is_binary: true,
+        sniff: Sniff::Signature(msh::looks_like),
+        read: Some(msh::read),
+        writer: Writer::Mesh(msh::write, msh::size_estimate),
+        by_region: true,
+        first_id: 1,
+    }
+    /// Gmsh, version 2.2, which is read as [`Format::Msh`] is.
+    Msh2 {
+        name: "msh2",
+        is_binary: true,
+        read: Some(msh::read),
+        writer: Writer::Mesh(msh::write2, msh::size_estimate2),
+        first_id: 1,
+    }
+    /// Medit.
+    Medit {
+        name: "mesh",
+        writer: Writer::Mesh(medit::write, medit::size_estimate),
+        second_order: false,
+        first_id: 1,
+    }
+    /// Abaqus and CalculiX input.
+    Inp {
+        name: "inp",
+        writer: Writer::Mesh(inp::write, inp::size_estimate),
+        conditions: true,
+        by_region: true,
+        first_id: 1,
+    }
+    /// TetGen mesh: files for nodes, elements and faces.
+    Node {
+        name: "node",
+        also: &["ele", "face"],
+        writer: Writer::Parts(&tetgen::PARTS, tetgen::write_part, tetgen::size_estimate),
+        second_order: false,
+        first_id: 1,
+    }
+    /// A readable listing of a document.
+    Text {
+        name: "txt",
+        writer: Writer::Document(|document, out| Ok(listing::write_text(document, &[], out)?)),
+        second_order: false,
+    }
+}
+
+impl Format {
+    /// What is known of the format.
+    pub fn entry(self) -> &'static Entry {
+        &TABLE[self as usize]
+    }
+
+    /// The name used with `--from` and `--to`, which is also the usual extension.
+    pub fn name(self) -> &'static str {
+        self.entry().name
+    }
+
+    /// The format with this name or extension, in any case.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let is_called = |format: &Self| {
+            let Entry {
+                name: own, also, ..
+            } = format.entry();
+            let mut all = also.iter().chain([own]);
+            all.any(|n| n.eq_ignore_ascii_case(name))
+        };
+        Self::ALL.into_iter().find(is_called)
+    }
+
+    /// The format a path's extension stands for.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        Self::from_name(path.extension()?.to_str()?)
+    }
+
+    /// Whether its bytes are not text.
+    pub fn is_binary(self) -> bool {
+        self.entry().is_binary
+    }
+
+    /// Whether a file holds a document as it is, with its templates and instances.
+    pub fn holds_document(self) -> bool {
+        matches!(self.entry().writer, Writer::Document(_))
+    }
+}
+
+/// The format that the first bytes of a file show, if they show one, else the one that its path names.
+///
+/// `head` should be at least 1 KiB unless the file is shorter. Of formats that begin alike the path
+/// tells which one it is; without it, it is the first one of the table.
+pub fn sniff(head: &[u8], path: Option<&Path>) -> Option<Format> {
+    let named = path.and_then(Format::from_path);
+    let of = |fits: &dyn Fn(&Sniff) -> bool| {
+        let fits = |format: &Format| fits(&format.entry().sniff);
+        let named = named.filter(fits);
+        named.or_else(|| Format::ALL.into_iter().find(fits))
+    };
+    of(&|sniff| matches!(sniff, Sniff::Signature(fits) if fits(head)))
+        .or_else(|| of(&|sniff| matches!(sniff, Sniff::Likeness(fits) if fits(head))))
+        .or(named)
+}
+
+/// Parses a whole file of the given format.
+///
+/// # Errors
+/// Malformed bytes, and formats that are not for input.
+pub fn parse(bytes: &[u8], format: Format) -> Result<Parsed, ReadError> {
+    match format.entry().read {
+        Some(read) => read(bytes),
+        None => Err(ReadError::NotAnInput(format.name())),
+    }
+}
+
+/// Writes a mesh in a foreign format.
+///
+/// # Errors
+/// Fails when writing fails, when the format is not for output, and when it cannot hold the mesh.
+pub fn write(
+    mesh: &dyn MeshStream,
+    format: Format,
+    options: &WriteOptions,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    match format.entry().writer {
+        Writer::Mesh(write, _) => {
+            check_order(mesh, format)?;
+            write(mesh, options, out)
+        }
+        Writer::Parts(..) | Writer::Pieces => Err(WriteError::SeveralFiles(format.name())),
+        Writer::None | Writer::Document(_) => Err(WriteError::NotAnOutput(format.name())),
+    }
+}
+
+fn check_order(mesh: &dyn MeshStream, format: Format) -> Result<(), WriteError> {
+    if mesh.is_second_order() && !format.entry().second_order {
+        return Err(WriteError::NoSecondOrder(format.name()));
+    }
+    Ok(())
+}
+
+/// Extensions of the files that a mesh in this format consists of; none for formats that are one
+/// file, or whose files are not known beforehand.
+pub fn file_parts(format: Format) -> &'static [&'static str] {
+    match format.entry().writer {
+        Writer::Parts(extensions, ..) => extensions,
+        _ => &[],
+    }
+}
+
+/// Writes one of the files that a mesh consists of, by its position in [`file_parts`].
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_part(
+    mesh: &dyn MeshStream,
+    format: Format,
+    part: usize,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    match format.entry().writer {
+        Writer::Parts(_, write, _) => {
+            check_order(mesh, format)?;
+            write(mesh, part, out)
+        }
+        _ => Err(WriteError::NotAnOutput(format.name())),
+    }
+}
+
+/// Bytes that [`write()`] produces, for progress bars: to within a few kilobytes where the format is
+/// binary and not compressed.
+pub fn size_estimate(mesh: &dyn MeshStream, format: Format, options: &WriteOptions) -> u64 {
+    match format.entry().writer {
+        Writer::Mesh(_, size) | Writer::Parts(_, _, size) => size(mesh, options),
+        _ => 0,
+    }
+}
+
+/// Writes a document as it is, in any output format: in full as tmesh, as a listing, or each
+/// template once (see [`Plain`]) in a foreign format, with its surface and all cell arrays.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_document(
+    document: &Document,
+    format: Format,
+    out: &mut dyn Write,
+) -> Result<(), WriteError> {
+    let options = WriteOptions {
+        boundary: true,
+        ..WriteOptions::default()
+    };
+    match format.entry().writer {
+        Writer::Document(write) => write(document, out),
+        _ => write(&Plain::new(document)?, format, &options, out),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stream::test_document;
+
+    #[test]
+    fn every_output_format_takes_every_document() {
+        let document = test_document();
+        assert_eq!(tmesh::validate(&document), []);
+        for format in Format::ALL {
+            let mut bytes = Vec::new();
+            let result = write_document(&document, format, &mut bytes);
+            match format {
+                Format::Tmesh
+                | Format::Text
+                | Format::Vtk
+                | Format::Vtu
+                | Format::Stl
+                | Format::Msh
+                | Format::Msh2
+                | Format::Medit
+                | Format::Inp => {
+                    result.unwrap();
+                    assert!(!bytes.is_empty());
+                }
+                Format::Node | Format::Pvtu => {
+                    let error = result.unwrap_err().to_string();
+                    assert!(error.contains("several files"), "{error}");
+                    assert!(bytes.is_empty());
+                }
+                _ => {
+                    let name = format.name();
+                    let error = result.unwrap_err().to_string();
+                    assert_eq!(error, format!("{name} is not an output format"));
+                    assert!(bytes.is_empty());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sizes_are_estimated_well() {
+        let document = test_document();
+        let mesh = Plain::new(&document).unwrap();
+        for format in [
+            Format::Vtk,
+            Format::Vtu,
+            Format::Stl,
+            Format::Msh,
+            Format::Msh2,
+        ] {
+            for boundary in [false, true] {
+                let options = WriteOptions {
+                    boundary,
+                    ..WriteOptions::default()
+                };
+                let mut bytes = Vec::new();
+                write(&mesh, format, &options, &mut bytes).unwrap();
+                let estimate = size_estimate(&mesh, format, &options);
+                assert!(bytes.len() as u64 >= estimate && bytes.len() as u64 <= estimate + 4096);
+            }
+        }
+    }
+}

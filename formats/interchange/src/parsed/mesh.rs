@@ -1,0 +1,36 @@
+//! A mesh whose elements carry their regions and markers.
+
+use glam::DVec3;
+use std::collections::BTreeMap;
+use tmesh::{Promise, Tet, Triangle};
+
+/// Tetrahedra with regions, and triangles with markers. All ids are within bounds, no element names a
+/// vertex twice, and no tetrahedron is in [`tmesh::OUTSIDE`].
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// Vertices in world coordinates. All finite.
+    pub points: Vec<DVec3>,
+    /// Tetrahedra in the order of the file; orientation as in the file.
+    pub tets: Vec<Tet>,
+    /// Triangles in the order of the file.
+    pub triangles: MeshTriangles,
+    /// Names of regions by id.
+    pub regions: BTreeMap<u32, String>,
+    /// Names of markers by id.
+    pub markers: BTreeMap<u32, String>,
+    /// The symmetry that the title of the file promises.
+    pub promise: Option<Promise>,
+    /// Largest error of a coordinate relative to the largest one.
+    pub relative_precision: f64,
+    /// What the user should know about the file.
+    pub notices: Vec<String>,
+}
+
+/// What the file says of the surface of a [`Mesh`].
+#[derive(Clone, Debug)]
+pub enum MeshTriangles {
+    /// All of it, with the regions on both sides.
+    Sided(Vec<Triangle>),
+    /// Some of it: three vertices and a marker each.
+    Marked(Vec<([u32; 3], u32)>),
+}

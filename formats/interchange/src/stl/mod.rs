@@ -1,0 +1,7 @@
+//! Stereolithography.
+
+mod read;
+mod write;
+
+pub use read::{looks_like, read};
+pub use write::{size_estimate, write};

@@ -1,0 +1,57 @@
+//! How precise the coordinates of a file are.
+
+use super::decimal::significant_digits;
+
+/// Relative error of a number held in single precision.
+pub const SINGLE: f64 = 1.0 / (1u64 << 24) as f64;
+
+/// Relative error of a number held in double precision.
+pub const DOUBLE: f64 = 1.0 / (1u64 << 53) as f64;
+
+/// Significant decimal digits that tell every two numbers of single precision apart: the least n with
+/// 10^(n - 1) > 2^24. Text with no more digits may have been printed from single precision.
+const SINGLE_DIGITS: u32 = 9;
+
+/// What the printed coordinates of a text file show about the numbers behind them.
+#[derive(Clone, Debug)]
+pub struct TextPrecision {
+    digits: u32,
+    single: bool,
+}
+
+impl Default for TextPrecision {
+    fn default() -> Self {
+        Self {
+            digits: 0,
+            single: true,
+        }
+    }
+}
+
+impl TextPrecision {
+    /// Takes a coordinate into account.
+    pub fn note(&mut self, word: &[u8], value: f64) {
+        self.note_digits(significant_digits(word), value);
+    }
+
+    /// Takes a coordinate into account that has so many significant digits.
+    pub fn note_digits(&mut self, digits: u32, value: f64) {
+        self.digits = self.digits.max(digits);
+        if self.single && digits > SINGLE_DIGITS {
+            // A single printed with more digits than it has lies within the printed rounding of
+            // itself.
+            let off = (value - f64::from(value as f32)).abs();
+            self.single = off <= 10.0_f64.powi(1 - digits as i32) * value.abs();
+        }
+    }
+
+    /// Error of a coordinate relative to the largest one: single precision unless more than nine
+    /// significant digits are printed that single precision cannot hold.
+    pub fn relative(&self) -> f64 {
+        if self.single || self.digits <= SINGLE_DIGITS {
+            SINGLE
+        } else {
+            (0.5 * 10.0_f64.powi(1 - self.digits as i32)).max(DOUBLE)
+        }
+    }
+}

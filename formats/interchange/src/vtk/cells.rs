@@ -1,0 +1,148 @@
+//! What goes into the VTK formats beside points and connectivity: integer arrays on cells, and names.
+
+use crate::stream::MeshStream;
+use crate::text::one_line;
+use std::io;
+use tmesh::OUTSIDE;
+
+/// Value of an array on cells that it says nothing about; -1 as a signed number.
+pub const NONE: u32 = u32::MAX;
+
+/// Which cells a file gets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cells {
+    /// Number of tetrahedra, the first cells.
+    pub tets: u64,
+    /// Number of triangles, which follow.
+    pub triangles: u64,
+}
+
+impl Cells {
+    /// The tetrahedra, and the triangles when asked for or when there is nothing else.
+    pub fn of(mesh: &dyn MeshStream, boundary: bool) -> Self {
+        let tets = mesh.tet_count();
+        let triangles = if boundary || tets == 0 {
+            mesh.triangle_count()
+        } else {
+            0
+        };
+        Self { tets, triangles }
+    }
+
+    pub fn count(self) -> u64 {
+        self.tets + self.triangles
+    }
+
+    /// Points of a tetrahedron and of a triangle.
+    pub fn corners(self, mesh: &dyn MeshStream) -> [u64; 2] {
+        if mesh.is_second_order() {
+            [10, 6]
+        } else {
+            [4, 3]
+        }
+    }
+}
+
+/// An array with one integer per cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CellArray {
+    /// Region of a tetrahedron; of a triangle the region behind it, or in front of it when there is
+    /// none behind.
+    Region,
+    /// Index of the instance.
+    Instance,
+    /// Marker of a triangle.
+    Marker,
+    /// Wall of a triangle: 0 for none, else one plus its position among the wall names.
+    Wall,
+    /// Region in front of a triangle.
+    Front,
+    /// Region behind a triangle.
+    Back,
+}
+
+impl CellArray {
+    /// Arrays of a file with triangles.
+    pub const ALL: [Self; 6] = [
+        Self::Region,
+        Self::Instance,
+        Self::Marker,
+        Self::Wall,
+        Self::Front,
+        Self::Back,
+    ];
+
+    /// Name in the file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Region => "region",
+            Self::Instance => "instance",
+            Self::Marker => "marker",
+            Self::Wall => "wall",
+            Self::Front => "front",
+            Self::Back => "back",
+        }
+    }
+
+    /// Gives the values of all cells in order. A block without values stands for `count` times
+    /// the same one.
+    pub fn stream(
+        self,
+        mesh: &dyn MeshStream,
+        cells: Cells,
+        sink: &mut dyn FnMut(Values<'_>) -> io::Result<()>,
+    ) -> io::Result<()> {
+        match self {
+            Self::Region => mesh.tet_regions(&mut |b| sink(Values::Each(b.regions)))?,
+            Self::Instance => {
+                mesh.tet_regions(&mut |b| sink(Values::Same(b.instance, b.regions.len() as u64)))?
+            }
+            _ => sink(Values::Same(NONE, cells.tets))?,
+        }
+        if cells.triangles == 0 {
+            return Ok(());
+        }
+        let mut inside = Vec::new();
+        mesh.triangles(&mut |b| match self {
+            Self::Region => {
+                let sides = b.front.iter().zip(b.back);
+                inside.clear();
+                inside.extend(sides.map(|(&f, &b)| if b == OUTSIDE { f } else { b }));
+                sink(Values::Each(&inside))
+            }
+            Self::Instance => sink(Values::Same(b.instance, b.vertices.len() as u64)),
+            Self::Marker => sink(Values::Each(b.markers)),
+            Self::Wall => sink(Values::Each(b.walls)),
+            Self::Front => sink(Values::Each(b.front)),
+            Self::Back => sink(Values::Each(b.back)),
+        })
+    }
+}
+
+/// Values of some cells.
+pub enum Values<'a> {
+    /// One for each.
+    Each(&'a [u32]),
+    /// The same one for so many.
+    Same(u32, u64),
+}
+
+/// Names of regions, and of markers and walls when there are triangles, as field data: array name,
+/// and text with a line `id name` for each. Empty ones are left out.
+pub fn name_fields(mesh: &dyn MeshStream, cells: Cells) -> Vec<(&'static str, String)> {
+    let list = |names: &mut dyn Iterator<Item = (u32, &str)>| -> String {
+        names
+            .map(|(id, name)| format!("{id} {}\n", one_line(name)))
+            .collect()
+    };
+    let regions = &mut mesh.regions().iter().map(|r| (r.id, r.name.as_str()));
+    let mut fields = vec![("region_names", list(regions))];
+    if cells.triangles > 0 {
+        let markers = &mut mesh.markers().iter().map(|m| (m.id, m.name.as_str()));
+        fields.push(("marker_names", list(markers)));
+        let walls = &mut (1..).zip(mesh.wall_names().iter().map(String::as_str));
+        fields.push(("wall_names", list(walls)));
+    }
+    fields.retain(|(_, text)| !text.is_empty());
+    fields
+}

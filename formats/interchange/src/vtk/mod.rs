@@ -1,0 +1,8 @@
+//! Legacy VTK, and what the XML form has in common with it.
+
+pub mod cells;
+mod read;
+mod write;
+
+pub use read::{looks_like, read};
+pub use write::{size_estimate, write};

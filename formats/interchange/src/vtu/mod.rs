@@ -1,0 +1,9 @@
+//! VTK XML unstructured grids, in one file and in pieces.
+
+mod arrays;
+mod read;
+mod spool;
+mod write;
+
+pub use read::{looks_like, read};
+pub use write::{size_estimate, write, write_pieces};

@@ -1,0 +1,160 @@
+//! The tables of a document: regions with volumes, markers with areas, the source.
+
+use crate::HealError;
+use crate::words::short;
+use geom::measure::{boundary_area, corners, tet_volume, triangle_area};
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use tmesh::{Document, Marker, OUTSIDE, Region, Source, Template};
+
+/// What a file holds.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// One template in world coordinates, unless the file is a document already.
+    pub document: Document,
+    /// What the user should know about the file, a sentence each.
+    pub notices: Vec<String>,
+}
+
+/// A surface with its labels, before volumes and areas are known.
+pub struct Labelled {
+    /// Vertices and triangles in world coordinates; region and marker ids are final.
+    pub template: Template,
+    /// Materials, increasing in id. Volumes are filled in here.
+    pub regions: Vec<Region>,
+    /// Names of markers by id, increasing in id.
+    pub markers: Vec<(u32, String)>,
+    /// Largest error of a coordinate relative to the largest one.
+    pub relative_precision: f64,
+    /// What the user should know about the file.
+    pub notices: Vec<String>,
+}
+
+/// Completes the tables.
+///
+/// # Errors
+/// A region without volume.
+pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, HealError> {
+    let Labelled {
+        mut template,
+        mut regions,
+        markers,
+        relative_precision,
+        notices,
+    } = labelled;
+    drop_unused_vertices(&mut template);
+    let precision = relative_precision * largest_coordinate(&template.vertices);
+    let (volumes, surfaces, areas) = measures(&template);
+    for region in &mut regions {
+        let volume = volumes.get(&region.id).copied().unwrap_or(0.0);
+        // As thin as the coordinates are uncertain: there is nothing inside.
+        let surface = surfaces.get(&region.id).copied().unwrap_or(0.0);
+        if volume <= 0.5 * precision * surface {
+            return Err(HealError::BadSurface(format!(
+                "region '{}' encloses no volume: {} on a surface of {}",
+                region.name,
+                short(volume),
+                short(surface)
+            )));
+        }
+        region.volume = Some(volume);
+    }
+    let source = Source {
+        format: format.to_owned(),
+        triangles: template.triangles.len() as u64,
+        volume: regions.iter().filter_map(|r| r.volume).sum(),
+        boundary_area: boundary_area(&template),
+        precision,
+    };
+    let mut document = Document::single(template);
+    document.regions = regions;
+    document.markers = markers
+        .into_iter()
+        .filter_map(|(id, name)| {
+            let area = areas.get(&id).copied()?;
+            Some(Marker {
+                id,
+                name,
+                area: Some(area),
+            })
+        })
+        .collect();
+    document.source = Some(source);
+    Ok(Imported { document, notices })
+}
+
+type Measures = FxHashMap<u32, f64>;
+
+/// Volume and surface per region, and area per marker.
+fn measures(template: &Template) -> (Measures, Measures, Measures) {
+    let mut volumes = Measures::default();
+    let mut surfaces = Measures::default();
+    let mut areas = Measures::default();
+    let origin = template.vertices.first().copied().unwrap_or_default();
+    // Long runs of equal labels: a sum per run, a look-up per run.
+    let key = |t: &tmesh::Triangle| (t.front, t.back, t.marker);
+    for run in template.triangles.chunk_by(|s, t| key(s) == key(t)) {
+        let (mut volume, mut area) = (0.0, 0.0);
+        for t in run {
+            let [a, b, c] = corners(&template.vertices, t);
+            volume += tet_volume(origin, a, b, c);
+            area += triangle_area(a, b, c);
+        }
+        let (front, back, marker) = key(&run[0]);
+        for (region, sign) in [(front, -1.0), (back, 1.0)] {
+            if region != OUTSIDE {
+                *volumes.entry(region).or_default() += sign * volume;
+                *surfaces.entry(region).or_default() += area;
+            }
+        }
+        *areas.entry(marker).or_default() += area;
+    }
+    (volumes, surfaces, areas)
+}
+
+/// Largest absolute coordinate.
+pub fn largest_coordinate(points: &[DVec3]) -> f64 {
+    points
+        .iter()
+        .fold(0.0_f64, |m, p| m.max(p.abs().max_element()))
+}
+
+/// Refuses models so large or small that volumes, or the exact predicates, leave the range of
+/// numbers.
+///
+/// # Errors
+/// Says the largest coordinate.
+pub fn check_scale(points: &[DVec3]) -> Result<(), HealError> {
+    let largest = largest_coordinate(points);
+    if largest == 0.0 || (1e-80..1e80).contains(&largest) {
+        return Ok(());
+    }
+    let size = if largest < 1.0 { "small" } else { "large" };
+    Err(HealError::BadSurface(format!(
+        "the largest coordinate, {}, is too {size} to compute with; use another unit",
+        short(largest)
+    )))
+}
+
+fn drop_unused_vertices(template: &mut Template) {
+    let mut used = vec![false; template.vertices.len()];
+    for t in &template.triangles {
+        for v in t.vertices {
+            used[v as usize] = true;
+        }
+    }
+    if used.iter().all(|&u| u) {
+        return;
+    }
+    let mut new_id = vec![0_u32; used.len()];
+    let mut next = 0;
+    for (id, &u) in new_id.iter_mut().zip(&used) {
+        *id = next;
+        next += u32::from(u);
+    }
+    let mut used = used.into_iter();
+    template.vertices.retain(|_| used.next() == Some(true));
+    for t in &mut template.triangles {
+        t.vertices = t.vertices.map(|v| new_id[v as usize]);
+    }
+}

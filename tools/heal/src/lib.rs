@@ -1,0 +1,22 @@
+//! From what a file lists to a document: triangle soup to closed labelled surface, piecewise linear
+//! complex to regions, mesh to labelled mesh.
+//!
+//! Points are welded, gaps of the size of rounding closed, triangles without area removed, inside and
+//! outside told apart. What cannot be repaired without guessing is an error that says where it is.
+
+mod document;
+mod error;
+mod facet;
+mod leak;
+mod mesh;
+mod plc;
+mod read;
+mod shells;
+mod sides;
+mod soup;
+mod weld;
+mod words;
+
+pub use document::Imported;
+pub use error::{HealError, OddEdges};
+pub use read::{heal, read};

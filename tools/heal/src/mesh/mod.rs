@@ -1,0 +1,6 @@
+//! From a mesh with labels to a document.
+
+mod build;
+mod skin;
+
+pub use build::build;

@@ -1,0 +1,207 @@
+//! Facets, triangulated so that they fit together along common segments.
+
+use super::segments::split_segments;
+use crate::HealError;
+use crate::document::largest_coordinate;
+use crate::facet::{FacetError, Projection, area_vector, triangulate};
+use crate::weld::Welder;
+use crate::words::{dropped, place};
+use geom::contacts::contacts;
+use glam::DVec3;
+use interchange::parsed::{Facet, Plc};
+use rustc_hash::FxHashSet;
+
+/// A node lies on a segment when it is no farther from it than so many roundings of the largest
+/// coordinate: each end of the segment and the node are off by one, and the distance by another.
+const ROUNDINGS: f64 = 4.0;
+
+/// The finest relative precision that nodes on segments are expected to have, whatever the digits
+/// printed: programs that compute such nodes lose a few digits. With a smaller one, nodes of files with
+/// 16 digits are no longer found on segments that they were computed to lie on.
+const FINEST: f64 = 1e-10;
+
+/// Triangles of all facets, fitting together along common segments.
+pub struct Facets {
+    /// Distinct points.
+    pub points: Vec<DVec3>,
+    /// Three points each, in any orientation.
+    pub triangles: Vec<[u32; 3]>,
+    /// Facet each triangle comes from.
+    pub facet_of: Vec<u32>,
+}
+
+/// Triangulates all facets. Nodes that lie on segments of other facets split them.
+///
+/// # Errors
+/// Facets that are not planar subdivisions.
+pub fn triangulate_facets(plc: &Plc, notices: &mut Vec<String>) -> Result<Facets, HealError> {
+    let mut welder = Welder::new(plc.points.len());
+    let id: Vec<u32> = plc.points.iter().map(|&p| welder.id(p)).collect();
+    let points = welder.into_points();
+    // Segments of each facet, and what they are split into by nodes that lie on them.
+    let segments: Vec<Vec<[u32; 2]>> = plc.facets.iter().map(|f| segments(f, &id)).collect();
+    let tolerance = plc.relative_precision.max(FINEST) * ROUNDINGS * largest_coordinate(&points);
+    let pieces = split_segments(&points, &segments, tolerance)
+        .ok_or_else(|| HealError::BadSurface("too many segments lie close to nodes".to_owned()))?;
+    let mut surface = Facets {
+        points,
+        triangles: Vec::new(),
+        facet_of: Vec::new(),
+    };
+    let mut seen = FxHashSet::default();
+    let mut flat = 0;
+    let mut repeated = 0;
+    for (f, facet) in plc.facets.iter().enumerate() {
+        let split: Vec<[u32; 2]> = segments[f]
+            .iter()
+            .flat_map(|s| match pieces.get(s) {
+                Some(chain) => chain.windows(2).map(|w| [w[0], w[1]]).collect(),
+                None => vec![*s],
+            })
+            .collect();
+        let triangles = triangulate_facet(&surface.points, f, facet, &split, &id)?;
+        flat += usize::from(triangles.is_empty());
+        for t in triangles {
+            let mut key = t;
+            key.sort_unstable();
+            if seen.insert(key) {
+                surface.triangles.push(t);
+                surface.facet_of.push(f as u32);
+            } else {
+                repeated += 1;
+            }
+        }
+    }
+    if flat > 0 {
+        notices.push(dropped(flat, "facet", "facets", "without area"));
+    }
+    if repeated > 0 {
+        let (one, many) = ("triangle", "triangles");
+        notices.push(dropped(
+            repeated,
+            one,
+            many,
+            "that two facets have in common",
+        ));
+    }
+    Ok(surface)
+}
+
+/// The facet's segments, each once, lower node first.
+fn segments(facet: &Facet, id: &[u32]) -> Vec<[u32; 2]> {
+    let mut list = Vec::new();
+    for polygon in &facet.polygons {
+        let n = polygon.len();
+        let sides = if n > 2 { n } else { n.saturating_sub(1) };
+        for i in 0..sides {
+            let (a, b) = (id[polygon[i] as usize], id[polygon[(i + 1) % n] as usize]);
+            if a != b {
+                list.push([a.min(b), a.max(b)]);
+            }
+        }
+    }
+    list.sort_unstable();
+    list.dedup();
+    list
+}
+
+fn triangulate_facet(
+    points: &[DVec3],
+    index: usize,
+    facet: &Facet,
+    segments: &[[u32; 2]],
+    id: &[u32],
+) -> Result<Vec<[u32; 3]>, HealError> {
+    // The largest polygon shows the plane.
+    let normal = facet
+        .polygons
+        .iter()
+        .filter(|p| p.len() > 2)
+        .map(|p| {
+            let welded: Vec<u32> = p.iter().map(|&v| id[v as usize]).collect();
+            area_vector(points, &welded)
+        })
+        .fold(DVec3::ZERO, |best, n| {
+            if n.length_squared() > best.length_squared() {
+                n
+            } else {
+                best
+            }
+        });
+    let Some(project) = Projection::along(normal) else {
+        return Ok(Vec::new());
+    };
+    let mut nodes: Vec<u32> = segments
+        .iter()
+        .flatten()
+        .copied()
+        .chain(
+            facet
+                .polygons
+                .iter()
+                .filter(|p| p.len() == 1)
+                .map(|p| id[p[0] as usize]),
+        )
+        .collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let local = |v: u32| nodes.partition_point(|&n| n < v) as u32;
+    let flat: Vec<[f64; 2]> = nodes
+        .iter()
+        .map(|&v| project.flat(points[v as usize]))
+        .collect();
+    let segments: Vec<[u32; 2]> = segments.iter().map(|s| s.map(local)).collect();
+    let holes: Vec<[f64; 2]> = facet.holes.iter().map(|&h| project.flat(h)).collect();
+    let triangles = triangulate(&flat, &segments, &holes).map_err(|error| {
+        let at = |v: u32| place(points[nodes[v as usize] as usize]);
+        let reason = match error {
+            FacetError::Coincident(a, b) => format!(
+                "{} and {} lie above each other, so it is not planar",
+                at(a),
+                at(b)
+            ),
+            FacetError::Crossing(a, b) => format!(
+                "the segment from {} to {} crosses another one",
+                at(a),
+                at(b)
+            ),
+            FacetError::Coordinate => "its coordinates are too large or too small".to_owned(),
+        };
+        HealError::BadSurface(format!("facet {} (counted from 1): {reason}", index + 1))
+    })?;
+    Ok(triangles
+        .into_iter()
+        .map(|t| t.map(|v| nodes[v as usize]))
+        .collect())
+}
+
+/// Refuses facets that meet where they have no common segments and nodes.
+pub fn check_crossing(
+    points: &[DVec3],
+    triangles: &[[u32; 3]],
+    facet_of: &[u32],
+) -> Result<(), HealError> {
+    let mut found = None;
+    contacts(
+        points,
+        triangles,
+        |t| facet_of[t as usize],
+        |contact| {
+            found = Some(contact);
+            false
+        },
+    );
+    match found {
+        None => Ok(()),
+        Some(contact) => {
+            let [a, b] = contact.triangles.map(|t| facet_of[t as usize] + 1);
+            Err(HealError::BadSurface(format!(
+                "facets {} and {} (counted from 1) cross or touch at {}, away from their common \
+                 nodes and segments",
+                a.min(b),
+                a.max(b),
+                place(contact.point)
+            )))
+        }
+    }
+}

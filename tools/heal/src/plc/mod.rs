@@ -1,0 +1,8 @@
+//! From a piecewise linear complex to regions and their boundaries.
+
+mod build;
+mod facets;
+mod regions;
+mod segments;
+
+pub use build::build;

@@ -1,0 +1,11 @@
+//! A template's surface as a piecewise linear complex.
+
+mod description;
+mod facets;
+mod flat;
+mod plc;
+mod seeds;
+
+pub use description::{Description, Order};
+pub use facets::{Attributes, Facet, Facets};
+pub use plc::{PROJECTIONS, Plc, ROUNDING, SizeSeed};
