@@ -4,7 +4,8 @@
 //! bodies from rings around an axis, so that neighbouring materials share their triangles, and
 //! [`orbits`] bodies that their group turns over. [`random_solid`]
 //! makes bodies from random numbers, [`adversarial`] the shapes that make programs slow, [`facets`] and
-//! [`files`] what the readers of files are given, and [`structured`] documents of meshed wedges without any of the tools.
+//! [`files`] what the readers of files are given, and [`structured`] and
+//! [`wedges`] documents of wedges, meshed and not, without any of the tools.
 
 pub mod adversarial;
 mod body;
@@ -17,6 +18,7 @@ mod placement;
 pub mod random_solid;
 pub mod structured;
 pub mod swept;
+pub mod wedges;
 
 pub use body::{Body, Face, Material};
 pub use chance::{Dice, Random};

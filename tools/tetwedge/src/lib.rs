@@ -17,6 +17,4 @@ pub use cli::Cli;
 pub use document::{Meshed, tetrahedralize};
 
 #[cfg(test)]
-mod bodies;
-#[cfg(test)]
 mod tests;
