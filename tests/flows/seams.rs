@@ -5,15 +5,8 @@ use geom::measure::volume_of_region;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::collections::HashSet;
-use support::{EXACT_STL, encode, run};
+use support::{EXACT_STL, encode, read, run};
 use tmesh::{Document, Gluing, Template};
-
-fn read(bytes: &[u8]) -> Document {
-    let document = tmesh::read(bytes).expect("a document");
-    let broken = tmesh::validate(&document);
-    assert!(broken.is_empty(), "{broken:?}");
-    document
-}
 
 fn seam(template: &Template) -> &Gluing {
     let seam = template.gluings.iter().find(|gluing| gluing.is_seam(0));

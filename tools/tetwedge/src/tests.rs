@@ -1,6 +1,6 @@
-use crate::bodies::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
 use crate::fill::{fill, finish};
 use crate::{Meshed, tetrahedralize};
+use bodies::wedges::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
 use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
 use kit::Failure;
