@@ -20,3 +20,5 @@ pub use document::{Meshed, tetrahedralize};
 mod bodies;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod turned;
