@@ -37,7 +37,7 @@ impl Expected {
         };
         Self {
             order: body.order.into(),
-            mirror: body.mirror,
+            mirror: body.group.has_vertical_mirrors(),
             regions: regions.collect(),
             tolerance,
         }

@@ -23,8 +23,8 @@ fn volumes_json(body: &Body) -> serde_json::Value {
         .collect();
     serde_json::json!({
         "order": body.order,
-        "mirror": body.mirror,
-        "group": body.group,
+        "mirror": body.group.has_vertical_mirrors(),
+        "group": body.group.symbol(),
         "volume": body.total_volume(),
         "regions": regions,
     })

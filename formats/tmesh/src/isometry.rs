@@ -244,7 +244,7 @@ impl Placed {
     }
 }
 
-fn cos_sin(k: u32, n: u32) -> (f64, f64) {
+pub(crate) fn cos_sin(k: u32, n: u32) -> (f64, f64) {
     // Angle = quadrant * pi/2 + (rest / n) * pi/2 with 0 <= rest < n.
     let (k, n) = (u64::from(k), u64::from(n));
     let quadrant = 4 * k / n;

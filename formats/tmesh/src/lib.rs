@@ -8,6 +8,8 @@
 mod codec;
 mod document;
 mod error;
+mod faces;
+mod fixed;
 mod frame;
 mod gluing;
 mod group;
@@ -26,6 +28,7 @@ pub use document::{
     Triangle,
 };
 pub use error::DecodeError;
+pub use fixed::FixedSet;
 pub use frame::Frame;
 pub use gluing::{Gluing, Plane};
 pub use group::{Group, Kind, NotAGroup};

@@ -1,6 +1,7 @@
 //! The body: a triangle complex with materials.
 
 use glam::DVec3;
+use tmesh::Group;
 
 /// A triangle and what lies on its two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,12 +30,10 @@ pub struct Body {
     pub faces: Vec<Face>,
     /// Materials.
     pub materials: Vec<Material>,
-    /// Highest order of rotation about the z axis (of the unplaced body).
+    /// Highest order of a rotation; that of the group, but for random bodies with more symmetry by chance.
     pub order: u32,
-    /// Whether mirror planes contain that axis.
-    pub mirror: bool,
-    /// Schoenflies symbol of the point group about that axis.
-    pub group: String,
+    /// Point group of the shape, about the z axis (of the unplaced body).
+    pub group: Group,
 }
 
 impl Body {

@@ -97,7 +97,7 @@ fn group(body: &Body) -> String {
 #[track_caller]
 fn has_group(body: &Body, symbol: &str) {
     is_closed(body);
-    assert_eq!(body.group, symbol);
+    assert_eq!(body.group.symbol(), symbol);
     assert_eq!(group(body), symbol);
 }
 
@@ -226,7 +226,7 @@ fn triangles_of_swept_bodies_keep_the_proper_part_of_their_group() {
         (ratchet.build(), "C7h", "C7"),
     ] {
         assert_eq!(
-            (body.group.as_str(), group(&body).as_str()),
+            (body.group.symbol().as_str(), group(&body).as_str()),
             (shape, triangles)
         );
     }

@@ -6,15 +6,11 @@
 mod check;
 mod cli;
 mod error;
-mod faces;
 mod instances;
 mod measure;
-mod nearby;
 mod present;
 mod report;
 mod soundness;
-#[cfg(test)]
-mod specimens;
 
 pub use check::{Broken, Checks};
 pub use cli::Cli;

@@ -1,17 +1,16 @@
 //! The command line of `periodic-surf`.
 
-use crate::prepare;
-use kit::{Command, CommonArgs, Failure, Session};
-use tetwedge::ElementArgs;
+use crate::{MemoryArgs, prepare};
+use kit::{Command, CommonArgs, Failure, Session, WishArgs};
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk
-  periodic-surf --edge-length 0.05 fan.wedge.tmesh | tetwedge --edge-length 0.05 -o fan.tmesh";
+  periodic-surf --edge-length 0.05 fan.wedge.tmesh | tetwedge -o fan.tmesh";
 
 /// Make the surface mesh of a wedge whose cut faces match under the rotation
 ///
 /// The surface is refined as size and quality ask for, thin layers included, and the two faces of a
-/// seam stay images of each other; tetwedge then keeps it. Give both tools the same element options.
+/// seam stay images of each other; tetwedge then keeps it, and inherits what was asked of the elements.
 /// Wedges between mirror walls pass as they are.
 #[derive(clap::Parser, Debug)]
 #[command(name = "periodic-surf", version, after_help = EXAMPLES)]
@@ -20,7 +19,10 @@ pub struct Cli {
     common: CommonArgs,
 
     #[command(flatten)]
-    elements: ElementArgs,
+    wishes: WishArgs,
+
+    #[command(flatten)]
+    memory: MemoryArgs,
 }
 
 impl Command for Cli {
@@ -29,9 +31,10 @@ impl Command for Cli {
     }
 
     fn run(self, session: &Session) -> Result<(), Failure> {
-        let params = self.elements.params();
         session.check_output()?;
-        let document = session.read()?;
+        let mut document = session.read()?;
+        self.wishes.apply(&mut document)?;
+        let params = self.memory.params(&document.wishes);
         let log = |text: &str| session.info(text);
         let (mut document, report) =
             prepare(document, &params, &log).map_err(|error| error.failure())?;

@@ -1,114 +1,18 @@
-//! Makes the surface mesh of a wedge whose two cut faces are images of each other.
+//! Makes the surface mesh of a wedge whose glued faces are images of each other.
 //!
 //! Wedges between mirror walls pass as they are: both neighbours of a mirror wall are images of the
 //! same face, so the mesher may refine it freely. The two faces of a seam have to stay images of
-//! each other, so their triangulation must be settled before the wedge is filled:
-//!
-//! The method is `tetwedge`'s, which needs it for hubs as well (its module `surface`). A hub follows
+//! each other, so their triangulation must be settled before the wedge is filled. A hub follows
 //! its wedge: once the wedge's surface is made, the hub is given the face they share.
 
 mod cli;
+mod error;
+mod memory;
+mod prepare;
+mod surface;
 
 pub use cli::Cli;
-pub use tetwedge::{Params, SurfaceError};
-
-use tetwedge::{Other, impose, make};
-use tmesh::{Document, Template};
-
-/// Sentences about what was done, for the history and the user.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Report {
-    /// A sentence for each template.
-    pub facts: Vec<String>,
-    /// Templates that got a new surface.
-    pub remade: usize,
-}
-
-/// Makes the surfaces of all templates with a seam. `log` receives details while the work goes on.
-///
-/// # Errors
-/// See [`SurfaceError`].
-pub fn prepare(
-    mut document: Document,
-    params: &Params,
-    log: &(dyn Fn(&str) + Sync),
-) -> Result<(Document, Report), SurfaceError> {
-    let tets = document.templates.iter().map(|t| t.tets.len()).sum();
-    if tets > 0 {
-        return Err(SurfaceError::AlreadyFilled(tets));
-    }
-    // Names of regions are wrong whatever the walls are.
-    tetwedge::Sizes::new(&document, params)?;
-    let mut report = Report::default();
-    let seams: Vec<bool> = document
-        .templates
-        .iter()
-        .enumerate()
-        .map(|(index, template)| has_seam(template, index))
-        .collect();
-    for (index, &seam) in seams.iter().enumerate() {
-        if !seam || !params.quality {
-            continue;
-        }
-        if others(&document.templates[index], index).next().is_some() {
-            // It follows another one.
-            continue;
-        }
-        let made = make(&document, index, params, log)?;
-        document.templates[index] = made.template;
-        report.add(index, &document.templates[index]);
-        for follower in 0..document.templates.len() {
-            if others(&document.templates[follower], follower).any(|o| o == index) {
-                let other = Other {
-                    template: &document.templates[index],
-                    vertices: &made.vertices,
-                    triangles: &made.shared,
-                };
-                let given =
-                    impose(&document, follower, &other).map_err(|what| SurfaceError::Changed {
-                        template: follower,
-                        what,
-                    })?;
-                document.templates[follower] = given;
-                let made = make(&document, follower, params, log)?;
-                document.templates[follower] = made.template;
-                report.add(follower, &document.templates[follower]);
-            }
-        }
-    }
-    if report.remade == 0 {
-        let why = if seams.contains(&true) {
-            "surface kept as cut, no quality is asked for"
-        } else {
-            "no seam, the mesher may refine all walls"
-        };
-        report.facts.push(why.to_owned());
-    }
-    if seams.contains(&true) {
-        document.wishes.keep_surface = Some(true);
-    }
-    Ok((document, report))
-}
-
-fn has_seam(template: &Template, own: usize) -> bool {
-    template.gluings.iter().any(|gluing| gluing.is_seam(own))
-}
-
-/// Other templates that a template shares a face with.
-fn others(template: &Template, own: usize) -> impl Iterator<Item = usize> {
-    let gluings = template.gluings.iter();
-    gluings.filter_map(move |gluing| gluing.other_than(own))
-}
-
-impl Report {
-    fn add(&mut self, index: usize, made: &Template) {
-        let seams = || made.gluings.iter().filter(|gluing| gluing.is_seam(index));
-        self.facts.push(format!(
-            "template {index}: {} triangles, seam of {} vertex pairs and {} triangle pairs",
-            made.triangles.len(),
-            seams().map(|s| s.vertex_pairs.len()).sum::<usize>(),
-            seams().map(|s| s.triangle_pairs.len()).sum::<usize>(),
-        ));
-        self.remade += 1;
-    }
-}
+pub use error::{SurfaceError, failure};
+pub use memory::MemoryArgs;
+pub use prepare::{Report, prepare};
+pub use surface::{GUIDE_EASED, Made, Other, impose, make};

@@ -1,16 +1,17 @@
 //! The command line of `rotassemble`.
 
-use crate::{
-    Assembled, MirrorWish, NumberingError, Piece, TableFormat, conditions, sector, sort_by_region,
-    write_expanded, write_pairs,
+use crate::mesh::Assembled;
+use crate::numbering::NumberingError;
+use crate::sector::{sector, sort_by_region};
+use crate::solver::{MirrorWish, conditions};
+use crate::write::{
+    TableFormat, write_expanded, write_mesh, write_pairs, write_pvtu, write_stream,
 };
 use clap::ValueEnum;
 use interchange::{
-    Format, MeshStream, Middles, Plain, Surface, WriteError, WriteOptions, Writer, file_parts,
-    second_order, write_part, write_pieces,
+    Format, MeshStream, Middles, Plain, Surface, WriteOptions, Writer, second_order,
 };
-use kit::{Command, CommonArgs, Failure, Progress, Session};
-use std::io::{self, Write};
+use kit::{Command, CommonArgs, Failure, Session};
 use std::path::{Path, PathBuf};
 use tmesh::Document;
 
@@ -114,36 +115,7 @@ impl Command for Cli {
             Format::Vtk
         };
         let format = session.output_format(default)?;
-        let as_is = format.holds_document();
-        if self.instances && !as_is {
-            return Err(Failure::Usage(format!(
-                "{} has no instances; --instances goes with --to tmesh or --to txt",
-                format.name()
-            )));
-        }
-        if !self.mirror.is_empty() && !format.entry().conditions {
-            return Err(Failure::Usage(format!(
-                "{} has no conditions; --mirror goes with --to inp",
-                format.name()
-            )));
-        }
-        let mut options = WriteOptions {
-            boundary: self.boundary,
-            surface: match self.surface {
-                SurfaceArg::Boundary => Surface::Boundary,
-                SurfaceArg::All => Surface::All,
-            },
-            ascii: self.ascii,
-            compress: self.compress,
-            parities: Vec::new(),
-        };
-        let listed = self.instances || format == Format::Text;
-        if self.second_order && (as_is || listed) {
-            return Err(Failure::Usage(format!(
-                "{} has first-order elements only; --second-order goes with other formats",
-                format.name()
-            )));
-        }
+        self.check_usage(format)?;
         session.check_output_in(format)?;
         let mut document = session.read()?;
         document.history.push(session.history_entry(Vec::new()));
@@ -158,21 +130,75 @@ impl Command for Cli {
             let added = second_order(document).map_err(|e| Failure::Impossible(e.to_string()))?;
             (document, middles) = (added.0, Some(added.1));
         }
-        let middles = middles.as_ref();
-        if listed && self.pairs.is_none() {
+        if self.is_listed(format) && self.pairs.is_none() {
             return session.write_in(&document, format);
         }
-        let mesh = Assembled::of_order(&document, middles).map_err(|error| match error {
+        self.assemble(session, format, &document, middles.as_ref())
+    }
+}
+
+impl Cli {
+    /// Whether the document is written as it is, without being assembled.
+    fn is_listed(&self, format: Format) -> bool {
+        self.instances || format == Format::Text
+    }
+
+    /// Refuses options that a format has no place for.
+    fn check_usage(&self, format: Format) -> Result<(), Failure> {
+        let as_is = format.holds_document();
+        let misplaced = [
+            (
+                self.instances && !as_is,
+                "has no instances; --instances goes with --to tmesh or --to txt",
+            ),
+            (
+                !self.mirror.is_empty() && !format.entry().conditions,
+                "has no conditions; --mirror goes with --to inp",
+            ),
+            (
+                self.second_order && (as_is || self.is_listed(format)),
+                "has first-order elements only; --second-order goes with other formats",
+            ),
+        ];
+        match misplaced.into_iter().find(|m| m.0) {
+            Some((_, why)) => Err(Failure::Usage(format!("{} {why}", format.name()))),
+            None => Ok(()),
+        }
+    }
+
+    fn write_options(&self) -> WriteOptions {
+        WriteOptions {
+            boundary: self.boundary,
+            surface: match self.surface {
+                SurfaceArg::Boundary => Surface::Boundary,
+                SurfaceArg::All => Surface::All,
+            },
+            ascii: self.ascii,
+            compress: self.compress,
+            parities: Vec::new(),
+        }
+    }
+
+    /// Writes the mesh that a document stands for.
+    fn assemble(
+        &self,
+        session: &Session,
+        format: Format,
+        document: &Document,
+        middles: Option<&Middles>,
+    ) -> Result<(), Failure> {
+        let mesh = Assembled::of_order(document, middles).map_err(|error| match error {
             NumberingError::TooManyPoints { .. } => Failure::Impossible(error.to_string()),
             error => Failure::Input(error.to_string()),
         })?;
+        let mut options = self.write_options();
         if matches!(format.entry().writer, Writer::Pieces) {
-            return write_pvtu(session, &mesh, &document, &options);
+            return write_pvtu(session, &mesh, document, &options);
         }
         // Nothing to assemble: each template as it is, with all its walls.
         let apart = document.instances.len() <= document.templates.len() && !mesh.is_welded();
         let plain = if apart || self.pairs.is_some() {
-            Some(plain(&document, middles)?)
+            Some(plain(document, middles)?)
         } else {
             None
         };
@@ -186,22 +212,12 @@ impl Command for Cli {
             options.parities = settled.parities;
         }
         if let Some(path) = &self.pairs {
-            let table = match path.extension() {
-                Some(e) if e.eq_ignore_ascii_case("csv") => TableFormat::Csv,
-                _ => TableFormat::Json,
-            };
-            session.write_files(std::slice::from_ref(path), |_, out| {
-                let first = format.entry().first_id;
-                Ok(write_pairs(shown, &document, first, table, out)?)
-            })?;
+            write_table(session, path, shown, document, format.entry().first_id)?;
         }
-        if self.sector && as_is {
-            return session.write_in(&document, format);
+        if (self.sector || apart) && format.holds_document() {
+            return session.write_in(document, format);
         }
         if apart {
-            if as_is {
-                return session.write_in(&document, format);
-            }
             return write_mesh(session, shown, format, &options);
         }
         session.info(&format!(
@@ -213,151 +229,30 @@ impl Command for Cli {
         if format == Format::Tmesh {
             let size = 24 * (mesh.point_count() + mesh.triangle_count()) + 20 * mesh.tet_count();
             return write_stream(session, format, size, |out| {
-                Ok(write_expanded(&mesh, &document, out)?)
+                Ok(write_expanded(&mesh, document, out)?)
             });
         }
         write_mesh(session, &mesh, format, &options)
     }
 }
 
+/// Writes the table of coupled nodes and faces.
+fn write_table(
+    session: &Session,
+    path: &Path,
+    mesh: &dyn MeshStream,
+    document: &Document,
+    first_id: u64,
+) -> Result<(), Failure> {
+    let table = match path.extension() {
+        Some(e) if e.eq_ignore_ascii_case("csv") => TableFormat::Csv,
+        _ => TableFormat::Json,
+    };
+    session.write_files(&[path.to_owned()], |_, out| {
+        Ok(write_pairs(mesh, document, first_id, table, out)?)
+    })
+}
+
 fn plain<'a>(document: &'a Document, middles: Option<&'a Middles>) -> Result<Plain<'a>, Failure> {
     Plain::of_order(document, middles).map_err(|e| Failure::Impossible(e.to_string()))
-}
-
-/// The path to write several files beside.
-fn output_path(session: &Session, format: Format) -> Result<&Path, Failure> {
-    let path = session.common().output.as_deref();
-    let path = path.filter(|p| *p != Path::new("-") && p.file_name().is_some());
-    path.ok_or_else(|| Failure::Usage(WriteError::SeveralFiles(format.name()).to_string()))
-}
-
-/// A file that lists the pieces, and in the folder beside it a piece for each instance.
-fn write_pvtu(
-    session: &Session,
-    mesh: &Assembled<'_>,
-    document: &Document,
-    options: &WriteOptions,
-) -> Result<(), Failure> {
-    let path = output_path(session, Format::Pvtu)?;
-    let folder = path.with_extension("");
-    let stem = folder.file_name().unwrap_or_default().to_string_lossy();
-    if folder == path {
-        return Err(Failure::Usage(format!(
-            "the pieces of {} go into a folder named as it is without extension; give it the \
-             extension .pvtu",
-            path.display()
-        )));
-    }
-    if document.instances.is_empty() {
-        let sentence = "the document has no instances, so there are no pieces to write";
-        return Err(Failure::Impossible(sentence.to_owned()));
-    }
-    let mut sources = Vec::new();
-    let mut paths = Vec::new();
-    for i in 0..document.instances.len() {
-        let name = format!("{stem}_{i}.vtu");
-        paths.push(folder.join(&name));
-        sources.push(format!("{stem}/{name}"));
-    }
-    let sources: Vec<String> = evenly(document)
-        .into_iter()
-        .map(|i| std::mem::take(&mut sources[i]))
-        .collect();
-    paths.push(path.to_owned());
-    let fresh = !folder.exists();
-    std::fs::create_dir_all(&folder)
-        .map_err(|e| Failure::writing(&folder.display().to_string(), &e))?;
-    let progress = session.progress(paths.len() as u64, "writing");
-    let written = session.write_files(&paths, |i, out| {
-        progress.set(i as u64);
-        let piece = Piece::new(mesh, i.min(sources.len().saturating_sub(1)));
-        if i < sources.len() {
-            interchange::write(&piece, Format::Vtu, options, out)
-        } else {
-            write_pieces(&piece, options.boundary, &sources, out)
-        }
-    });
-    if written.is_err() && fresh {
-        // Empty unless something else put files there.
-        let _ = std::fs::remove_dir(&folder);
-    }
-    written
-}
-
-/// Instances in an order in which those of each template are spread evenly: parallel readers give
-/// every rank a stretch of the list.
-fn evenly(document: &Document) -> Vec<usize> {
-    let mut of_template = vec![0_u64; document.templates.len()];
-    let mut before = Vec::new();
-    for instance in &document.instances {
-        let count = &mut of_template[instance.template as usize];
-        before.push(*count);
-        *count += 1;
-    }
-    let mut order: Vec<usize> = (0..before.len()).collect();
-    // The middle of its share of the list, a fraction: (2 k + 1) of (2 n).
-    let place = |i: usize| {
-        let count = of_template[document.instances[i].template as usize];
-        (u128::from(2 * before[i] + 1), u128::from(2 * count))
-    };
-    order.sort_by(|&i, &j| {
-        let ((a, b), (c, d)) = (place(i), place(j));
-        (a * d).cmp(&(c * b)).then(i.cmp(&j))
-    });
-    order
-}
-
-fn write_mesh(
-    session: &Session,
-    mesh: &dyn MeshStream,
-    format: Format,
-    options: &WriteOptions,
-) -> Result<(), Failure> {
-    let size = interchange::size_estimate(mesh, format, options);
-    let parts = file_parts(format);
-    if !parts.is_empty() {
-        let path = output_path(session, format)?;
-        let paths: Vec<PathBuf> = parts.iter().map(|p| path.with_extension(p)).collect();
-        return session.write_files(&paths, |i, out| write_part(mesh, format, i, out));
-    }
-    write_stream(session, format, size, |out| {
-        interchange::write(mesh, format, options, out)
-    })
-}
-
-/// Writes with a progress bar; `size` is the number of bytes expected.
-fn write_stream(
-    session: &Session,
-    format: Format,
-    size: u64,
-    fill: impl FnOnce(&mut dyn Write) -> Result<(), WriteError>,
-) -> Result<(), Failure> {
-    session.write_as(format, |out| {
-        let progress = session.progress(size, "writing");
-        fill(&mut Watched {
-            out,
-            progress,
-            done: 0,
-        })
-    })
-}
-
-/// Moves a progress bar along with the bytes that pass.
-struct Watched<'a> {
-    out: &'a mut dyn Write,
-    progress: Progress,
-    done: u64,
-}
-
-impl Write for Watched<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = self.out.write(bytes)?;
-        self.done += written as u64;
-        self.progress.set(self.done);
-        Ok(written)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
-    }
 }

@@ -3,22 +3,17 @@
 //! Global vertex ids are index arithmetic on the stored walls ([`Numbering`]); the mesh is a stream
 //! ([`Assembled`]) that the writers of `interchange` and [`write_expanded`] take block by block.
 
-mod assembled;
 mod cli;
-mod expand;
+mod mesh;
 mod numbering;
-mod orbit;
-mod pairs;
-mod piece;
 mod promise;
 mod sector;
 mod solver;
+mod write;
 
-pub use assembled::Assembled;
 pub use cli::Cli;
-pub use expand::write_expanded;
+pub use mesh::{Assembled, Piece};
 pub use numbering::{Numbering, NumberingError};
-pub use pairs::{TableFormat, write_pairs};
-pub use piece::Piece;
 pub use sector::{sector, sort_by_region};
 pub use solver::{Conditions, MirrorWish, conditions};
+pub use write::{TableFormat, write_expanded, write_pairs};

@@ -1,7 +1,10 @@
 //! The command line of `tetwedge`.
 
-use crate::{ElementArgs, Params, tetrahedralize};
-use kit::{Command, CommonArgs, Failure, Session, ThreadArgs};
+use crate::tetrahedralize;
+use kit::{Command, CommonArgs, Failure, Session, ThreadArgs, WishArgs};
+use mesher::Params;
+use periodic_surf::{MemoryArgs, failure};
+use tmesh::Wishes;
 
 /// Fills a wedge, or any closed surface, with tetrahedra
 ///
@@ -21,7 +24,10 @@ pub struct Cli {
     common: CommonArgs,
 
     #[command(flatten)]
-    elements: ElementArgs,
+    wishes: WishArgs,
+
+    #[command(flatten)]
+    memory: MemoryArgs,
 
     /// TetGen switches to append to ours
     #[arg(long, value_name = "STR", default_value = "", value_parser = switches, allow_hyphen_values = true, hide_default_value = true)]
@@ -46,11 +52,10 @@ fn switches(text: &str) -> Result<String, String> {
 }
 
 impl Cli {
-    fn params(&self) -> Params {
+    fn params(&self, wishes: &Wishes) -> Params {
         Params {
             switches: self.switches.clone(),
-            threads: self.threads.count(),
-            ..self.elements.params()
+            ..self.memory.params(wishes)
         }
     }
 }
@@ -61,11 +66,14 @@ impl Command for Cli {
     }
 
     fn run(self, session: &Session) -> Result<(), Failure> {
-        let params = self.params();
         session.check_output()?;
-        let document = session.read()?;
+        let mut document = session.read()?;
+        self.wishes.apply(&mut document)?;
+        let params = self.params(&document.wishes);
         let log = |text: &str| session.info(text);
-        let meshed = tetrahedralize(document, &params, &log).map_err(|e| e.failure())?;
+        let meshed = on_threads(self.threads.count(), || {
+            tetrahedralize(document, &params, &log).map_err(|e| failure(&e))
+        })?;
         for sentence in &meshed.advice {
             session.note(sentence);
         }
@@ -76,42 +84,49 @@ impl Command for Cli {
     }
 }
 
+/// Does something with so many threads at hand.
+fn on_threads<T: Send>(
+    threads: usize,
+    work: impl FnOnce() -> Result<T, Failure> + Send,
+) -> Result<T, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    match pool {
+        Ok(pool) => pool.install(work),
+        // Where no threads are to be had, it goes without.
+        Err(_) => work(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::DEFAULT_OPTIMIZE;
     use clap::{CommandFactory, Parser};
-    use std::time::Duration;
+    use tmesh::{Document, Template};
 
     fn parse(arguments: &[&str]) -> Result<Params, clap::Error> {
         let all = std::iter::once("tetwedge").chain(arguments.iter().copied());
-        Ok(Cli::try_parse_from(all)?.params())
+        let cli = Cli::try_parse_from(all)?;
+        let mut document = Document::single(Template::default());
+        cli.wishes.apply(&mut document).unwrap();
+        Ok(cli.params(&document.wishes))
     }
 
     #[test]
     fn options_become_parameters() {
         Cli::command().debug_assert();
-        let params = parse(&[]).unwrap();
-        assert_eq!(params.radius_edge, 1.4);
-        assert_eq!(params.optimize, Some(DEFAULT_OPTIMIZE));
+        assert_eq!(parse(&[]).unwrap(), Params::default());
         let params = parse(&[
-            "--edge-length",
-            "2",
-            "--region",
-            "a:b:max-volume=1e-3",
             "--optimize",
             "off",
             "--switches",
             "-T1e-10",
             "--timeout",
             "0.5",
-        ])
-        .unwrap();
-        assert!((params.max_volume.unwrap() - 8.0 / (6.0 * 2.0_f64.sqrt())).abs() < 1e-15);
-        assert_eq!(params.region_sizes[0].region, "a:b");
+        ]);
+        let params = params.unwrap();
         assert_eq!(params.optimize, None);
         assert_eq!(params.switches, "T1e-10");
-        assert_eq!(params.timeout, Some(Duration::from_millis(500)));
+        assert_eq!(params.timeout, Some(std::time::Duration::from_millis(500)));
         for (size, bytes) in [("64", 64 << 20), ("1.5g", 3 << 29), ("2M", 2 << 20)] {
             let params = parse(&["--max-memory", size]).unwrap();
             assert_eq!(params.max_memory, Some(bytes));

@@ -5,32 +5,18 @@
 //! face. Seams and faces shared with another template are preserved. Afterwards every wall, volume
 //! and orientation is checked again.
 
-mod bound;
-mod cells;
-mod check;
 mod cli;
-mod diagnose;
-mod elements;
-mod error;
-mod facets;
+mod document;
 mod fill;
-mod flat;
-mod improve;
-mod mesher;
-mod params;
-mod plc;
-mod seeds;
-mod surface;
-mod walls;
+mod follow;
+mod judge;
+mod leads;
+mod template;
 
 pub use cli::Cli;
-pub use elements::ElementArgs;
-pub use error::{Error, Place, RegionName};
-pub use mesher::{Meshed, tetrahedralize};
-pub use params::{DEFAULT_OPTIMIZE, Params, RegionSize, Sizes, volume_of_edge};
-pub use surface::{Made, Other, SurfaceError, impose, make};
+pub use document::{Meshed, tetrahedralize};
 
 #[cfg(test)]
-mod bodies;
-#[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod turned;

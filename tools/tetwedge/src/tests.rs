@@ -1,24 +1,37 @@
-use crate::bodies::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
-use crate::{Error, Params, RegionSize, tetrahedralize};
-use geom::measure::{region_volume, tet_volume};
+use crate::fill::{fill, finish};
+use crate::{Meshed, tetrahedralize};
+use bodies::wedges::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
+use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
 use kit::Failure;
-use std::time::Duration;
-use tmesh::{Document, OUTSIDE, Template, validate};
+use mesher::{
+    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, Judged, LADDER, Params,
+    Rung, Sizes, TetGen,
+};
+use periodic_surf::failure;
+use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
 
-fn mesh(document: Document, params: &Params) -> Result<Document, Error> {
+/// Fills a document as these wishes ask.
+fn filled(mut document: Document, wishes: &Wishes) -> Result<Meshed, Error> {
+    document.wishes = wishes.clone().over(&document.wishes);
+    let params = Params::new(&document.wishes);
+    tetrahedralize(document, &params, &|_| ())
+}
+
+/// The same, with everything checked that must hold.
+fn mesh(document: Document, wishes: &Wishes) -> Result<Document, Error> {
     assert_eq!(validate(&document), []);
     let begun = document.clone();
-    let done = tetrahedralize(document, params, &|_| ())?.document;
+    let done = filled(document, wishes)?.document;
     check(&begun, &done);
     Ok(done)
 }
 
-fn sized(max_volume: f64) -> Params {
-    Params {
-        max_volume: Some(max_volume),
-        timeout: Some(Duration::from_secs(120)),
-        ..Params::default()
+fn sized(max_volume: f64) -> Wishes {
+    Wishes {
+        size: Some(Size::MaxVolume(max_volume)),
+        timeout: Some(120.0),
+        ..Wishes::default()
     }
 }
 
@@ -46,8 +59,8 @@ fn check(before: &Document, after: &Document) {
             assert!(tet_volume(a, b, c, d) > 0.0);
         }
         for region in &before.regions {
-            let surface = region_volume(old, region.id);
-            let refined = region_volume(new, region.id);
+            let surface = volume_of_region(&old.vertices, old.faces(), region.id);
+            let refined = volume_of_region(&new.vertices, new.faces(), region.id);
             let tets = volume(new, region.id);
             assert!(
                 (surface - tets).abs() <= 1e-9 * surface.abs(),
@@ -181,17 +194,14 @@ fn coatings_keep_their_region_and_may_have_a_size() {
     assert!(count(&done, 4) > 0 && count(&done, 9) > 0);
 
     // Optimization moves vertices after the sizes were met, and may exceed them.
-    let mut params = Params {
-        region_sizes: vec![RegionSize {
-            region: "material-9".to_owned(),
-            max_volume: 2e-6,
-        }],
-        optimize: None,
-        ..Params::default()
-    };
-    for (optimize, limit) in [(None, 2e-6), (Some(130.0), 4e-6)] {
-        params.optimize = optimize;
-        let done = mesh(coated_ring(16, 0.2), &params).unwrap();
+    let mut small = coated_ring(16, 0.2);
+    small.regions[1].max_volume = Some(2e-6);
+    for (optimize, limit) in [(180.0, 2e-6), (130.0, 4e-6)] {
+        let wishes = Wishes {
+            optimize: Some(optimize),
+            ..Wishes::default()
+        };
+        let done = mesh(small.clone(), &wishes).unwrap();
         let template = &done.templates[0];
         let biggest = |region| {
             template
@@ -206,9 +216,6 @@ fn coatings_keep_their_region_and_may_have_a_size() {
         };
         assert!(biggest(9) <= limit && biggest(4) > 1e-5, "{}", biggest(9));
     }
-    params.region_sizes[0].region = "copper".to_owned();
-    let error = mesh(coated_ring(16, 0.2), &params).unwrap_err();
-    assert!(matches!(error.failure(), Failure::Usage(_)));
 }
 
 #[test]
@@ -270,7 +277,7 @@ fn ratchet(order: u32) -> Document {
 fn seams_are_preserved() {
     for order in [2, 3, 7, 12] {
         let before = ratchet(order);
-        let done = tetrahedralize(before.clone(), &sized(1e-3), &|_| ()).unwrap();
+        let done = filled(before.clone(), &sized(1e-3)).unwrap();
         assert!(done.advice[0].contains("periodic-surf"));
         check(&before, &done.document);
         let (old, new) = (
@@ -282,7 +289,7 @@ fn seams_are_preserved() {
         // Whoever settles the surface says so.
         let mut refined = before;
         refined.wishes.keep_surface = Some(true);
-        let done = tetrahedralize(refined, &sized(1e-3), &|_| ()).unwrap();
+        let done = filled(refined, &sized(1e-3)).unwrap();
         assert!(done.advice.is_empty());
     }
 }
@@ -292,11 +299,9 @@ fn faces_between_templates_are_refined_alike() {
     let before = with_hub(6);
     // With several threads, the hub is meshed while the wedge is improved.
     let [one, four] = [1, 4].map(|threads| {
-        let params = Params {
-            threads,
-            ..sized(1e-4)
-        };
-        mesh(before.clone(), &params).unwrap()
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let meshed = || mesh(before.clone(), &sized(1e-4)).unwrap();
+        pool.build().unwrap().install(meshed)
     });
     assert_eq!(one.templates, four.templates);
     for done in [one, four] {
@@ -342,20 +347,18 @@ fn meshing_again_starts_from_the_surface() {
     let once = mesh(prism(4), &sized(1e-2)).unwrap();
     let mut again = once.clone();
     again.templates[0].vertices.push(DVec3::new(9.0, 9.0, 9.0));
-    let done = tetrahedralize(again, &sized(1e-2), &|_| ())
-        .unwrap()
-        .document;
+    let done = filled(again, &sized(1e-2)).unwrap().document;
     assert_eq!(validate(&done), []);
     assert!(!done.templates[0].vertices.contains(&DVec3::splat(9.0)));
 }
 
 #[test]
 fn a_plain_tetrahedralization_adds_little() {
-    let params = Params {
-        quality: false,
-        ..Params::default()
+    let plain = Wishes {
+        quality: Some(false),
+        ..Wishes::default()
     };
-    let done = mesh(coated_ring(16, 5e-3), &params).unwrap();
+    let done = mesh(coated_ring(16, 5e-3), &plain).unwrap();
     assert!(done.templates[0].tets.len() < 100);
 }
 
@@ -369,11 +372,9 @@ fn open_surfaces_are_refused() {
         .unwrap();
     document.templates[0].triangles.remove(removed);
     document.templates[0].gluings.clear();
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     assert!(matches!(error, Error::Open { edges: 2..=3, .. }), "{error}");
-    assert!(matches!(error.failure(), Failure::Input(_)));
+    assert!(matches!(failure(&error), Failure::Input(_)));
 }
 
 #[test]
@@ -385,26 +386,20 @@ fn inconsistent_regions_are_refused() {
             *side = 9;
         }
     }
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     assert!(matches!(error, Error::MixedCell { .. }), "{error}");
 
     let mut document = prism(6);
     for t in &mut document.templates[0].triangles {
         std::mem::swap(&mut t.front, &mut t.back);
     }
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     assert!(matches!(error, Error::Unbounded { .. }), "{error}");
 
     let mut document = prism(6);
     document.templates[0].triangles.clear();
     document.templates[0].gluings.clear();
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     assert!(matches!(error, Error::NoSurface { .. }), "{error}");
 }
 
@@ -421,25 +416,23 @@ fn intersections_are_reported_with_their_place() {
         t.vertices = t.vertices.map(|v| v + base);
     }
     template.triangles.append(&mut other.triangles);
-    let error = tetrahedralize(document, &sized(0.01), &|_| ())
-        .err()
-        .unwrap();
+    let error = filled(document, &sized(0.01)).err().unwrap();
     let text = error.to_string();
     assert!(matches!(error, Error::Mesher { .. }), "{text}");
     assert!(
         text.contains("intersect") && text.contains("near ("),
         "{text}"
     );
-    assert!(matches!(error.failure(), Failure::Impossible(_)));
+    assert!(matches!(failure(&error), Failure::Impossible(_)));
 }
 
 #[test]
 fn hopeless_requests_end() {
-    let params = Params {
-        timeout: Some(Duration::from_millis(200)),
+    let hasty = Wishes {
+        timeout: Some(0.2),
         ..sized(1e-8)
     };
-    let error = mesh(prism(4), &params).unwrap_err();
+    let error = mesh(prism(4), &hasty).unwrap_err();
     let text = error.to_string();
     assert!(
         text.contains("0.2 s") && text.contains("--timeout"),
@@ -454,97 +447,77 @@ fn switches_that_change_the_contract_are_errors() {
     for bad in ["o2", "h", "B"] {
         let params = Params {
             switches: bad.to_owned(),
-            ..sized(0.1)
+            ..Params::new(&sized(0.1))
         };
-        assert!(mesh(prism(4), &params).is_err(), "{bad}");
+        let done = tetrahedralize(prism(4), &params, &|_| ());
+        assert!(done.is_err(), "{bad}");
     }
 }
 
-/// Our time beside that of the `tetgen` program on the same complex with the same switches: run it
-/// with `cargo test --release -p tetwedge -- --ignored --nocapture overhead`.
-#[test]
-#[ignore = "a measurement, and needs the tetgen program"]
-fn overhead() {
-    use crate::params::{Sizes, switches};
-    use crate::plc::{DESCRIPTIONS, Plc};
-    use std::fmt::Write;
-    use std::time::Instant;
-    for (name, document, max_volume) in [
-        ("prism, order 3", prism(3), 2e-6),
-        ("ring, order 16, coating 5e-3", coated_ring(16, 5e-3), 1e-2),
-        ("ring, order 64, coating 5e-3", coated_ring(64, 5e-3), 1e-2),
-        ("with hub, order 6", with_hub(6), 1e-6),
-    ] {
-        let params = sized(max_volume);
-        let sizes = Sizes::new(&document, &params).unwrap();
-        let folder = tempfile::tempdir().unwrap();
-        let mut theirs = 0.0;
-        for index in 0..document.templates.len() {
-            let plc = Plc::new(&document, index, &sizes, DESCRIPTIONS[0]).unwrap();
-            let complex = plc.complex();
-            let mut text = format!("{} 3 0 0\n", complex.points.len());
-            for (i, [x, y, z]) in complex.points.iter().enumerate() {
-                writeln!(text, "{i} {x:?} {y:?} {z:?}").unwrap();
+/// Meshes every template of a document in one attempt, its surface described like this.
+fn described(document: &Document, description: Description, take: impl Fn(&Climb<'_>, Answer)) {
+    let params = Params::new(&sized(1e-3));
+    let mut document = document.clone();
+    document.wishes = sized(1e-3);
+    let document = &document;
+    let sizes = Sizes::new(document);
+    let rungs = [Rung {
+        after: Ending::Chance,
+        change: Change::Describe(description),
+    }];
+    let climb = Climb {
+        document,
+        template: 0,
+        params: &params,
+        sizes: &sizes,
+        preserve: true,
+        rungs: &rungs,
+        deadline: Deadline::start(params.timeout),
+        mesher: &TetGen,
+        log: &|_| (),
+    };
+    let taken = climb.climb(
+        Asks::AsWished,
+        |answer| {
+            if answer.failed == 0 {
+                // The rung has the description that is wanted.
+                return Err(Error::Unusable {
+                    template: 0,
+                    what: "once more".to_owned(),
+                });
             }
-            writeln!(text, "{} 1", complex.triangles.len()).unwrap();
-            for ([a, b, c], marker) in complex.triangles.iter().zip(complex.markers) {
-                writeln!(text, "1 0 {marker}\n3 {a} {b} {c}").unwrap();
-            }
-            text.push_str("0\n0\n");
-            std::fs::write(folder.path().join("body.poly"), text).unwrap();
-            let switches = switches(&params, plc.max_volume, false, plc.faces.preserve());
-            let begun = Instant::now();
-            let status = std::process::Command::new("tetgen")
-                .arg(format!("-{switches}NEFI"))
-                .arg("body.poly")
-                .current_dir(folder.path())
-                .stdout(std::process::Stdio::null())
-                .status()
-                .unwrap();
-            theirs += begun.elapsed().as_secs_f64();
-            assert!(status.success());
-        }
-        let begun = Instant::now();
-        let lines = std::sync::Mutex::new(Vec::new());
-        let log = |line: &str| lines.lock().unwrap().push(line.to_owned());
-        let done = tetrahedralize(document, &params, &log).unwrap().document;
-        let ours = begun.elapsed().as_secs_f64();
-        let tets: usize = done.templates.iter().map(|t| t.tets.len()).sum();
-        println!("{name}: {tets} tetrahedra, tetgen {theirs:.3} s, tetwedge {ours:.3} s");
-        for line in lines
-            .lock()
-            .unwrap()
-            .iter()
-            .filter(|l| l.starts_with("template"))
-        {
-            println!("    {line}");
-        }
-    }
+            take(&climb, answer);
+            Ok(Judged {
+                made: (),
+                short: None,
+            })
+        },
+        |_, _| true,
+    );
+    taken.unwrap();
 }
 
 #[test]
 fn equivalent_descriptions_give_equivalent_meshes() {
-    use crate::fill::{fill, finish};
-    use crate::params::{Sizes, switches};
-    use crate::plc::{DESCRIPTIONS, Plc};
+    let changes = LADDER.iter().map(|rung| rung.change);
+    let descriptions = changes.filter_map(|change| match change {
+        Change::Describe(description) => Some(description),
+        _ => None,
+    });
+    let descriptions: Vec<Description> = std::iter::once(Description::PLAIN)
+        .chain(descriptions)
+        .collect();
+    assert_eq!(descriptions.len(), 8);
     for document in [coated_ring(7, 5e-3), ratchet(7)] {
-        let params = sized(1e-3);
-        let sizes = Sizes::new(&document, &params).unwrap();
-        for description in DESCRIPTIONS {
-            let plc = Plc::new(&document, 0, &sizes, description).unwrap();
-            assert_eq!(plc.shift > 0.0, description.flat);
-            let switches = switches(&params, plc.max_volume, false, plc.faces.preserve());
-            let limits = tetgen_sys::Limits {
-                timeout: params.timeout,
-                ..tetgen_sys::Limits::default()
-            };
-            let mesh =
-                tetgen_sys::tetrahedralize(&plc.complex(), &switches, limits, &mut |_| ()).unwrap();
-            let (mut filled, origin) = fill(&document, 0, &plc, &mesh).unwrap();
-            finish(&document, 0, &plc, (&mut filled, &origin), &params, &sizes).unwrap();
-            let mut done = document.clone();
-            done.templates[0] = filled.template;
-            check(&document, &done);
+        for &description in &descriptions {
+            described(&document, description, |climb, answer| {
+                assert_eq!(answer.plc.shift > 0.0, description.flat);
+                let (mut filled, origin) = fill(&document, 0, &answer).unwrap();
+                finish(climb, &answer.plc, &mut filled, &origin).unwrap();
+                let mut done = document.clone();
+                done.templates[0] = filled.template;
+                check(&document, &done);
+            });
         }
     }
 }

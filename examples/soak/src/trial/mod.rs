@@ -58,7 +58,7 @@ impl Laboratory {
         bodies::write(&solid.body, solid.encoding, &mut out)?;
         out.flush()?;
         drop(out);
-        let mut plain = facts.group.clone();
+        let mut plain = facts.group.symbol();
         plain.push_str(&format!(
             ", order {}, {} triangles, {} materials; {}",
             facts.order,

@@ -67,7 +67,10 @@ fn order(solid: &Solid, symmetry: &Value) -> Option<String> {
         return Some(format!("order: {found} found, {known} known"));
     }
     // Groups of lower order may be seen from another axis.
-    if found == known && known > 2 && solid.facts.mirror && symmetry["mirror"] != Value::Bool(true)
+    if found == known
+        && known > 2
+        && solid.facts.group.has_vertical_mirrors()
+        && symmetry["mirror"] != Value::Bool(true)
     {
         return Some(format!("mirror: none found in {}", solid.facts.group));
     }

@@ -1,9 +1,9 @@
 //! The antiprism.
 
-use super::orbit::{Below, Corners, orbit};
+use super::orbit::{Corners, orbit};
 use crate::Body;
 use glam::DVec3;
-use tmesh::Isometry;
+use tmesh::{Group, Isometry, Kind};
 
 /// An antiprism over a regular polygon: its group is D_nd.
 #[derive(Clone, Debug)]
@@ -44,10 +44,9 @@ impl Antiprism {
         } else {
             patch.push([a, b, DVec3::new(0.0, 0.0, z)]);
         }
-        let body = orbit(self.order, Below::Alternating, &patch);
+        let body = orbit(Group::new(Kind::S, self.order), &patch);
         Body {
-            mirror: true,
-            group: format!("D{}d", self.order),
+            group: Group::new(Kind::Dd, self.order),
             ..body
         }
     }

@@ -4,34 +4,19 @@
 use crate::{Body, Face, Material};
 use glam::DVec3;
 use std::collections::HashMap;
-use tmesh::Isometry;
+use tmesh::Group;
 
 /// A triangle by its corners, counter-clockwise seen from outside.
 pub type Corners = [DVec3; 3];
 
-/// What takes the upper half of the body to the lower one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Below {
-    /// The reflection at z = 0: the group is C_nh.
-    Mirrored,
-    /// The rotary reflection by half a step of the rotation: the group is S_2n.
-    Alternating,
-}
-
-/// The body of one material that a patch generates under C_nh or S_2n, the order of the rotation being n.
-pub fn orbit(order: u32, below: Below, patch: &[Corners]) -> Body {
+/// The body of one material whose surface is the images of a patch under C_nh or S_2n.
+pub fn orbit(group: Group, patch: &[Corners]) -> Body {
     let mut surface = Welded::default();
-    for k in 0..i64::from(2 * order) {
-        // Even elements are rotations; odd ones turn the patch over.
-        let lower = k % 2 == 1;
-        let turn = match below {
-            Below::Mirrored => Isometry::rotation(k / 2, order),
-            Below::Alternating => Isometry::rotation(k, 2 * order),
-        };
+    for element in group.elements() {
+        let reversed = element.reverses_orientation();
         for &corners in patch {
-            let image = corners.map(|p| turn.apply(if lower { p * FLIP } else { p }));
-            let [a, b, c] = image.map(|p| surface.vertex(p));
-            surface.triangles.push(match lower {
+            let [a, b, c] = corners.map(|p| surface.vertex(element.apply(p)));
+            surface.triangles.push(match reversed {
                 true => [a, c, b],
                 false => [a, b, c],
             });
@@ -48,17 +33,10 @@ pub fn orbit(order: u32, below: Below, patch: &[Corners]) -> Body {
         materials: vec![Material {
             name: "body".to_owned(),
         }],
-        order,
-        mirror: false,
-        group: match below {
-            Below::Mirrored => format!("C{order}h"),
-            Below::Alternating => format!("S{}", 2 * order),
-        },
+        order: group.order,
+        group,
     }
 }
-
-/// The reflection at z = 0, as factors.
-const FLIP: DVec3 = DVec3::new(1.0, 1.0, -1.0);
 
 /// Points of different images that are the same but for rounding are one vertex.
 #[derive(Default)]

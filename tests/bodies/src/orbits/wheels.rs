@@ -1,9 +1,9 @@
 //! Wheels without mirror planes through the axis, whose upper and lower halves are images of each other.
 
-use super::orbit::{Below, Corners, orbit};
+use super::orbit::{Corners, orbit};
 use crate::Body;
 use glam::DVec3;
-use tmesh::Isometry;
+use tmesh::{Group, Isometry, Kind};
 
 /// A wheel with saw teeth around it: its group is C_nh.
 #[derive(Clone, Debug)]
@@ -98,7 +98,7 @@ impl SawWheel {
             height,
         };
         let columns = [(0, self.radius), (3, root), (20, self.radius)].map(column);
-        orbit(self.order, Below::Mirrored, &upper.surface(&columns))
+        orbit(Group::new(Kind::Ch, self.order), &upper.surface(&columns))
     }
 }
 
@@ -131,6 +131,6 @@ impl AlternatingWheel {
             height,
         };
         let columns = [(0, height), (3, tip), (4, height), (7, height), (8, height)].map(column);
-        orbit(self.order, Below::Alternating, &upper.surface(&columns))
+        orbit(Group::new(Kind::S, self.order), &upper.surface(&columns))
     }
 }

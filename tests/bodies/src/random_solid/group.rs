@@ -1,60 +1,22 @@
 //! Point groups with one main axis, as permutations of a grid around that axis.
 
 use crate::Dice;
+use tmesh::Kind;
 
-/// A family of point groups, in Schoenflies' symbols.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    C,
-    Cv,
-    Ch,
-    S,
-    D,
-    Dh,
-    Dd,
-}
+/// The kinds of groups, in the order in which the seeds of bodies choose them.
+pub const KINDS: [Kind; 7] = [
+    Kind::C,
+    Kind::Cv,
+    Kind::Ch,
+    Kind::S,
+    Kind::D,
+    Kind::Dh,
+    Kind::Dd,
+];
 
-impl Family {
-    pub const ALL: [Self; 7] = [
-        Self::C,
-        Self::Cv,
-        Self::Ch,
-        Self::S,
-        Self::D,
-        Self::Dh,
-        Self::Dd,
-    ];
-
-    /// The symbol of the group of this family and the order `n`.
-    pub fn symbol(self, n: usize) -> String {
-        match self {
-            Self::C => format!("C{n}"),
-            Self::Cv => format!("C{n}v"),
-            Self::Ch => format!("C{n}h"),
-            Self::S => format!("S{}", 2 * n),
-            Self::D => format!("D{n}"),
-            Self::Dh => format!("D{n}h"),
-            Self::Dd => format!("D{n}d"),
-        }
-    }
-
-    /// Highest order of rotation about any axis in the group of the order `n`.
-    pub fn highest_order(self, n: usize) -> usize {
-        match self {
-            Self::D | Self::Dh | Self::Dd => n.max(2),
-            Self::C | Self::Cv | Self::Ch | Self::S => n,
-        }
-    }
-
-    /// Whether elements of the group turn the axis over.
-    pub fn turns_over(self) -> bool {
-        !matches!(self, Self::C | Self::Cv)
-    }
-
-    /// Whether the group has a rotation by half a pitch with a reflection across the axis.
-    pub fn halves_pitch(self) -> bool {
-        matches!(self, Self::S | Self::Dd)
-    }
+/// Whether the groups of a kind have a rotation by half a pitch with a reflection across the axis.
+pub fn halves_pitch(kind: Kind) -> bool {
+    matches!(kind, Kind::S | Kind::Dd)
 }
 
 /// An element of a group: sector `k` goes to `shift + k`, or with `mirror` to `shift - k`, level `j`
@@ -94,9 +56,9 @@ impl Motion {
     }
 }
 
-/// The elements of a group whose pitch is `pitch` sectors; even where the family halves it. Mirror
+/// The elements of a group whose pitch is `pitch` sectors; even where the kind halves it. Mirror
 /// planes and axes across the main one are put at random places of the grid.
-pub fn motions(family: Family, order: usize, pitch: usize, dice: &mut Dice) -> Vec<Motion> {
+pub fn motions(kind: Kind, order: usize, pitch: usize, dice: &mut Dice) -> Vec<Motion> {
     let sectors = order * pitch;
     let c = dice.below(pitch);
     let half = pitch / 2;
@@ -105,19 +67,19 @@ pub fn motions(family: Family, order: usize, pitch: usize, dice: &mut Dice) -> V
         mirror,
         flip,
     };
-    let first = match family {
-        Family::C => vec![motion(0, false, false)],
-        Family::Cv => vec![motion(0, false, false), motion(c, true, false)],
-        Family::Ch => vec![motion(0, false, false), motion(0, false, true)],
-        Family::S => vec![motion(0, false, false), motion(half, false, true)],
-        Family::D => vec![motion(0, false, false), motion(c, true, true)],
-        Family::Dh => vec![
+    let first = match kind {
+        Kind::C => vec![motion(0, false, false)],
+        Kind::Cv => vec![motion(0, false, false), motion(c, true, false)],
+        Kind::Ch => vec![motion(0, false, false), motion(0, false, true)],
+        Kind::S => vec![motion(0, false, false), motion(half, false, true)],
+        Kind::D => vec![motion(0, false, false), motion(c, true, true)],
+        Kind::Dh => vec![
             motion(0, false, false),
             motion(c, true, false),
             motion(0, false, true),
             motion(c, true, true),
         ],
-        Family::Dd => vec![
+        Kind::Dd => vec![
             motion(0, false, false),
             motion(c, true, false),
             motion(half, false, true),

@@ -17,7 +17,8 @@ use crate::{Body, Encoding, Face, Material, Placement};
 use form::Form;
 use glam::DVec3;
 use grid::Grid;
-use group::{Family, Motion};
+use group::{KINDS, Motion};
+use tmesh::{Group, Kind};
 
 /// A random body, where it is, and what is known of it.
 pub struct Solid {
@@ -32,12 +33,10 @@ pub struct Solid {
 /// What is known of a solid.
 #[derive(Clone, Debug)]
 pub struct Facts {
-    /// Schoenflies symbol of the group it was made for; it may have more symmetry by chance.
-    pub group: String,
+    /// The group it was made for; it may have more symmetry by chance.
+    pub group: Group,
     /// Highest order of a rotation that maps it onto itself.
     pub order: usize,
-    /// Whether mirror planes contain the axis.
-    pub mirror: bool,
     /// Largest distance from the axis, in the units of the placed body.
     pub radius: f64,
     /// Features, in a few words.
@@ -47,14 +46,14 @@ pub struct Facts {
 /// The solid of a seed.
 pub fn solid(seed: u64) -> Solid {
     let mut dice = Dice::new(seed);
-    let family = dice.pick(&Family::ALL);
+    let kind = dice.pick(&KINDS);
     let order = match dice.below(100) {
         0..4 => 1,
         4..64 => dice.integer(2, 8),
         64..86 => dice.integer(9, 16),
         _ => dice.integer(17, 64),
     };
-    let pitch = pitch(family, order, &mut dice);
+    let pitch = pitch(kind, order, &mut dice);
     // Fewer cells along the others where there are many around.
     let most = if order * pitch > 36 { 2 } else { 4 };
     let grid = Grid {
@@ -63,11 +62,11 @@ pub fn solid(seed: u64) -> Solid {
         levels: dice.integer(1, most),
         bored: dice.chance(0.4),
     };
-    let motions = group::motions(family, order, pitch, &mut dice);
+    let motions = group::motions(kind, order, pitch, &mut dice);
     let middles = dice.pick(&[0.0, 0.0, 0.2, 1.0]);
     let faces = grid.faces(&motions, middles, &mut dice);
     let mut features = Vec::new();
-    let form = random_form(family, &grid, &mut features, &mut dice);
+    let form = random_form(kind, &grid, &mut features, &mut dice);
     let (places, share) = form.places(&grid, &faces, &motions, &mut dice);
     if share < 1.0 {
         features.push(format!("deformation x {share}"));
@@ -91,9 +90,11 @@ pub fn solid(seed: u64) -> Solid {
         true => order,
         false => turns(&grid, &faces, &places, &filling),
     };
-    body.order = turns.max(family.highest_order(order)) as u32;
-    body.mirror = motions.iter().any(|m| m.mirror && !m.flip);
-    body.group = family.symbol(order);
+    let group = Group::new(kind, order as u32);
+    // Half turns across the axis are rotations of order 2.
+    let highest = order.max(if group.has_half_turns() { 2 } else { 1 });
+    body.order = turns.max(highest) as u32;
+    body.group = group;
     tidy(&mut body);
     if tessellation::touches(&body) {
         features.push("touching edges".to_owned());
@@ -111,9 +112,8 @@ pub fn solid(seed: u64) -> Solid {
     features.push(format!("{encoding:?}"));
     Solid {
         facts: Facts {
-            group: family.symbol(order),
+            group,
             order: body.order as usize,
-            mirror: body.mirror,
             radius: scale * radius,
             features,
         },
@@ -123,7 +123,7 @@ pub fn solid(seed: u64) -> Solid {
 }
 
 /// Sectors of a pitch: at least three around the axis, an even number where the group halves it.
-fn pitch(family: Family, order: usize, dice: &mut Dice) -> usize {
+fn pitch(kind: Kind, order: usize, dice: &mut Dice) -> usize {
     let most = match order {
         0..=8 => 5,
         9..=16 => 3,
@@ -131,7 +131,7 @@ fn pitch(family: Family, order: usize, dice: &mut Dice) -> usize {
     };
     loop {
         let pitch = dice.integer(1, most.max(3_usize.div_ceil(order)));
-        if pitch * order >= 3 && (!family.halves_pitch() || pitch.is_multiple_of(2)) {
+        if pitch * order >= 3 && (!group::halves_pitch(kind) || pitch.is_multiple_of(2)) {
             return pitch;
         }
     }
@@ -178,7 +178,7 @@ fn steps(
     (values, thin)
 }
 
-fn random_form(family: Family, grid: &Grid, features: &mut Vec<String>, dice: &mut Dice) -> Form {
+fn random_form(kind: Kind, grid: &Grid, features: &mut Vec<String>, dice: &mut Dice) -> Form {
     let bore = if grid.bored {
         dice.between(0.1, 0.8)
     } else {
@@ -186,7 +186,7 @@ fn random_form(family: Family, grid: &Grid, features: &mut Vec<String>, dice: &m
     };
     let (radii, thin_ring) = steps(bore, 1.0, grid.rings, false, dice);
     let height = dice.log_between(0.1, 4.0);
-    let turned = family.turns_over();
+    let turned = Group::new(kind, 1).turning_over().is_some();
     let (heights, thin_level) = steps(-0.5 * height, 0.5 * height, grid.levels, turned, dice);
     if let Some(thin) = thin_ring {
         features.push(format!("ring of {thin:.3}"));
@@ -201,7 +201,7 @@ fn random_form(family: Family, grid: &Grid, features: &mut Vec<String>, dice: &m
         features.push(name.to_owned());
         dice.between(low, high)
     };
-    let chiral = matches!(family, Family::C | Family::D | Family::Ch | Family::S);
+    let chiral = matches!(kind, Kind::C | Kind::D | Kind::Ch | Kind::S);
     Form {
         radii,
         heights,
@@ -247,8 +247,7 @@ fn assemble(
             })
             .collect(),
         order: 1,
-        mirror: false,
-        group: String::new(),
+        group: Group::TRIVIAL,
     }
 }
 

@@ -5,7 +5,7 @@ use super::Tessellation;
 use super::sweep::{Ring, Sweep};
 use crate::Body;
 use glam::DVec3;
-use tmesh::Isometry;
+use tmesh::{Group, Isometry, Kind};
 
 /// Corners of a regular polygon of the given circumradius, first one on the x axis.
 fn polygon(order: u32, radius: f64, z: f64) -> Vec<DVec3> {
@@ -205,7 +205,7 @@ impl PracticalTsv {
             }
             upper = rim;
         }
-        sweep.build(n, true, true, self.tessellation)
+        sweep.build(Group::new(Kind::Cv, n), true, self.tessellation)
     }
 }
 

@@ -4,7 +4,7 @@ use super::Tessellation;
 use super::sweep::Sweep;
 use crate::Body;
 use glam::DVec3;
-use tmesh::Isometry;
+use tmesh::{Group, Isometry, Kind};
 
 /// A point of a section: its place within the pitch, in `parts` of it, and its radius.
 #[derive(Clone, Copy)]
@@ -38,8 +38,8 @@ pub struct Extrusion<'a> {
     pub coating: f64,
     /// The section's places, from the bottom up.
     pub levels: &'a [Level],
-    /// Whether mirror planes contain the axis.
-    pub mirror: bool,
+    /// Kind of the body's group.
+    pub kind: Kind,
     /// How flat parts are split.
     pub tessellation: Tessellation,
 }
@@ -79,7 +79,7 @@ impl Section {
             bore,
             coating,
             levels,
-            mirror,
+            kind,
             tessellation,
         } = *extrusion;
         let coated = coating > 0.0 && bore > 0.0;
@@ -124,26 +124,21 @@ impl Section {
         let flat = levels
             .iter()
             .all(|level| level.twist == 0.0 && level.scale == 1.0);
-        sweep.build(self.order, mirror, flat, tessellation)
+        sweep.build(Group::new(kind, self.order), flat, tessellation)
     }
 }
 
-/// A body without twist or taper, from z = 0 up: the group of its section and a horizontal mirror.
+/// A body without twist or taper, from z = 0 up.
 fn upright(section: &Section, height: f64, extrusion: Extrusion) -> Body {
     let levels = [0.0, height].map(|z| Level {
         z,
         twist: 0.0,
         scale: 1.0,
     });
-    let body = section.extrude(&Extrusion {
+    section.extrude(&Extrusion {
         levels: &levels,
         ..extrusion
-    });
-    let kind = if body.mirror { 'D' } else { 'C' };
-    Body {
-        group: format!("{kind}{}h", body.order),
-        ..body
-    }
+    })
 }
 
 /// The section of a gear with straight-flanked teeth; mirror planes run through teeth and gaps.
@@ -179,7 +174,7 @@ impl Gear {
             bore: self.bore,
             coating: 0.0,
             levels: &[],
-            mirror: true,
+            kind: Kind::Dh,
             tessellation: self.tessellation,
         };
         upright(&tooth(self.order, self.radius), self.height, extrusion)
@@ -215,7 +210,7 @@ impl Ratchet {
             bore: self.bore,
             coating: self.coating,
             levels: &[],
-            mirror: false,
+            kind: Kind::Ch,
             tessellation: self.tessellation,
         };
         let section = Section::of_tooth(self.order, 20, &points);
@@ -275,7 +270,7 @@ impl Impeller {
             bore: self.bore,
             coating: 0.0,
             levels: &levels,
-            mirror: self.twist == 0.0,
+            kind: if self.twist == 0.0 { Kind::Cv } else { Kind::C },
             tessellation: self.tessellation,
         })
     }

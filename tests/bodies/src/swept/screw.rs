@@ -6,6 +6,7 @@ use crate::Body;
 use crate::Random;
 use glam::DVec3;
 use std::f64::consts::TAU;
+use tmesh::{Group, Kind};
 
 /// A tapered screw with rounded threads, bored: rotations only. Each level has its own number of
 /// facets, begun anywhere; corners lie on the smooth surface, so what is drawn is symmetric up to the
@@ -101,8 +102,7 @@ impl Screw {
             }
         }
         sweep.build(
-            self.order,
-            false,
+            Group::new(Kind::C, self.order),
             false,
             Tessellation::Redrawn(self.drawing),
         )

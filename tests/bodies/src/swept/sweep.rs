@@ -7,6 +7,7 @@
 
 use crate::{Body, Face, Material};
 use glam::DVec3;
+use tmesh::{Group, Kind};
 
 /// How quadrilaterals and caps are split into triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,14 +85,11 @@ impl Sweep {
 
     /// The body, of plane quadrilaterals and with all mirror planes of a right prism: the group is D_nh.
     pub fn upright(self, order: u32, tessellation: Tessellation) -> Body {
-        Body {
-            group: format!("D{order}h"),
-            ..self.build(order, true, true, tessellation)
-        }
+        self.build(Group::new(Kind::Dh, order), true, tessellation)
     }
 
-    /// The body, whose group is C_n or C_nv. `flat` says that all strips are made of plane quadrilaterals.
-    pub fn build(self, order: u32, mirror: bool, flat: bool, tessellation: Tessellation) -> Body {
+    /// The body. `flat` says that all strips are made of plane quadrilaterals.
+    pub fn build(self, group: Group, flat: bool, tessellation: Tessellation) -> Body {
         let asymmetric = tessellation != Tessellation::Symmetric;
         let mut vertices = Vec::new();
         // First vertex of each ring; axis points are only added where a strip needs them.
@@ -178,9 +176,8 @@ impl Sweep {
             vertices,
             faces,
             materials: self.materials,
-            order,
-            mirror,
-            group: format!("C{order}{}", if mirror { "v" } else { "" }),
+            order: group.order,
+            group,
         }
     }
 }

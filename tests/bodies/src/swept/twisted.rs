@@ -4,6 +4,7 @@
 use super::Tessellation;
 use super::rotors::{Extrusion, Level, Section, tooth};
 use crate::Body;
+use tmesh::Kind;
 
 /// A bar of rectangular section, twisted: its group is D_2, that of a square one D_4.
 #[derive(Clone, Debug)]
@@ -70,15 +71,11 @@ fn twisted(section: &Section, bore: f64, height: f64, twist: f64, layers: u32) -
             scale: 1.0,
         })
         .collect();
-    let body = section.extrude(&Extrusion {
+    section.extrude(&Extrusion {
         bore,
         coating: 0.0,
         levels: &levels,
-        mirror: false,
+        kind: Kind::D,
         tessellation: Tessellation::Symmetric,
-    });
-    Body {
-        group: format!("D{}", body.order),
-        ..body
-    }
+    })
 }

@@ -1,7 +1,8 @@
 use super::*;
+use geom::sets::DisjointSets;
 use glam::DVec3;
 use std::collections::BTreeSet;
-use tmesh::{Gluing, Group, Kind, Template};
+use tmesh::{Document, Gluing, Group, Instance, Isometry, Kind, Template};
 
 /// A template of `count` vertices without meaningful coordinates: numbering must not look.
 fn template(count: usize, gluings: Vec<Gluing>) -> Template {

@@ -1,0 +1,236 @@
+//! Where a vertex may be moved to without changing the shape, its facets, or a wall.
+
+use geom::edges::Edges;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use tmesh::{FixedSet, Isometry, Template};
+
+/// Directions in which a vertex may move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Freedom {
+    /// Corners, walls shared with other templates.
+    Fixed,
+    /// Along a straight edge where facets meet.
+    Line(DVec3),
+    /// Inside of a facet: two unit vectors along it.
+    Plane(DVec3, DVec3),
+    /// Not on the surface.
+    Free,
+}
+
+impl Freedom {
+    /// Orthogonal unit vectors, as many as there are.
+    pub fn directions(&self) -> impl Iterator<Item = DVec3> + use<> {
+        let (list, count) = match *self {
+            Self::Fixed => ([DVec3::ZERO; 3], 0),
+            Self::Line(a) => ([a, DVec3::ZERO, DVec3::ZERO], 1),
+            Self::Plane(a, b) => ([a, b, DVec3::ZERO], 2),
+            Self::Free => ([DVec3::X, DVec3::Y, DVec3::Z], 3),
+        };
+        list.into_iter().take(count)
+    }
+}
+
+/// What a vertex of a wall or of the axis must keep to the last bit.
+#[derive(Clone, Copy, Debug, Default)]
+struct Exact {
+    vertical: Option<FixedSet>,
+    level: bool,
+    axis: bool,
+}
+
+/// Facets of the surface of a filled template.
+pub struct Flats<'a> {
+    /// Facet of each surface triangle.
+    pub of_triangle: &'a [u32],
+    /// Unit normal of each facet; zero where it has none.
+    pub normals: &'a [DVec3],
+    /// Vertices that must stay where they are.
+    pub fixed: &'a [u32],
+    /// A vertex this far from the line between its neighbours is on it, model units.
+    pub straight: f64,
+}
+
+/// The freedom of all vertices of a template.
+pub struct Freedoms {
+    of_vertex: Vec<Freedom>,
+    exact: FxHashMap<u32, Exact>,
+    /// Master of a vertex that is an image.
+    master_of: FxHashMap<u32, u32>,
+    /// Image of a master, with the step that takes one to the other.
+    image_of: FxHashMap<u32, (u32, Isometry)>,
+}
+
+/// Of a plane and a line in it, the sine of the angle between them is below this.
+const ALONG: f64 = 1e-6;
+
+impl Freedoms {
+    /// Finds what each vertex of a filled template, number `own`, may do. Linear.
+    pub fn new((template, own): (&Template, usize), flats: &Flats<'_>) -> Self {
+        let mut freedoms = Self {
+            of_vertex: surface(template, flats),
+            exact: FxHashMap::default(),
+            master_of: FxHashMap::default(),
+            image_of: FxHashMap::default(),
+        };
+        flats.fixed.iter().for_each(|&v| freedoms.fix(v));
+        for gluing in &template.gluings {
+            if gluing.other_than(own).is_some() {
+                gluing.vertices_here().for_each(|v| freedoms.fix(v));
+                continue;
+            }
+            for &[here, there] in &gluing.vertex_pairs {
+                if here == there {
+                    freedoms.keep_on(here, FixedSet::of(gluing.step));
+                } else {
+                    freedoms.pair(there, here, gluing.step);
+                }
+            }
+        }
+        for &v in &template.axis {
+            freedoms.exact.entry(v).or_default().axis = true;
+            let freedom = &mut freedoms.of_vertex[v as usize];
+            if !matches!(freedom, Freedom::Line(d) if d.x.hypot(d.y) <= ALONG) {
+                *freedom = Freedom::Fixed;
+            }
+        }
+        freedoms
+    }
+
+    fn fix(&mut self, v: u32) {
+        self.of_vertex[v as usize] = Freedom::Fixed;
+    }
+
+    /// Keeps a vertex that is its own image on what the step leaves where it is.
+    fn keep_on(&mut self, v: u32, set: FixedSet) {
+        let exact = self.exact.entry(v).or_default();
+        match set {
+            FixedSet::All => {}
+            FixedSet::Horizontal => exact.level = true,
+            FixedSet::Vertical { .. } => exact.vertical = Some(set),
+            FixedSet::Axis => exact.axis = true,
+            FixedSet::Radial { cos, sin } => {
+                exact.level = true;
+                exact.vertical = Some(FixedSet::Vertical { cos, sin });
+                let along = DVec3::new(cos, sin, 0.0);
+                let freedom = &mut self.of_vertex[v as usize];
+                if !matches!(freedom, Freedom::Line(d) if d.cross(along).length() <= ALONG) {
+                    *freedom = Freedom::Fixed;
+                }
+            }
+            FixedSet::Origin => self.fix(v),
+        }
+    }
+
+    /// Has a vertex and its image move as one, if both may move alike and neither has another partner.
+    fn pair(&mut self, master: u32, image: u32, step: Isometry) {
+        self.exact.entry(master).or_default().vertical = Some(FixedSet::of_master(step));
+        let once = self.image_of.insert(master, (image, step)).is_none()
+            && self.master_of.insert(image, master).is_none();
+        if !(once && alike(&self.of_vertex, master, image, step)) {
+            self.fix(master);
+        }
+        self.fix(image);
+    }
+
+    /// The vertex to move for `v` to move: the master for its image.
+    pub fn mover(&self, v: u32) -> u32 {
+        self.master_of.get(&v).copied().unwrap_or(v)
+    }
+
+    /// Freedom of a vertex, of the master if it has a partner. Vertices that have come since are inside.
+    pub fn of(&self, v: u32) -> Freedom {
+        let known = self.of_vertex.get(v as usize);
+        known.copied().unwrap_or(Freedom::Free)
+    }
+
+    /// The vertex that moves with `v`, and by which step.
+    pub fn partner(&self, v: u32) -> Option<(u32, Isometry)> {
+        self.image_of.get(&v).copied()
+    }
+
+    /// The nearest place to `p` that is exactly on what `v` belongs to.
+    pub fn place(&self, v: u32, p: DVec3) -> DVec3 {
+        let Some(exact) = self.exact.get(&v) else {
+            return p;
+        };
+        let p = if exact.axis {
+            DVec3::new(0.0, 0.0, p.z)
+        } else {
+            exact.vertical.map_or(p, |plane| plane.nearest(p))
+        };
+        if exact.level {
+            DVec3::new(p.x, p.y, 0.0)
+        } else {
+            p
+        }
+    }
+}
+
+/// Whether two partners have the same freedom.
+fn alike(of_vertex: &[Freedom], master: u32, image: u32, step: Isometry) -> bool {
+    match [master, image].map(|v| of_vertex[v as usize]) {
+        [Freedom::Line(a), Freedom::Line(b)] => step.apply(a).cross(b).length() <= ALONG,
+        [Freedom::Plane(..), Freedom::Plane(..)] => true,
+        _ => false,
+    }
+}
+
+/// Freedom as the surface's facets have it.
+fn surface(template: &Template, flats: &Flats<'_>) -> Vec<Freedom> {
+    let mut of_vertex = vec![Freedom::Free; template.vertices.len()];
+    let corners: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
+    let edges = Edges::new(&corners);
+    // Other ends of the feature edges at each vertex: two can be straight, more can not.
+    let mut ends: FxHashMap<u32, (u32, [u32; 2])> = FxHashMap::default();
+    for (e, &[a, b]) in edges.ends.iter().enumerate() {
+        let facet = |t: u32| flats.of_triangle[t as usize];
+        let inside = matches!(edges.around(e), [s, t]
+            if s.forward != t.forward && facet(s.triangle) == facet(t.triangle));
+        if !inside {
+            for (v, other) in [(a, b), (b, a)] {
+                let (count, others) = ends.entry(v).or_default();
+                if let Some(slot) = others.get_mut(*count as usize) {
+                    *slot = other;
+                }
+                *count += 1;
+            }
+        }
+    }
+    for (t, &facet) in corners.iter().zip(flats.of_triangle) {
+        let normal = flats.normals[facet as usize];
+        for &v in t {
+            let p = template.vertices[v as usize];
+            let freedom = &mut of_vertex[v as usize];
+            *freedom = match (*freedom, ends.get(&v)) {
+                _ if normal == DVec3::ZERO => Freedom::Fixed,
+                (Freedom::Free, None) => {
+                    let (a, b) = normal.any_orthonormal_pair();
+                    Freedom::Plane(a, b)
+                }
+                (Freedom::Free, Some((2, others))) => {
+                    let [a, b] = others.map(|o| template.vertices[o as usize]);
+                    match straight(a, p, b, flats.straight) {
+                        Some(d) if d.dot(normal).abs() <= ALONG => Freedom::Line(d),
+                        _ => Freedom::Fixed,
+                    }
+                }
+                (Freedom::Line(d), Some(_)) if d.dot(normal).abs() <= ALONG => Freedom::Line(d),
+                (Freedom::Plane(a, b), None) if a.cross(b).dot(normal).abs() >= 1.0 - ALONG => {
+                    Freedom::Plane(a, b)
+                }
+                _ => Freedom::Fixed,
+            };
+        }
+    }
+    of_vertex
+}
+
+/// The direction from `a` to `b` if `p` is between them.
+fn straight(a: DVec3, p: DVec3, b: DVec3, tolerance: f64) -> Option<DVec3> {
+    let direction = (b - a).try_normalize()?;
+    let (before, after) = (p - a, b - p);
+    let off = (before - direction * before.dot(direction)).length();
+    let between = before.dot(direction) > 0.0 && after.dot(direction) > 0.0;
+    (between && off <= tolerance).then_some(direction)
+}

@@ -1,0 +1,195 @@
+//! Puts new vertices where nothing else helps.
+//!
+//! A tetrahedron makes room for a vertex, together with those around it that would be no better than it is with the
+//! new vertex in their place; the cavity is filled from the vertex, which then moves to where the worst of the
+//! new tetrahedra is best (after B. Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 2007). It
+//! is the only way where all corners are on a surface that has to stay.
+
+use crate::freedom::Freedoms;
+use crate::mesh::{Corners, Mesh};
+use crate::quality::{Grade, LEAST};
+use crate::smooth::settle;
+use geom::tet::{EDGES, FACES};
+use glam::DVec3;
+
+/// The smallest quality has to grow by this part for a new vertex.
+const GAIN: f64 = 5e-2;
+
+/// Places that are tried in earnest, the best of all.
+const TRIED: usize = 4;
+
+/// Tetrahedra that make room for a vertex, at most.
+const ROOM: usize = 40;
+
+/// A new vertex, and the tetrahedra at it in the place of others.
+pub struct Insertion {
+    at: DVec3,
+    old: Vec<u32>,
+    new: Vec<(Corners, Grade)>,
+    least: f64,
+}
+
+impl Insertion {
+    /// Whether no more than `count` tetrahedra make room.
+    #[cfg(test)]
+    pub fn replaces_at_most(&self, count: usize) -> bool {
+        self.old.len() <= count
+    }
+
+    /// Adds the vertex, and puts the tetrahedra in their place.
+    pub fn apply(&self, mesh: &mut Mesh<'_>) {
+        mesh.renew();
+        mesh.add(self.at);
+        mesh.replace(&self.old, &self.new);
+    }
+}
+
+/// Tetrahedra that would make room for a vertex.
+struct Cavity {
+    start: DVec3,
+    old: Vec<u32>,
+    /// What would be in their place, and the smallest quality of them with the vertex at `start`.
+    new: Vec<Corners>,
+    least: f64,
+}
+
+/// The new vertex in or at a tetrahedron that makes the worst one there better, and as good as possible.
+pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> Option<Insertion> {
+    let points = mesh.corners(tet).map(|v| mesh.positions[v as usize]);
+    let mut cavities: Vec<Cavity> = places(points)
+        .filter_map(|p| cavity(mesh, tet, p))
+        .collect();
+    // The vertex is moved from there, which takes time.
+    cavities.sort_by(|a, b| b.least.total_cmp(&a.least));
+    cavities.truncate(TRIED);
+    let mut best: Option<Insertion> = None;
+    for cavity in cavities {
+        let found = fill(mesh, freedoms, cavity);
+        if let Some(found) = found
+            && best.as_ref().is_none_or(|b| b.least < found.least)
+        {
+            best = Some(found);
+        }
+    }
+    best
+}
+
+/// Where to try: the middles of the tetrahedron, its faces and edges, and towards the centre of its circumscribed
+/// sphere, which is where refinement puts vertices against long radii.
+fn places(points: [DVec3; 4]) -> impl Iterator<Item = DVec3> {
+    let [a, b, c, d] = points;
+    let middle = (a + b + c + d) * 0.25;
+    let faces = FACES.map(|face| face.map(|i| points[i]).iter().sum::<DVec3>() / 3.0);
+    let edges = EDGES.map(|[i, j]| (points[i] + points[j]) * 0.5);
+    let (u, v, w) = (b - a, c - a, d - a);
+    let (uv, vw, wu) = (u.cross(v), v.cross(w), w.cross(u));
+    let sum = u.length_squared() * vw + v.length_squared() * wu + w.length_squared() * uv;
+    let centre = a + sum / (2.0 * uv.dot(w));
+    let towards = [0.5, 1.0].map(|t| middle.lerp(centre, t));
+    let all = std::iter::once(middle).chain(faces).chain(edges);
+    all.chain(towards.into_iter().filter(|p| p.is_finite()))
+}
+
+/// The cavity that suits a vertex at `start`.
+fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3) -> Option<Cavity> {
+    let region = mesh.region(tet);
+    let (above, _) = mesh.bounds(&[tet], GAIN, LEAST);
+    let vertex = mesh.positions.len() as u32;
+    let mut old = vec![tet];
+    // Faces of the cavity, seen from inside, with the tetrahedron inside.
+    let mut hull: Vec<([u32; 3], u32)> = faces(mesh, tet).collect();
+    let mut next = 0;
+    while let Some(&(face, inside)) = hull.get(next) {
+        let points = face.map(|v| mesh.positions[v as usize]);
+        let grade = mesh.of_points([points[0], points[1], points[2], start]);
+        if grade.quality > above {
+            next += 1;
+            continue;
+        }
+        let other = beyond(mesh, face, inside)
+            .filter(|&t| mesh.region(t) == region && !mesh.is_fixed_face(face))
+            .filter(|_| old.len() < ROOM);
+        let Some(other) = other else {
+            // The vertex is moved later on.
+            if grade.quality <= LEAST {
+                return None;
+            }
+            next += 1;
+            continue;
+        };
+        old.push(other);
+        // Faces that it has in common with the cavity are gone, the others are new ones.
+        for (face, inside) in faces(mesh, other) {
+            let same = |f: &([u32; 3], u32)| f.0.iter().all(|v| face.contains(v));
+            match hull.iter().position(same) {
+                Some(place) => {
+                    hull.remove(place);
+                    next -= usize::from(place < next);
+                }
+                None => hull.push((face, inside)),
+            }
+        }
+    }
+    let kept = |v: &u32| hull.iter().any(|(face, _)| face.contains(v));
+    let edge_kept = |a: u32, b: u32| {
+        !mesh.is_fixed_edge(a, b) || hull.iter().any(|(f, _)| f.contains(&a) && f.contains(&b))
+    };
+    let whole = old.iter().all(|&t| {
+        let corners = mesh.corners(t);
+        corners.iter().all(kept)
+            && EDGES
+                .iter()
+                .all(|&[i, j]| edge_kept(corners[i], corners[j]))
+    });
+    if !whole {
+        return None;
+    }
+    let new: Vec<Corners> = hull
+        .iter()
+        .map(|&([a, b, c], _)| [a, b, c, vertex])
+        .collect();
+    let qualities = hull.iter().map(|(face, _)| {
+        let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+        mesh.of_points([a, b, c, start]).quality
+    });
+    Some(Cavity {
+        least: qualities.fold(f64::INFINITY, f64::min),
+        start,
+        old,
+        new,
+    })
+}
+
+/// Fills a cavity from a vertex that is moved to the best place, if that makes the worst tetrahedron better.
+fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, cavity: Cavity) -> Option<Insertion> {
+    let Cavity {
+        start, old, new, ..
+    } = cavity;
+    let (above, most) = mesh.bounds(&old, GAIN, LEAST);
+    let region = mesh.region(*old.first()?);
+    let (at, grades) = settle(mesh, freedoms, start, &new, (region, most));
+    let qualities = grades.iter().map(|g| g.quality);
+    let least = qualities.fold(f64::INFINITY, f64::min);
+    (least > above).then(|| Insertion {
+        at,
+        old,
+        new: new.into_iter().zip(grades).collect(),
+        least,
+    })
+}
+
+/// The faces of a tetrahedron, each positive with a vertex inside as the fourth.
+fn faces(mesh: &Mesh<'_>, tet: u32) -> impl Iterator<Item = ([u32; 3], u32)> + use<> {
+    let corners = mesh.corners(tet);
+    FACES
+        .iter()
+        .map(move |&[i, j, k]| ([corners[i], corners[k], corners[j]], tet))
+}
+
+/// The tetrahedron on the other side of a face.
+fn beyond(mesh: &Mesh<'_>, face: [u32; 3], inside: u32) -> Option<u32> {
+    mesh.star(face[0]).iter().copied().find(|&t| {
+        let corners = mesh.corners(t);
+        t != inside && face.iter().all(|v| corners.contains(v))
+    })
+}

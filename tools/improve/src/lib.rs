@@ -1,0 +1,23 @@
+//! Makes the worst tetrahedra of a mesh better: moves vertices, replaces edges and faces, adds vertices.
+//!
+//! The mesher sees a wedge with a surface that it must keep where copies meet, and cannot do there what it
+//! does inside. Here a seam is the inside that it is in the assembled mesh: the star of a vertex on it
+//! is what is at the vertex together with what is at its partner, turned back, and both move as one.
+//! Vertices on facets, walls and straight edges move along them, so shape, walls and the
+//! triangulation of the surface stay.
+
+mod ahead;
+mod flip;
+mod freedom;
+mod improve;
+mod insert;
+mod mesh;
+mod quality;
+mod smooth;
+mod stars;
+
+#[cfg(test)]
+mod tests;
+
+pub use freedom::{Flats, Freedoms};
+pub use improve::{Improved, Wish, improve};

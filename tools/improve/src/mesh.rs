@@ -1,0 +1,222 @@
+//! Tetrahedra that are replaced and vertices that are moved while the mesh is improved.
+
+use crate::quality::{Goal, Grade};
+use crate::stars::Stars;
+use glam::DVec3;
+use rustc_hash::{FxHashMap, FxHashSet};
+use tmesh::{Template, Tet, Triangle};
+
+/// A tetrahedron, given by the places of its corners.
+pub type Corners = [u32; 4];
+
+/// Tetrahedra with their grades and the stars of their vertices, kept up to date.
+pub struct Mesh<'a> {
+    /// Positions, scaled to be near one.
+    pub positions: Vec<DVec3>,
+    /// Six times the largest volume in a region, scaled.
+    limits: &'a FxHashMap<u32, f64>,
+    goal: Goal,
+    tets: Vec<Tet>,
+    grades: Vec<Grade>,
+    stars: Stars,
+    /// Faces and edges inside of a region that are part of the surface.
+    fixed_faces: FxHashSet<[u32; 3]>,
+    fixed_edges: FxHashSet<[u32; 2]>,
+}
+
+impl<'a> Mesh<'a> {
+    /// Takes over the tetrahedra of a template. Linear.
+    pub fn new(
+        template: &Template,
+        scale: f64,
+        goal: Goal,
+        limits: &'a FxHashMap<u32, f64>,
+    ) -> Self {
+        let positions: Vec<DVec3> = template.vertices.iter().map(|&p| p * scale).collect();
+        let tets = template.tets.clone();
+        let grade = |t: &Tet| goal.grade(t.vertices.map(|v| positions[v as usize]));
+        let (grades, stars) = rayon::join(
+            || tets.iter().map(grade).collect(),
+            || Stars::new(positions.len(), &tets),
+        );
+        let inner = template.triangles.iter().filter(|t| t.front == t.back);
+        let fixed_faces: FxHashSet<_> = inner.map(|t: &Triangle| sorted(t.vertices)).collect();
+        let fixed_edges = fixed_faces
+            .iter()
+            .flat_map(|&[a, b, c]| [[a, b], [a, c], [b, c]])
+            .collect();
+        Self {
+            positions,
+            limits,
+            goal,
+            tets,
+            grades,
+            stars,
+            fixed_faces,
+            fixed_edges,
+        }
+    }
+
+    /// Grades some tetrahedra by another goal, which has to be the same for all others.
+    pub fn change_goal(&mut self, goal: Goal, tets: impl Iterator<Item = u32>) {
+        self.goal = goal;
+        for tet in tets {
+            self.grades[tet as usize] = self.of_corners(self.corners(tet));
+        }
+    }
+
+    /// Number of places for tetrahedra; all are taken.
+    pub fn len(&self) -> usize {
+        self.tets.len()
+    }
+
+    /// The tetrahedra.
+    pub fn into_tets(self) -> Vec<Tet> {
+        self.tets
+    }
+
+    /// Corners of a tetrahedron.
+    pub fn corners(&self, tet: u32) -> Corners {
+        self.tets[tet as usize].vertices
+    }
+
+    /// Region of a tetrahedron.
+    pub fn region(&self, tet: u32) -> u32 {
+        self.tets[tet as usize].region
+    }
+
+    /// Grade of a tetrahedron.
+    pub fn grade(&self, tet: u32) -> Grade {
+        self.grades[tet as usize]
+    }
+
+    /// Tetrahedra at a vertex.
+    pub fn star(&self, v: u32) -> &[u32] {
+        self.stars.of(v)
+    }
+
+    /// Begins a new time, for [`Self::is_touched`]: before every change.
+    pub fn renew(&mut self) {
+        self.stars.renew();
+    }
+
+    /// The time that it is.
+    pub fn now(&self) -> u32 {
+        self.stars.now()
+    }
+
+    /// Whether anything about the tetrahedra at a vertex changed after that time: which ones they are,
+    /// their numbers, their corners or where these are.
+    pub fn is_touched(&self, v: u32, time: u32) -> bool {
+        self.stars.is_touched(v, time)
+    }
+
+    /// Grades four points as a tetrahedron.
+    pub fn of_points(&self, points: [DVec3; 4]) -> Grade {
+        self.goal.grade(points)
+    }
+
+    /// Grades four vertices as a tetrahedron.
+    pub fn of_corners(&self, corners: Corners) -> Grade {
+        let at = |v: u32| self.positions[v as usize];
+        let [a, b, c, d] = corners;
+        self.goal.grade([at(a), at(b), at(c), at(d)])
+    }
+
+    /// Whether a size is within the limit of a region, or below what there was before.
+    pub fn fits(&self, region: u32, six_volume: f64, before: f64) -> bool {
+        six_volume <= before
+            || self
+                .limits
+                .get(&region)
+                .is_none_or(|&most| six_volume <= most)
+    }
+
+    /// The quality that tetrahedra in the place of `old` must exceed, at least `least` and by the part
+    /// `gain` more than the worst of them; and the largest of them, six volumes.
+    pub fn bounds(&self, old: &[u32], gain: f64, least: f64) -> (f64, f64) {
+        let grades = old.iter().map(|&t| self.grade(t));
+        let (worst, most) = grades.fold((f64::INFINITY, 0.0_f64), |(q, v), g| {
+            (q.min(g.quality), v.max(g.six_volume))
+        });
+        ((worst + gain * worst.abs()).max(least), most)
+    }
+
+    /// Whether three vertices are a surface triangle inside of a region.
+    pub fn is_fixed_face(&self, face: [u32; 3]) -> bool {
+        !self.fixed_faces.is_empty() && self.fixed_faces.contains(&sorted(face))
+    }
+
+    /// Whether two vertices are an edge of such a triangle.
+    pub fn is_fixed_edge(&self, a: u32, b: u32) -> bool {
+        !self.fixed_edges.is_empty() && self.fixed_edges.contains(&[a.min(b), a.max(b)])
+    }
+
+    /// Adds a vertex that is at no tetrahedron yet; returns its number.
+    pub fn add(&mut self, p: DVec3) -> u32 {
+        self.positions.push(p);
+        self.stars.add();
+        self.positions.len() as u32 - 1
+    }
+
+    /// Moves a vertex; the tetrahedra at it need their new grades.
+    pub fn put(&mut self, v: u32, p: DVec3) {
+        self.positions[v as usize] = p;
+    }
+
+    /// Gives a tetrahedron with a moved corner its new grade.
+    pub fn regrade(&mut self, tet: u32, grade: Grade) {
+        self.grades[tet as usize] = grade;
+        let corners = self.corners(tet);
+        corners.into_iter().for_each(|v| self.stars.touch(v));
+    }
+
+    /// Puts other tetrahedra in the place of some of the same region, with their grades.
+    pub fn replace(&mut self, old: &[u32], new: &[(Corners, Grade)]) {
+        let Some(&first) = old.first() else {
+            return;
+        };
+        let region = self.region(first);
+        for &tet in old {
+            for v in self.corners(tet) {
+                self.stars.remove(v, tet);
+            }
+        }
+        // Places that are left over are filled from the end.
+        let mut gone: Vec<u32> = old.to_vec();
+        gone.sort_unstable();
+        for (i, &(vertices, grade)) in new.iter().enumerate() {
+            let tet = Tet { vertices, region };
+            let place = match gone.get(i) {
+                Some(&place) => {
+                    self.tets[place as usize] = tet;
+                    self.grades[place as usize] = grade;
+                    place
+                }
+                None => {
+                    self.tets.push(tet);
+                    self.grades.push(grade);
+                    self.tets.len() as u32 - 1
+                }
+            };
+            for v in vertices {
+                self.stars.push(v, place);
+            }
+        }
+        for &hole in gone.iter().skip(new.len()).rev() {
+            let last = self.tets.len() as u32 - 1;
+            if hole != last {
+                for v in self.corners(last) {
+                    self.stars.rename(v, last, hole);
+                }
+            }
+            self.tets.swap_remove(hole as usize);
+            self.grades.swap_remove(hole as usize);
+        }
+    }
+}
+
+fn sorted(mut t: [u32; 3]) -> [u32; 3] {
+    t.sort_unstable();
+    t
+}

@@ -1,0 +1,158 @@
+//! How good a tetrahedron is, against what is asked for.
+
+use glam::DVec3;
+
+/// New tetrahedra have at least this quality: what is so near to flat that rounding could decide is not
+/// touched.
+pub const LEAST: f64 = 1e-4;
+
+/// Quality of an element just past the radius-edge bound, and the power by which it falls from there on. With none
+/// of a step, elements would be traded for some past the bound too readily.
+const PAST: f64 = 0.62;
+const FALL: i32 = 3;
+
+/// Part by which the smallest angle asked for must be exceeded where it is worth more than the bound.
+const ABOVE: f64 = 1.02;
+
+/// What every tetrahedron should reach.
+#[derive(Clone, Copy, Debug)]
+pub struct Goal {
+    /// Tangent of the smallest dihedral angle.
+    tangent: f64,
+    /// Largest ratio of circumradius to shortest edge.
+    radius_edge: f64,
+    /// Quality of an element just past that.
+    past: f64,
+}
+
+/// Quality and size of a tetrahedron.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grade {
+    /// 1 and more: good enough. Below, the worse one of what the smallest dihedral angle, by its tangent, and the
+    /// radius-edge ratio are worth as parts of what is asked for. Not above 0 for flat and inverted ones.
+    pub quality: f64,
+    /// Six times the signed volume.
+    pub six_volume: f64,
+}
+
+impl Goal {
+    /// A smallest dihedral angle in degrees, and a largest radius-edge ratio.
+    pub fn new(angle: f64, radius_edge: f64) -> Self {
+        Self {
+            tangent: libm::tan(angle.to_radians()),
+            radius_edge,
+            past: PAST,
+        }
+    }
+
+    /// The same goal, but that elements past the radius-edge bound are worse than any whose smallest dihedral angle is a
+    /// little above `angle`, degrees.
+    pub fn with_bound_before(self, angle: f64) -> Self {
+        let least = ABOVE * libm::tan(angle.to_radians()) / self.tangent;
+        Self {
+            past: least.clamp(LEAST, PAST),
+            ..self
+        }
+    }
+
+    /// Grades a tetrahedron by its corners; see [`geom::tet::TetMeasures::of`] for the formulas.
+    pub fn grade(&self, [a, b, c, d]: [DVec3; 4]) -> Grade {
+        let (u, v, w) = (b - a, c - a, d - a);
+        let (uv, vw, wu) = (u.cross(v), v.cross(w), w.cross(u));
+        let six_volume = uv.dot(w);
+        if six_volume.is_nan() || six_volume <= 0.0 {
+            return Grade {
+                quality: -1.0,
+                six_volume,
+            };
+        }
+        let opposite_a = uv + vw + wu;
+        let squares = [u, v, w, v - u, w - u, w - v].map(DVec3::length_squared);
+        let products = [
+            -wu.dot(uv),
+            -vw.dot(uv),
+            -vw.dot(wu),
+            opposite_a.dot(uv),
+            opposite_a.dot(wu),
+            opposite_a.dot(vw),
+        ];
+        let mut steepest = 0.0_f64;
+        let mut shortest = f64::INFINITY;
+        for (square, product) in squares.into_iter().zip(products) {
+            steepest = steepest.max(product / square.sqrt());
+            shortest = shortest.min(square);
+        }
+        let centre = squares[0] * vw + squares[1] * wu + squares[2] * uv;
+        let angle = six_volume / (steepest * self.tangent);
+        let ratio =
+            self.radius_edge * 2.0 * six_volume * (shortest / centre.length_squared()).sqrt();
+        Grade {
+            quality: angle.min(self.ratio_quality(ratio)),
+            six_volume,
+        }
+    }
+
+    /// The quality that the inverse of a radius-edge ratio allows, as a part of what is asked for.
+    fn ratio_quality(&self, part: f64) -> f64 {
+        match part >= 1.0 {
+            true => part,
+            false => self.past * part.powi(FALL),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use geom::tet::TetMeasures;
+
+    #[test]
+    fn the_bound_is_a_step() {
+        let goal = Goal::new(25.0, 1.4);
+        let ratio_quality = |part: f64| goal.ratio_quality(part);
+        assert_eq!(ratio_quality(1.0), 1.0);
+        assert_eq!(ratio_quality(1.3), 1.3);
+        // An element just past the bound is worth less than one with two thirds of the angle asked for.
+        assert!(ratio_quality(1.0 - 1e-9) < 0.66);
+        assert!(ratio_quality(0.8) < ratio_quality(0.9) && ratio_quality(0.8) > 0.0);
+        // And less than one with the angle that the mesher is asked for, where the bound comes first.
+        let ten = libm::tan(10_f64.to_radians()) / libm::tan(25_f64.to_radians());
+        let past = goal.with_bound_before(10.0).ratio_quality(1.0 - 1e-9);
+        assert!(past > ten && past < 1.05 * ten, "{past}");
+        assert_eq!(goal.with_bound_before(20.0).past, PAST);
+        assert!(goal.with_bound_before(0.0).past > 0.0);
+    }
+
+    #[test]
+    fn grades_agree_with_the_measures() {
+        let goal = Goal::new(20.0, 1.4);
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut signs = [0; 2];
+        for _ in 0..1000 {
+            let corners = [(); 4].map(|()| DVec3::new(random(), random(), random()));
+            let m = TetMeasures::of(corners);
+            let grade = goal.grade(corners);
+            assert!((grade.six_volume - 6.0 * m.volume).abs() < 1e-14);
+            signs[usize::from(m.volume > 0.0)] += 1;
+            if m.volume > 0.0 {
+                let angle = m.min_dihedral.tan() / 20_f64.to_radians().tan();
+                let ratio = goal.ratio_quality(1.4 / m.radius_edge_ratio);
+                let expected = angle.min(ratio);
+                assert!(
+                    (grade.quality / expected - 1.0).abs() < 1e-9,
+                    "{grade:?} {expected}"
+                );
+            } else {
+                assert!(grade.quality < 0.0);
+            }
+        }
+        assert!(signs[0] > 100 && signs[1] > 100);
+        assert!(goal.grade([DVec3::ONE; 4]).quality < 0.0);
+    }
+}

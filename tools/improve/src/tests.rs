@@ -1,0 +1,494 @@
+use super::flip;
+use super::freedom::Freedom;
+use super::insert;
+use super::mesh::Mesh;
+use super::quality::Goal;
+use super::smooth;
+use super::{Flats, Freedoms, Wish, improve};
+use geom::measure::tet_volume;
+use geom::tet::TetMeasures;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use tmesh::{Gluing, Isometry, OUTSIDE, Template, Tet, Triangle};
+
+/// Does what is found to replace a tetrahedron, if anything.
+fn flip(mesh: &mut Mesh<'_>, tet: u32) -> bool {
+    let found = flip::find(mesh, tet);
+    found.iter().for_each(|f| f.apply(mesh));
+    found.is_some()
+}
+
+/// Moves a vertex to the better place found, if any.
+fn smooth(mesh: &mut Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> bool {
+    let found = smooth::find(mesh, freedoms, vertex);
+    found.iter().for_each(|m| m.apply(mesh));
+    found.is_some()
+}
+
+/// Tetrahedra around the edge from (0, 0, -h) to (0, 0, h), with `ring` vertices on a unit circle.
+fn ring(ring: usize, h: f64) -> Template {
+    let mut vertices = vec![DVec3::new(0.0, 0.0, -h), DVec3::new(0.0, 0.0, h)];
+    for i in 0..ring {
+        let (sin, cos) = (std::f64::consts::TAU * i as f64 / ring as f64).sin_cos();
+        vertices.push(DVec3::new(cos, sin, 0.0));
+    }
+    let at = |i: usize| 2 + (i % ring) as u32;
+    let tets = (0..ring)
+        .map(|i| Tet {
+            vertices: [0, at(i), at(i + 1), 1],
+            region: 7,
+        })
+        .collect();
+    Template {
+        vertices,
+        tets,
+        ..Template::default()
+    }
+}
+
+fn volume(template: &Template, tets: &[Tet]) -> f64 {
+    let volume = |t: &Tet| {
+        let [a, b, c, d] = t.vertices.map(|v| template.vertices[v as usize]);
+        assert!(tet_volume(a, b, c, d) > 0.0);
+        tet_volume(a, b, c, d)
+    };
+    tets.iter().map(volume).sum()
+}
+
+#[test]
+fn long_edges_are_removed() {
+    let goal = Goal::new(30.0, 1.4);
+    let limits = FxHashMap::default();
+    for n in [3, 4, 5, 6, 7] {
+        let template = ring(n, 4.0);
+        let before = volume(&template, &template.tets);
+        let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+        let worst = mesh.grade(0).quality;
+        assert!(worst < 1.0);
+        let removed = flip(&mut mesh, 0);
+        assert!(removed, "{n}");
+        let tets = mesh.into_tets();
+        assert_eq!(tets.len(), 2 * (n - 2));
+        assert!(tets.iter().all(|t| t.region == 7));
+        assert!((volume(&template, &tets) - before).abs() < 1e-12);
+        let again = Template { tets, ..template };
+        let mesh = Mesh::new(&again, 1.0, goal, &limits);
+        let grades = (0..mesh.len() as u32).map(|t| mesh.grade(t).quality);
+        assert!(grades.fold(f64::INFINITY, f64::min) > worst);
+    }
+    // Nothing that could take its place is better.
+    let flat = ring(6, 0.6);
+    let mut mesh = Mesh::new(&flat, 1.0, goal, &limits);
+    assert!(!flip(&mut mesh, 0));
+    assert_eq!(mesh.into_tets(), flat.tets);
+}
+
+#[test]
+fn faces_of_the_surface_and_sizes_are_respected() {
+    let goal = Goal::new(30.0, 1.4);
+    let mut template = ring(4, 4.0);
+    let none = FxHashMap::default();
+    // Faces inside of a region that are part of the surface.
+    for ends in [[2, 3], [3, 4], [4, 5], [5, 2]] {
+        template.triangles.push(Triangle {
+            vertices: [0, 1, ends[0]],
+            marker: 1,
+            front: 7,
+            back: 7,
+        });
+    }
+    let mut mesh = Mesh::new(&template, 1.0, goal, &none);
+    assert!(!flip(&mut mesh, 0));
+    template.triangles.clear();
+    // Another region beyond.
+    template.tets[2].region = 8;
+    let mut mesh = Mesh::new(&template, 1.0, goal, &none);
+    assert!(!flip(&mut mesh, 0));
+    // Two that are larger than the three before.
+    let template = ring(3, 4.0);
+    let limits = FxHashMap::from_iter([(7, 1.0)]);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    assert!(!flip(&mut mesh, 0));
+    let limits = FxHashMap::from_iter([(7, 12.0), (8, 1.0)]);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    assert!(flip(&mut mesh, 0));
+}
+
+/// An octahedron, its middle off by `off`, with all outer faces as its surface.
+fn octahedron(off: DVec3) -> Template {
+    let mut vertices = vec![off];
+    for d in [DVec3::X, DVec3::Y, DVec3::Z] {
+        vertices.extend([d, -d]);
+    }
+    let mut tets = Vec::new();
+    let mut triangles = Vec::new();
+    for (x, y, z) in [(1, 3, 5), (3, 2, 5), (2, 4, 5), (4, 1, 5)] {
+        tets.push([0, x, y, z]);
+        tets.push([0, y, x, 6]);
+        triangles.push([x, y, z]);
+        triangles.push([y, x, 6]);
+    }
+    Template {
+        vertices,
+        tets: tets
+            .into_iter()
+            .map(|vertices| Tet {
+                vertices,
+                region: 1,
+            })
+            .collect(),
+        triangles: triangles
+            .into_iter()
+            .map(|vertices| Triangle {
+                vertices,
+                marker: 1,
+                front: OUTSIDE,
+                back: 1,
+            })
+            .collect(),
+        ..Template::default()
+    }
+}
+
+fn facets(template: &Template) -> (Vec<u32>, Vec<DVec3>) {
+    let normal = |t: &Triangle| {
+        let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
+        (b - a).cross(c - a).normalize()
+    };
+    let normals: Vec<DVec3> = template.triangles.iter().map(normal).collect();
+    ((0..normals.len() as u32).collect(), normals)
+}
+
+fn freedoms(template: &Template, of_triangle: &[u32], normals: &[DVec3]) -> Freedoms {
+    Freedoms::new(
+        (template, 0),
+        &Flats {
+            of_triangle,
+            normals,
+            fixed: &[],
+            straight: 1e-12,
+        },
+    )
+}
+
+#[test]
+fn inner_vertices_go_to_the_middle() {
+    let goal = Goal::new(54.0, 1.4);
+    let limits = FxHashMap::default();
+    let template = octahedron(DVec3::new(0.5, 0.2, -0.2));
+    let (of_triangle, normals) = facets(&template);
+    let freedoms = freedoms(&template, &of_triangle, &normals);
+    let kinds: Vec<_> = (0..7).map(|v| freedoms.of(v)).collect();
+    assert_eq!(kinds[0], Freedom::Free);
+    assert!(kinds[1..].iter().all(|&k| k == Freedom::Fixed));
+    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let least = |mesh: &Mesh<'_>| {
+        (0..8)
+            .map(|t| mesh.grade(t).quality)
+            .fold(f64::INFINITY, f64::min)
+    };
+    let before = least(&mesh);
+    for _ in 0..20 {
+        smooth(&mut mesh, &freedoms, 0);
+    }
+    assert!(!smooth(&mut mesh, &freedoms, 1));
+    assert!(least(&mesh) > 2.0 * before);
+    assert!(mesh.positions[0].length() < 0.1, "{}", mesh.positions[0]);
+}
+
+/// Steps that are small against what is next to the vertex would never make a good tetrahedron.
+#[test]
+fn a_vertex_next_to_another_one_goes_to_the_middle() {
+    let goal = Goal::new(25.0, 1.4);
+    let limits = FxHashMap::default();
+    for distance in [1e-3, 1e-6, 1e-9] {
+        let template = octahedron(DVec3::X * (1.0 - distance));
+        let (of_triangle, normals) = facets(&template);
+        let freedoms = freedoms(&template, &of_triangle, &normals);
+        let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+        assert!(smooth(&mut mesh, &freedoms, 0), "{distance}");
+        assert!(mesh.positions[0].length() < 0.3, "{}", mesh.positions[0]);
+    }
+}
+
+#[test]
+fn new_vertices_come_where_nothing_else_helps() {
+    // A long edge in the middle makes long radii.
+    let goal = Goal::new(25.0, 1.4);
+    let limits = FxHashMap::default();
+    let template = ring(4, 2.0);
+    let before = volume(&template, &template.tets);
+    let freedoms = freedoms(&template, &[], &[]);
+    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let worst = mesh.grade(0).quality;
+    assert!(worst < 1.0);
+    let found = insert::find(&mesh, &freedoms, 0).expect("a place");
+    found.apply(&mut mesh);
+    assert!((0..mesh.len() as u32).all(|t| mesh.grade(t).quality >= 1.0));
+    assert!(mesh.positions[6].length() < 0.2, "{}", mesh.positions[6]);
+    let grown = Template {
+        vertices: mesh.positions.clone(),
+        ..Template::default()
+    };
+    let tets = mesh.into_tets();
+    assert_eq!(tets.len(), 8);
+    assert!(tets.iter().all(|t| t.region == 7));
+    assert!((volume(&grown, &tets) - before).abs() < 1e-12);
+    // Not across faces that are part of the surface, nor into another region.
+    let face = |corner| Triangle {
+        vertices: [0, 1, corner],
+        marker: 1,
+        front: 7,
+        back: 7,
+    };
+    let mut divided = template.clone();
+    divided.triangles = [2, 4].map(face).to_vec();
+    let mut regions = template;
+    regions.tets[2..].iter_mut().for_each(|t| t.region = 8);
+    for (other, most) in [(divided, 2), (regions, 2)] {
+        let mesh = Mesh::new(&other, 1.0, goal, &limits);
+        for tet in 0..4 {
+            let found = insert::find(&mesh, &freedoms, tet);
+            assert!(found.is_none_or(|f| f.replaces_at_most(most)), "{tet}");
+        }
+    }
+}
+
+/// A triangular prism from z = 0 to 1 with a vertex in the middle of its bottom and one on an upright edge.
+#[test]
+fn vertices_stay_on_edges_and_facets() {
+    let corner = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let mut vertices: Vec<DVec3> = corner.to_vec();
+    vertices.extend(corner.map(|p| p + DVec3::Z));
+    vertices.push(DVec3::new(0.05, 0.05, 0.0));
+    vertices.push(DVec3::new(0.0, 0.0, 0.9));
+    let t = |a, b, c, marker| Triangle {
+        vertices: [a, b, c],
+        marker,
+        front: OUTSIDE,
+        back: 1,
+    };
+    // Bottom fan about 6, top, sides; 7 divides the edge from 0 to 3.
+    let triangles = vec![
+        t(0, 6, 1, 0),
+        t(1, 6, 2, 0),
+        t(2, 6, 0, 0),
+        t(3, 4, 5, 1),
+        t(0, 1, 7, 2),
+        t(1, 4, 7, 2),
+        t(4, 3, 7, 2),
+        t(1, 2, 5, 3),
+        t(1, 5, 4, 3),
+        t(2, 0, 7, 4),
+        t(2, 7, 5, 4),
+        t(5, 7, 3, 4),
+    ];
+    let of_triangle: Vec<u32> = triangles.iter().map(|t| t.marker).collect();
+    let slope = DVec3::new(1.0, 1.0, 0.0).normalize();
+    let normals = [-DVec3::Z, DVec3::Z, -DVec3::Y, slope, -DVec3::X];
+    let template = Template {
+        vertices,
+        triangles,
+        ..Template::default()
+    };
+    let freedoms = freedoms(&template, &of_triangle, &normals);
+    for v in 0..6 {
+        assert_eq!(freedoms.of(v), Freedom::Fixed, "{v}");
+    }
+    let Freedom::Plane(a, b) = freedoms.of(6) else {
+        panic!("{:?}", freedoms.of(6));
+    };
+    assert!(a.z == 0.0 && b.z == 0.0 && a.dot(b).abs() < 1e-15);
+    let Freedom::Line(d) = freedoms.of(7) else {
+        panic!("{:?}", freedoms.of(7));
+    };
+    assert!(d.x == 0.0 && d.y == 0.0 && d.z.abs() == 1.0);
+}
+
+#[test]
+fn partners_on_a_seam_move_as_one() {
+    // A quarter of an octahedron-like body about z: low face in y = 0, high face in x = 0, both with a
+    // vertex inside that is too near to one side.
+    let low = DVec3::new(0.2, 0.0, 0.1);
+    let rotation = Isometry::rotation(1, 4);
+    let vertices = vec![
+        DVec3::NEG_Z,
+        DVec3::Z,
+        DVec3::X,
+        DVec3::Y,
+        low,
+        rotation.apply(low),
+    ];
+    let tet = |vertices| Tet {
+        vertices,
+        region: 1,
+    };
+    let mut template = Template {
+        vertices,
+        tets: vec![
+            tet([0, 4, 5, 1]),
+            tet([0, 2, 5, 4]),
+            tet([1, 2, 4, 5]),
+            tet([0, 2, 3, 5]),
+            tet([1, 2, 5, 3]),
+        ],
+        ..Template::default()
+    };
+    let whole = 1.0 / 3.0;
+    assert!((volume(&template, &template.tets) - whole).abs() < 1e-15);
+    let face = |a, b, c| Triangle {
+        vertices: [a, b, c],
+        marker: 0,
+        front: OUTSIDE,
+        back: 1,
+    };
+    template.triangles = vec![
+        face(0, 2, 4),
+        face(0, 4, 1),
+        face(1, 4, 2),
+        face(0, 5, 3),
+        face(0, 1, 5),
+        face(1, 3, 5),
+        face(0, 3, 2),
+        face(1, 2, 3),
+    ];
+    template.gluings = vec![Gluing::seam(
+        "seam",
+        0,
+        rotation,
+        [[0, 0], [1, 1], [2, 3], [4, 5]],
+        [[0, 3], [1, 4], [2, 5]],
+    )];
+    template.axis = vec![0, 1];
+    let outer = |d: DVec3| d.normalize();
+    let normals = [
+        -DVec3::Y,
+        -DVec3::X,
+        outer(DVec3::new(1.0, 1.0, -1.0)),
+        outer(DVec3::ONE),
+    ];
+    let freedoms = freedoms(&template, &[0, 0, 0, 1, 1, 1, 2, 3], &normals);
+    assert_eq!(freedoms.mover(5), 4);
+    assert!(matches!(freedoms.of(4), Freedom::Plane(..)));
+    assert_eq!(freedoms.of(2), Freedom::Fixed);
+    let done = improve(
+        &mut template,
+        &freedoms,
+        &Wish {
+            angle: 40.0,
+            radius_edge: 1.4,
+            min_dihedral: 10.0,
+            max_volume: &FxHashMap::default(),
+            scale: 1.0,
+            share: 1.0,
+        },
+    );
+    assert!(done.moved > 0 && done.bad > 0, "{done:?}");
+    let moved = template.vertices[4];
+    assert_ne!(moved, low);
+    assert_eq!(moved.y, 0.0);
+    assert_eq!(template.vertices[5], rotation.apply(moved));
+    assert!((volume(&template, &template.tets) - whole).abs() < 1e-12);
+    for t in &template.tets {
+        let m = TetMeasures::of(t.vertices.map(|v| template.vertices[v as usize]));
+        assert!(m.min_dihedral.to_degrees() > 5.0);
+    }
+}
+
+/// Cubes of six tetrahedra each, `n` along an edge, their inner corners somewhere else.
+fn shaken_cubes(n: u32) -> Template {
+    let mut state = 1_u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let inner = |i: u32| i > 0 && i < n;
+    let number = |[x, y, z]: [u32; 3]| x + (n + 1) * (y + (n + 1) * z);
+    let mut template = Template::default();
+    for z in 0..=n {
+        for y in 0..=n {
+            for x in 0..=n {
+                let p = [x, y, z];
+                let moved = p.into_iter().all(inner);
+                template.vertices.push(DVec3::from_array(
+                    p.map(|i| f64::from(i) + if moved { 0.6 * random() } else { 0.0 }),
+                ));
+                for [a, b, c] in [
+                    [0, 1, 2],
+                    [1, 2, 0],
+                    [2, 0, 1],
+                    [0, 2, 1],
+                    [2, 1, 0],
+                    [1, 0, 2],
+                ] {
+                    if p.into_iter().any(|i| i == n) {
+                        continue;
+                    }
+                    // From one corner of the cube to the opposite one, axis by axis.
+                    let mut corner = p;
+                    let mut vertices = [number(corner); 4];
+                    for (vertex, axis) in vertices[1..].iter_mut().zip([a, b, c]) {
+                        corner[axis] += 1;
+                        *vertex = number(corner);
+                    }
+                    if (b + 3 - a) % 3 == 2 {
+                        vertices.swap(1, 2);
+                    }
+                    let region = 1;
+                    template.tets.push(Tet { vertices, region });
+                }
+            }
+        }
+    }
+    template
+}
+
+/// Does something with so many threads at hand.
+fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.build().unwrap().install(work)
+}
+
+#[test]
+fn threads_make_no_difference() {
+    let cubes = shaken_cubes(26);
+    // The sides of the cube stay.
+    let fixed: Vec<u32> = (0..cubes.vertices.len() as u32)
+        .filter(|&v| {
+            let p = cubes.vertices[v as usize];
+            p.to_array().iter().any(|&x| x == 0.0 || x == 26.0)
+        })
+        .collect();
+    let freedoms = Freedoms::new(
+        (&cubes, 0),
+        &Flats {
+            of_triangle: &[],
+            normals: &[],
+            fixed: &fixed,
+            straight: 0.0,
+        },
+    );
+    let wish = Wish {
+        angle: 25.0,
+        radius_edge: 1.4,
+        min_dihedral: 19.0,
+        max_volume: &FxHashMap::default(),
+        scale: 1.0,
+        share: 0.1,
+    };
+    let mut one = cubes.clone();
+    let done = on_threads(1, || improve(&mut one, &freedoms, &wish));
+    assert!(
+        done.moved > 1000 && done.flipped > 1000 && done.inserted > 0,
+        "{done:?}"
+    );
+    assert!((volume(&one, &one.tets) - 26_f64.powi(3)).abs() < 1e-6);
+    for threads in [2, 3] {
+        let mut several = cubes.clone();
+        let again = on_threads(threads, || improve(&mut several, &freedoms, &wish));
+        assert_eq!(again, done);
+        assert!(several.vertices == one.vertices && several.tets == one.tets);
+    }
+}

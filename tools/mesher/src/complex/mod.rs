@@ -1,0 +1,13 @@
+//! A template's surface as a piecewise linear complex.
+
+mod description;
+mod facets;
+mod flat;
+mod plc;
+mod roundings;
+mod seeds;
+
+pub use description::{Description, Order};
+pub use facets::{Attributes, Facet, Facets};
+pub use plc::{Plc, SizeSeed};
+pub use roundings::{FLATNESS, PROJECTIONS, ROUNDING};

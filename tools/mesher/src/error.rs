@@ -1,0 +1,157 @@
+//! Why a document could not be filled with tetrahedra.
+
+use crate::{Failure, FailureKind};
+use glam::DVec3;
+use std::fmt;
+use thiserror::Error;
+
+/// Position in a message, model units, canonical frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place(pub DVec3);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let short = |x: f64| if x == 0.0 { 0.0 } else { x };
+        let [x, y, z] = self.0.to_array().map(short);
+        write!(f, "({x:.6e}, {y:.6e}, {z:.6e})")
+    }
+}
+
+/// Why a document could not be filled with tetrahedra. Places are canonical coordinates.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A template has no surface.
+    #[error("template {template} has no surface to fill; did the previous stage fail?")]
+    NoSurface {
+        /// Template index.
+        template: usize,
+    },
+    /// The surface has borders.
+    #[error(
+        "the surface of template {template} is not closed: {edges} open edge(s), the first near {place}"
+    )]
+    Open {
+        /// Template index.
+        template: usize,
+        /// Number of edges that bound a single triangle.
+        edges: usize,
+        /// Middle of the first one.
+        place: Place,
+    },
+    /// Triangles that bound one cell disagree about its region.
+    #[error(
+        "the surface of template {template} is not closed or its regions are inconsistent: one cell is bounded by {first} and, near {place}, by {second}"
+    )]
+    MixedCell {
+        /// Template index.
+        template: usize,
+        /// Region named by the first triangle.
+        first: RegionName,
+        /// Region named by another one.
+        second: RegionName,
+        /// A point on the other one.
+        place: Place,
+    },
+    /// A region reaches to infinity.
+    #[error(
+        "the surface of template {template} is inside out: {region} is not enclosed near {place}"
+    )]
+    Unbounded {
+        /// Template index.
+        template: usize,
+        /// The region.
+        region: RegionName,
+        /// A point on its boundary.
+        place: Place,
+    },
+    /// The sizes asked for mean more elements than can be held.
+    #[error(
+        "the volume limit {max_volume:e} means at least {count:.1e} tetrahedra in template {template}; the limit is {limit:.1e}"
+    )]
+    TooMany {
+        /// Template index.
+        template: usize,
+        /// Volume limit, model units cubed.
+        max_volume: f64,
+        /// Volume over limit.
+        count: f64,
+        /// How many there may be.
+        limit: f64,
+    },
+    /// The mesher did not deliver.
+    #[error("{failure}{place}; {advice}")]
+    Mesher {
+        /// What happened.
+        failure: Failure,
+        /// Where, as a phrase; may be empty.
+        place: String,
+        /// What to try.
+        advice: &'static str,
+    },
+    /// The mesher delivered something that does not fit its input.
+    #[error("TetGen's mesh of template {template} is unusable: {what}; {ADVICE}")]
+    Unusable {
+        /// Template index.
+        template: usize,
+        /// What is wrong, with numbers and a place.
+        what: String,
+    },
+}
+
+/// What to try when it is not known what is wrong.
+pub(crate) const ADVICE: &str = "clean or simplify the surface, mesh at another --order of wedgecut, or change the element parameters";
+
+/// Who can do something about an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// What is asked for makes no sense.
+    Usage,
+    /// The input is malformed.
+    Input,
+    /// The input is sound, but this cannot be done.
+    Impossible,
+}
+
+impl Error {
+    /// Who can do something about it.
+    pub fn fault(&self) -> Fault {
+        match self {
+            Self::Mesher { failure, .. } if failure.kind == FailureKind::Switches => Fault::Usage,
+            Self::NoSurface { .. }
+            | Self::Open { .. }
+            | Self::MixedCell { .. }
+            | Self::Unbounded { .. } => Fault::Input,
+            Self::TooMany { .. } | Self::Mesher { .. } | Self::Unusable { .. } => Fault::Impossible,
+        }
+    }
+
+    /// Whether it is nothing about the surface or what is asked for: what was made before must not stand in for
+    /// what would have been made another time.
+    pub fn is_from_outside(&self) -> bool {
+        matches!(self, Self::Mesher { failure, .. }
+            if matches!(failure.kind, FailureKind::Outside | FailureKind::Killed))
+    }
+
+    /// Whether another description of the same surface may go through.
+    pub fn is_chance(&self) -> bool {
+        match self {
+            Self::Mesher { failure, .. } => failure.kind == FailureKind::Chance,
+            Self::Unusable { .. } => true,
+            _ => false,
+        }
+    }
+}
+
+/// A region id in a message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RegionName(pub u32);
+
+impl fmt::Display for RegionName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            tmesh::OUTSIDE => f.write_str("the outside"),
+            id => write!(f, "region {id}"),
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! The rungs: what is done about the ways in which an attempt can end.
+
+use crate::complex::{Description, Order};
+
+/// How an attempt ended that did not give a mesh as asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// The mesher failed, or its mesh cannot be used, for a reason that another description of the same surface may not
+    /// meet: TetGen's own points on segments are coplanar up to rounding only, and where layers are thin some of its
+    /// assertions fail by bad luck; so does its walk through the Delaunay mesh of symmetric points in some orders.
+    Chance,
+    /// There is a mesh, but the bounds were eased for it, and too many elements are not as asked for.
+    Short,
+    /// All points that may be added were used, on edges not much shorter than the surface's: the mesh is to be that large.
+    Large,
+    /// All points that may be added were used, and heap up at sharp places.
+    Heaped,
+}
+
+/// What an attempt does differently.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// Asks the mesher for what the user asks for.
+    AskAsWished,
+    /// Lets the mesher add so many times more points.
+    AllowMore(f64),
+    /// Leaves out the bound of the dihedral angle, and asks for a radius-edge ratio for which refinement ends.
+    Loosen,
+    /// Lets the mesher add so many points for each of the surface, whatever comes of it.
+    Stop(f64),
+    /// Describes the surface in another way.
+    Describe(Description),
+}
+
+/// An attempt, given how the one before ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rung {
+    /// The ending that it answers.
+    pub after: Ending,
+    /// What it does differently from the attempt before.
+    pub change: Change,
+}
+
+const fn rung(after: Ending, change: Change) -> Rung {
+    Rung { after, change }
+}
+
+const fn describe(order: Order, stir: Option<f64>, rounds_from: Option<u32>) -> Rung {
+    let description = Description {
+        order,
+        stir,
+        rounds_from,
+        ..Description::PLAIN
+    };
+    rung(Ending::Chance, Change::Describe(description))
+}
+
+/// The rungs, each of which is taken once at most, so that there is one attempt more than rungs in the worst case.
+///
+/// - Elements that are not as asked for are put down to the easing of the bounds first, and then to the shape.
+/// - The limit of points is a guess (see `room.rs`); where the mesh is to be large, it gets four hundred times as many
+///   in two steps.
+/// - Where points heap up, refinement would not end: Delaunay refinement is sure to end for radius-edge bounds of 2 and above
+///   without a bound of the angle, if no angle of the input is acute (Shewchuk, "Tetrahedral mesh generation by
+///   Delaunay refinement", 1998). Acute ones are left to the last limit, 20 points for each of the surface.
+/// - Equivalent descriptions of the surface are draws of the same lot. Of 72 open vias with films of 1e-4 to 7e-4 at orders
+///   24 to 64 the first failed for 10, and the third for none; the others came with ten thousand random bodies. An
+///   order by itself is another draw; a stir breaks up cospherical points, by no more than walls are moved anyway;
+///   random rounds break up an order that depends on the places alone; walls as they are, and no facet but exactly
+///   coplanar triangles, are for surfaces on which flattening or merging is what fails.
+pub const LADDER: [Rung; 12] = [
+    rung(Ending::Short, Change::AskAsWished),
+    rung(Ending::Large, Change::AllowMore(20.0)),
+    rung(Ending::Large, Change::AllowMore(20.0)),
+    rung(Ending::Heaped, Change::Loosen),
+    rung(Ending::Heaped, Change::Stop(20.0)),
+    describe(Order::Reversed, Some(1e-11), None),
+    describe(Order::FromTheMiddle, Some(1e-9), Some(4)),
+    rung(
+        Ending::Chance,
+        Change::Describe(Description {
+            flat: false,
+            ..Description::PLAIN
+        }),
+    ),
+    describe(Order::Shuffled(1), Some(1e-12), Some(1)),
+    rung(
+        Ending::Chance,
+        Change::Describe(Description {
+            order: Order::Shuffled(2),
+            flat: false,
+            stir: Some(1e-10),
+            rounds_from: Some(8),
+            apart: false,
+        }),
+    ),
+    rung(
+        Ending::Chance,
+        Change::Describe(Description {
+            apart: true,
+            ..Description::PLAIN
+        }),
+    ),
+    rung(
+        Ending::Chance,
+        Change::Describe(Description {
+            order: Order::Shuffled(3),
+            stir: Some(1e-11),
+            rounds_from: Some(4),
+            apart: true,
+            ..Description::PLAIN
+        }),
+    ),
+];

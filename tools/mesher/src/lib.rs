@@ -1,0 +1,27 @@
+//! Fills a template's surface with tetrahedra.
+//!
+//! [`Plc`] describes the surface as a piecewise linear complex, a [`Mesher`] (TetGen, in a process of its own) makes
+//! tetrahedra of it, and [`label`] says which region each of them is in. [`Climb`] repeats this by the rungs of a
+//! [`LADDER`] until a mesh is as asked for.
+
+mod cells;
+mod complex;
+mod deadline;
+mod error;
+mod faces;
+mod ladder;
+mod mesher;
+mod params;
+mod tetgen;
+
+pub use cells::{Cells, Contradiction, Surface, label};
+pub use complex::{
+    Attributes, Description, FLATNESS, Facet, Facets, Order, PROJECTIONS, Plc, ROUNDING, SizeSeed,
+};
+pub use deadline::Deadline;
+pub use error::{Error, Fault, Place, RegionName};
+pub use faces::{Faces, NO_FACE, Upright, face_key, leads};
+pub use ladder::{Answer, Asks, Attempt, Change, Climb, Ending, Judged, LADDER, Rung};
+pub use mesher::{Elements, Failure, FailureKind, Limits, Log, Mesh, Mesher, Task};
+pub use params::{Params, Sizes};
+pub use tetgen::TetGen;

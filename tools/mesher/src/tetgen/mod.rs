@@ -1,0 +1,134 @@
+//! TetGen, by the binding `tetgen-sys`, as a [`Mesher`].
+
+mod chatter;
+mod intersections;
+mod switches;
+
+use crate::{Elements, Failure, FailureKind, Limits, Log, Mesh, Mesher, Plc, Task};
+use chatter::Chatter;
+use intersections::pairs;
+use switches::switches;
+use tetgen_sys::{Complex, Error, RegionSeed, tetrahedralize};
+
+/// The system's TetGen library, each run in a process of its own.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TetGen;
+
+impl Mesher for TetGen {
+    fn mesh(&self, plc: &Plc, task: &Task, limits: Limits, log: Log<'_>) -> Result<Mesh, Failure> {
+        let told = switches(plc, task);
+        log(&format!(
+            "template {}: {} points, {} triangles in {} facets, {} void(s); switches {told}",
+            plc.template,
+            plc.points.len(),
+            plc.facets.of_triangle.len(),
+            plc.facets.facets.len(),
+            plc.holes.len(),
+        ));
+        let mut chatter = Chatter::new(log);
+        let seeds = seeds(plc);
+        let made = tetrahedralize(&complex(plc, &seeds), &told, limits.into(), &mut |bytes| {
+            chatter.take(bytes);
+        });
+        match made {
+            Ok(arrays) => Ok(Box::new(Tetrahedra { arrays, told })),
+            Err(error) => Err(failure(&error, chatter.step)),
+        }
+    }
+
+    fn intersections(&self, plc: &Plc, limits: Limits) -> Vec<[usize; 2]> {
+        let mut text = Vec::new();
+        let seeds = seeds(plc);
+        // Only what it prints is of interest: at most a line for each pair that it looks at in the time given.
+        let _ = tetrahedralize(&complex(plc, &seeds), "pd", limits.into(), &mut |bytes| {
+            text.extend_from_slice(bytes);
+        });
+        pairs(String::from_utf8_lossy(&text).lines(), plc.triangles.len())
+    }
+}
+
+impl From<Limits> for tetgen_sys::Limits {
+    fn from(limits: Limits) -> Self {
+        Self {
+            timeout: limits.timeout,
+            memory: limits.memory,
+        }
+    }
+}
+
+fn seeds(plc: &Plc) -> Vec<RegionSeed> {
+    let seeds = plc.sizes.iter().map(|seed| RegionSeed {
+        point: seed.point,
+        attribute: f64::from(seed.number),
+        max_volume: seed.max_volume.unwrap_or(-1.0),
+    });
+    seeds.collect()
+}
+
+fn complex<'a>(plc: &'a Plc, seeds: &'a [RegionSeed]) -> Complex<'a> {
+    Complex {
+        points: &plc.points,
+        triangles: &plc.triangles,
+        markers: &plc.markers,
+        holes: &plc.holes,
+        regions: seeds,
+    }
+}
+
+fn failure(error: &Error, step: String) -> Failure {
+    use tetgen_sys::Failure as Thrown;
+    let kind = match error {
+        Error::Crashed { .. } => FailureKind::Chance,
+        Error::Failed(Thrown::OutOfMemory) => FailureKind::NoMemory,
+        Error::Failed(Thrown::BadInput) => FailureKind::Final,
+        Error::Failed(_) => FailureKind::Chance,
+        Error::TimedOut(_) => FailureKind::TimedOut,
+        Error::MemoryLimit(_) => FailureKind::MemoryLimit,
+        Error::Killed => FailureKind::Killed,
+        Error::BadSwitches(_) | Error::NotLinear(_) => FailureKind::Switches,
+        Error::Stopped { .. } | Error::System { .. } => FailureKind::Outside,
+        _ => FailureKind::Final,
+    };
+    let known = !matches!(error, Error::System { .. });
+    Failure {
+        kind,
+        what: error.to_string(),
+        step: if known { step } else { String::new() },
+    }
+}
+
+/// TetGen's arrays, and its switches.
+struct Tetrahedra {
+    arrays: tetgen_sys::Mesh,
+    told: String,
+}
+
+impl Elements for Tetrahedra {
+    fn points(&self) -> &[[f64; 3]] {
+        self.arrays.points()
+    }
+
+    fn tetrahedra(&self) -> &[[i32; 4]] {
+        self.arrays.tetrahedra()
+    }
+
+    fn neighbors(&self) -> &[[i32; 4]] {
+        self.arrays.neighbors()
+    }
+
+    fn triangles(&self) -> &[[i32; 3]] {
+        self.arrays.triangles()
+    }
+
+    fn triangle_markers(&self) -> &[i32] {
+        self.arrays.triangle_markers()
+    }
+
+    fn sides(&self, triangle: usize) -> [Option<usize>; 2] {
+        self.arrays.sides(triangle)
+    }
+
+    fn told(&self) -> &str {
+        &self.told
+    }
+}

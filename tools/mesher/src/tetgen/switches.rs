@@ -1,0 +1,79 @@
+//! How TetGen is told what to do.
+
+use crate::{Plc, Task};
+use std::fmt::Write;
+
+/// Dihedral angle, degrees, above which TetGen merges two triangles with one marker into a facet. Only triangles that
+/// were found coplanar share a marker (see [`crate::Facets`]), so any angle between a fold and a plane does.
+const FACET_ANGLE: f64 = 170.0;
+
+/// TetGen's switches.
+///
+/// `p` with the angle above which facets of one marker are merged, `q` the bounds, `a` the volumes, `A` makes TetGen read
+/// region seeds, `Y` preserves the surface, `nn` asks for adjacency, `J` keeps input points at their numbers, `S` limits
+/// the points that are added, `b` says from how many points on they are inserted in random rounds.
+pub fn switches(plc: &Plc, task: &Task) -> String {
+    let mut text = format!("p{FACET_ANGLE}");
+    let mut add = |part: std::fmt::Arguments<'_>| {
+        // Writing to a string cannot fail.
+        let _ = text.write_fmt(part);
+    };
+    if let Some([radius_edge, min_dihedral]) = task.bounds {
+        add(format_args!("q{radius_edge}/{min_dihedral}"));
+    }
+    if let Some(volume) = plc.max_volume {
+        add(format_args!("a{volume}"));
+    }
+    if plc.per_region {
+        add(format_args!("Aa"));
+    }
+    if task.preserve {
+        add(format_args!("Y"));
+    }
+    add(format_args!("nnJ{}", task.switches));
+    if let Some(most) = task.most_points {
+        add(format_args!("S{most:.0}"));
+    }
+    if let Some(points) = task.rounds_from {
+        add(format_args!("b{points}"));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn switches_have_no_exponents() {
+        let mut plc = Plc {
+            max_volume: Some(1e-12),
+            per_region: true,
+            ..Plc::default()
+        };
+        let mut task = Task {
+            bounds: Some([1.4, 10.0]),
+            preserve: true,
+            most_points: None,
+            rounds_from: None,
+            switches: String::new(),
+        };
+        assert_eq!(switches(&plc, &task), "p170q1.4/10a0.000000000001AaYnnJ");
+        task.most_points = Some(5e4);
+        task.rounds_from = Some(4);
+        plc.per_region = false;
+        assert_eq!(
+            switches(&plc, &task),
+            "p170q1.4/10a0.000000000001YnnJS50000b4"
+        );
+        let plain = Task {
+            bounds: None,
+            preserve: false,
+            most_points: None,
+            switches: "S7".to_owned(),
+            ..task
+        };
+        plc.max_volume = None;
+        assert_eq!(switches(&plc, &plain), "p170nnJS7b4");
+    }
+}

@@ -1,0 +1,64 @@
+//! What a new surface must have in common with the old one.
+
+use geom::measure::{corners, volume_of_region};
+use mesher::FLATNESS;
+use tmesh::{OUTSIDE, Template};
+
+/// Every region closed, with its volume unchanged. `slack`: volume that uneven facets may account
+/// for, model units cubed.
+pub fn same_body(before: &Template, after: &Template, slack: f64) -> Result<(), String> {
+    let mut sides: Vec<(u32, [u32; 2], i32)> = Vec::with_capacity(6 * after.triangles.len());
+    for t in &after.triangles {
+        for i in 0..3 {
+            let [a, b] = [t.vertices[i], t.vertices[(i + 1) % 3]];
+            let (edge, sign) = if a < b { ([a, b], 1) } else { ([b, a], -1) };
+            for (region, sign) in [(t.back, sign), (t.front, -sign)] {
+                if region != OUTSIDE {
+                    sides.push((region, edge, sign));
+                }
+            }
+        }
+    }
+    sides.sort_unstable();
+    for same in sides.chunk_by(|a, b| a.0 == b.0 && a.1 == b.1) {
+        if same.iter().map(|s| s.2).sum::<i32>() != 0 {
+            let p = after.vertices[same[0].1[0] as usize];
+            return Err(format!(
+                "region {} is open near ({}, {}, {})",
+                same[0].0, p.x, p.y, p.z
+            ));
+        }
+    }
+    let mut regions: Vec<u32> = before
+        .triangles
+        .iter()
+        .flat_map(|t| [t.front, t.back])
+        .collect();
+    regions.sort_unstable();
+    regions.dedup();
+    let extent = before
+        .vertices
+        .iter()
+        .fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
+    for region in regions.into_iter().filter(|&r| r != OUTSIDE) {
+        let [old, new] = [before, after].map(|t| volume_of_region(&t.vertices, t.faces(), region));
+        let allowed = FLATNESS * old.abs() + slack + 1e-15 * extent.powi(3);
+        // False for NaN, too.
+        let unchanged = (new - old).abs() <= allowed;
+        if !unchanged {
+            return Err(format!(
+                "region {region} has the volume {new:.12e}, it had {old:.12e}"
+            ));
+        }
+    }
+    for t in &after.triangles {
+        let [a, b, c] = corners(&after.vertices, t);
+        if (b - a).cross(c - a) == glam::DVec3::ZERO {
+            return Err(format!(
+                "a triangle has no area near ({}, {}, {})",
+                a.x, a.y, a.z
+            ));
+        }
+    }
+    Ok(())
+}

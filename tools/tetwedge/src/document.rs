@@ -1,0 +1,169 @@
+//! The whole document: every template meshed, walls between templates renumbered.
+
+use crate::fill::NONE;
+use crate::follow::{Followed, follower};
+use crate::leads::leader;
+use crate::template::{Done, Job, template};
+use mesher::{Deadline, Error, LADDER, Log, Params, Sizes};
+use rayon::prelude::*;
+use tmesh::{Document, Template};
+
+/// A document that was filled, and what there is to say about it.
+pub struct Meshed {
+    /// The document; its history is as it was.
+    pub document: Document,
+    /// What the user should know or do otherwise, a sentence each.
+    pub advice: Vec<String>,
+    /// What was made, a sentence for each template.
+    pub facts: Vec<String>,
+}
+
+/// Fills every template of a document with tetrahedra. Tetrahedra that were there before are
+/// replaced.
+///
+/// `log` receives details while the work goes on.
+///
+/// # Errors
+/// See [`Error`].
+pub fn tetrahedralize(
+    mut document: Document,
+    params: &Params,
+    log: Log<'_>,
+) -> Result<Meshed, Error> {
+    let sizes = Sizes::new(&document);
+    let leaders: Vec<Option<usize>> = (0..document.templates.len())
+        .map(|index| leader(&document, index))
+        .collect();
+    let mut done = templates(&mut document, &leaders, params, &sizes, log)?;
+    let advice = advice(&document, &leaders, &done);
+    let facts = facts(&done);
+    for index in 0..done.len() {
+        let mut template = std::mem::take(&mut done[index].filled.template);
+        // A follower has the new numbers already.
+        if leaders[index].is_none() {
+            renumber(index, &mut template, &done)?;
+        }
+        document.templates[index] = template;
+    }
+    Ok(Meshed {
+        document,
+        advice,
+        facts,
+    })
+}
+
+/// Meshes all templates, those that lead before those that follow them; followers get their new surfaces.
+fn templates(
+    document: &mut Document,
+    leaders: &[Option<usize>],
+    params: &Params,
+    sizes: &Sizes,
+    log: Log<'_>,
+) -> Result<Vec<Done>, Error> {
+    let count = document.templates.len();
+    let job = Job {
+        document,
+        params,
+        sizes,
+        log,
+    };
+    let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
+    let mesh = |&index: &usize| {
+        let followers: Vec<usize> = (0..count).filter(|&i| leaders[i] == Some(index)).collect();
+        let deadline = Deadline::start(params.timeout);
+        template(&job.climb(index, &LADDER, deadline), &followers)
+    };
+    let meshed: Vec<Result<Done, Error>> = first.par_iter().map(mesh).collect();
+    let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
+    let mut followed: Vec<Followed> = Vec::new();
+    for (&index, done) in first.iter().zip(meshed) {
+        let mut done = done?;
+        followed.append(&mut done.followed);
+        slots[index] = Some(done);
+    }
+    for (index, lead) in leaders.iter().enumerate() {
+        if let Some(lead) = lead.and_then(|l| slots[l].as_ref()) {
+            let known = followed.iter().position(|(follower, _)| *follower == index);
+            let (surface, done) = match known {
+                Some(known) => followed.swap_remove(known).1?,
+                None => {
+                    let job = Job {
+                        document,
+                        params,
+                        sizes,
+                        log,
+                    };
+                    follower(&job, index, &lead.filled)?
+                }
+            };
+            document.templates[index] = surface;
+            slots[index] = Some(done);
+        }
+    }
+    // Every slot is filled: a leader has no leader.
+    Ok(slots.into_iter().flatten().collect())
+}
+
+/// What the user should know or do otherwise.
+fn advice(document: &Document, leaders: &[Option<usize>], done: &[Done]) -> Vec<String> {
+    let mut advice = Vec::new();
+    let refined = document.wishes.keep_surface();
+    let as_cut = |(d, lead): (&Done, &Option<usize>)| d.preserved && lead.is_none();
+    if !refined && done.iter().zip(leaders).any(as_cut) {
+        advice.push(
+            "the surface was preserved for the sake of the faces it shares with its copies; periodic-surf before tetwedge \
+             gives better elements"
+                .to_owned(),
+        );
+    }
+    advice.extend(done.iter().filter_map(|d| d.advice.clone()));
+    advice
+}
+
+/// What was made.
+fn facts(done: &[Done]) -> Vec<String> {
+    let mut facts = Vec::new();
+    for (index, d) in done.iter().enumerate() {
+        if d.failed > 0 {
+            facts.push(format!(
+                "template {index}: TetGen failed on {} equivalent description(s) of the surface \
+                 before this one",
+                d.failed
+            ));
+        }
+        facts.push(format!(
+            "template {index}: {} tetrahedra, {} vertices, {} surface triangles (TetGen switches {})",
+            d.filled.template.tets.len(),
+            d.filled.template.vertices.len(),
+            d.filled.template.triangles.len(),
+            d.switches
+        ));
+    }
+    facts
+}
+
+/// Gives the second members of the pairs with other templates the new numbers.
+fn renumber(index: usize, template: &mut Template, done: &[Done]) -> Result<(), Error> {
+    for gluing in &mut template.gluings {
+        if let Some(other) = gluing.other_than(index) {
+            let filled = &done[other].filled;
+            let lost = renumber_second(&mut gluing.vertex_pairs, &filled.vertices)
+                || renumber_second(&mut gluing.triangle_pairs, &filled.triangles);
+            if lost {
+                return Err(Error::Unusable {
+                    template: other,
+                    what: format!("it lost a part of wall '{}'", gluing.name),
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Renumbers the second members; returns whether one has no counterpart.
+fn renumber_second(pairs: &mut [[u32; 2]], new: &[u32]) -> bool {
+    for pair in pairs.iter_mut() {
+        pair[1] = new[pair[1] as usize];
+    }
+    pairs.iter().any(|p| p[1] == NONE)
+}

@@ -1,0 +1,148 @@
+//! The mesher's answer as a template.
+
+use super::filled::{Filled, NONE};
+use super::preserved::restore_preserved;
+use super::walls::{on_shifted_facets, restore_walls};
+use glam::DVec3;
+use mesher::{Answer, Cells, Elements, Error, Place, Surface, face_key, label};
+use tmesh::{Document, OUTSIDE, Template, Tet, Triangle};
+
+/// What is known of a filled template that is not finished.
+pub struct Origin {
+    /// Facet of each triangle.
+    pub facets: Vec<usize>,
+    /// Wall face of each triangle.
+    pub faces: Vec<u32>,
+    /// Number of the first vertex that the input does not have.
+    pub first_new: usize,
+}
+
+/// Makes the filled template `index` from TetGen's mesh of `plc`. What it shares with others is settled then, the
+/// rest is for [`finish`].
+///
+/// # Errors
+/// [`Error::Unusable`] when anything that must hold does not.
+pub fn fill(document: &Document, index: usize, answer: &Answer) -> Result<(Filled, Origin), Error> {
+    let (plc, mesh) = (&answer.plc, &*answer.mesh);
+    let input = &document.templates[index];
+    let unusable = |what: String| Error::Unusable {
+        template: index,
+        what,
+    };
+    if mesh.tetrahedra().is_empty() {
+        return Err(unusable("it is empty".to_owned()));
+    }
+    if !answer.keeps_points() {
+        return Err(unusable("input points were moved or left out".to_owned()));
+    }
+    let Cells { region, surface } = label(plc, mesh).map_err(|c| {
+        let place = Place(plc.to_model(c.place));
+        unusable(format!("there are {} near {place}", c.what))
+    })?;
+
+    let numbering = Numbering::new(mesh, &region, &surface, &plc.vertex_of_point);
+    let mut vertices = vec![DVec3::ZERO; numbering.count];
+    for (i, p) in mesh.points().iter().enumerate() {
+        if numbering.new_id[i] != NONE {
+            vertices[numbering.new_id[i] as usize] = match plc.vertex_of_point.get(i) {
+                Some(&v) => input.vertices[v as usize],
+                None => plc.to_model(*p),
+            };
+        }
+    }
+    let renumber = |v: u32| numbering.new_id[v as usize];
+    let triangles: Vec<Triangle> = surface
+        .iter()
+        .map(|s| Triangle {
+            vertices: s.triangle.vertices.map(renumber),
+            ..s.triangle
+        })
+        .collect();
+    let facets: Vec<usize> = surface.iter().map(|s| s.facet).collect();
+    let faces: Vec<u32> = facets
+        .iter()
+        .map(|&f| plc.facets.facets[f].attributes.face)
+        .collect();
+    let tets: Vec<Tet> = mesh
+        .tetrahedra()
+        .iter()
+        .zip(&region)
+        .filter(|&(_, &region)| region != tmesh::OUTSIDE)
+        .map(|(t, &region)| Tet {
+            vertices: t.map(|v| renumber(v as u32)),
+            region,
+        })
+        .collect();
+    let mut of_vertex = vec![NONE; input.vertices.len()];
+    for (point, &v) in plc.vertex_of_point.iter().enumerate() {
+        of_vertex[v as usize] = numbering.new_id[point];
+    }
+    let dropped = mesh.tetrahedra().len() - tets.len();
+    let mut filled = Filled {
+        template: Template {
+            vertices,
+            triangles,
+            tets,
+            gluings: Vec::new(),
+            axis: Vec::new(),
+        },
+        vertices: of_vertex,
+        triangles: vec![NONE; input.triangles.len()],
+        shared: {
+            let others = face_key(input.gluings.len(), false);
+            let all = 0..faces.len() as u32;
+            all.filter(|&t| faces[t as usize] >= others).collect()
+        },
+        dropped,
+        improved: None,
+    };
+    // Old vertices come first, in their order.
+    let first_new = filled.vertices.iter().filter(|&&v| v != NONE).count();
+    restore_preserved(input, plc, &faces, &mut filled).map_err(&unusable)?;
+    let shifted = on_shifted_facets(plc, &facets, first_new, &filled.template);
+    restore_walls(input, (plc, &faces, first_new), shifted, &mut filled).map_err(&unusable)?;
+    let origin = Origin {
+        facets,
+        faces,
+        first_new,
+    };
+    Ok((filled, origin))
+}
+
+/// Numbers for the points that the mesh uses: the template's own in their order there, then new ones.
+struct Numbering {
+    new_id: Vec<u32>,
+    count: usize,
+}
+
+impl Numbering {
+    fn new(
+        mesh: &dyn Elements,
+        region: &[u32],
+        surface: &[Surface],
+        vertex_of_point: &[u32],
+    ) -> Self {
+        let mut new_id = vec![NONE; mesh.points().len()];
+        for (t, &region) in mesh.tetrahedra().iter().zip(region) {
+            if region != OUTSIDE {
+                t.iter().for_each(|&v| new_id[v as usize] = 0);
+            }
+        }
+        for s in surface {
+            s.triangle
+                .vertices
+                .iter()
+                .for_each(|&v| new_id[v as usize] = 0);
+        }
+        let mut order: Vec<usize> = (0..new_id.len()).collect();
+        order[..vertex_of_point.len()].sort_unstable_by_key(|&i| vertex_of_point[i]);
+        let mut count = 0;
+        for i in order {
+            if new_id[i] == 0 {
+                new_id[i] = count as u32;
+                count += 1;
+            }
+        }
+        Self { new_id, count }
+    }
+}

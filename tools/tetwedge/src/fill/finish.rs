@@ -1,0 +1,77 @@
+//! Improvement of a filled template, and the checks of all of it.
+
+use super::answer::Origin;
+use super::filled::Filled;
+use super::measures::measures;
+use super::orientations::orientations;
+use glam::DVec3;
+use improve::{Flats, Freedoms, Improved, Wish, improve};
+use mesher::{Climb, Error, Plc, ROUNDING};
+
+/// Part of the tetrahedra that is improved, at most: where more are bad, the shape is.
+const SHARE: f64 = 0.1;
+
+/// Improves the tetrahedra of a filled template, and checks all of it.
+///
+/// # Errors
+/// [`Error::Unusable`] when anything that must hold does not.
+pub fn finish(
+    climb: &Climb<'_>,
+    plc: &Plc,
+    filled: &mut Filled,
+    origin: &Origin,
+) -> Result<(), Error> {
+    let Climb {
+        document,
+        template: index,
+        ..
+    } = *climb;
+    let unusable = |what: String| Error::Unusable {
+        template: index,
+        what,
+    };
+    filled.improved = refine(climb, plc, &origin.facets, filled);
+    let reach = document.frame.origin.length() + plc.extent;
+    let template = &filled.template;
+    orientations(template, origin.first_new, reach).map_err(unusable)?;
+    measures(document, plc, &origin.faces, template).map_err(unusable)
+}
+
+/// Improves the tetrahedra, as far as elements are to be optimized: the smallest angle to reach is what
+/// remains of a straight angle, halved, and the one asked for at least.
+fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -> Option<Improved> {
+    let Climb {
+        document,
+        params,
+        sizes,
+        ..
+    } = *climb;
+    let largest = params.optimize.filter(|_| params.quality)?;
+    let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
+    let normals: Vec<DVec3> = plc.facets.facets.iter().map(|f| f.normal).collect();
+    // Templates that share a face take it over as it is.
+    let shared = filled.shared.iter();
+    let fixed: Vec<u32> = shared
+        .flat_map(|&t| filled.template.triangles[t as usize].vertices)
+        .collect();
+    let freedoms = Freedoms::new(
+        (&filled.template, climb.template),
+        &Flats {
+            of_triangle: &of_triangle,
+            normals: &normals,
+            fixed: &fixed,
+            straight: ROUNDING * plc.extent + 2.0 * plc.shift,
+        },
+    );
+    let regions = document.regions.iter().zip(&sizes.of_region);
+    let wish = Wish {
+        // The mesher was asked for less than `min_dihedral`.
+        angle: (0.5 * (180.0 - largest)).max(params.min_dihedral),
+        radius_edge: params.radius_edge,
+        min_dihedral: params.min_dihedral,
+        max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),
+        scale: plc.scale,
+        share: SHARE,
+    };
+    Some(improve(&mut filled.template, &freedoms, &wish))
+}

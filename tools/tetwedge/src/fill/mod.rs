@@ -1,0 +1,14 @@
+//! From the mesher's answer back to a template: numbered, its walls restored, improved, checked.
+
+mod answer;
+mod filled;
+mod finish;
+mod measures;
+mod orientations;
+mod preserved;
+mod touching;
+mod walls;
+
+pub use answer::fill;
+pub use filled::{Filled, NONE};
+pub use finish::finish;
