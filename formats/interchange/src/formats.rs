@@ -2,12 +2,24 @@
 //!
 //! A new format is a folder with its reader and writer, an entry here, and tests.
 
+mod inp;
+mod listing;
+mod medit;
+mod msh;
+mod obj;
+mod off;
+mod ply;
+mod stl;
+mod tetgen;
+mod vtk;
+mod vtu;
+
+pub use listing::write_text;
+pub use vtu::write_pieces;
+
 use crate::parsed::Parsed;
 use crate::stream::{MeshStream, Plain};
-use crate::{
-    ReadError, WriteError, WriteOptions, inp, listing, medit, msh, obj, off, ply, stl, tetgen, vtk,
-    vtu,
-};
+use crate::{ReadError, WriteError, WriteOptions};
 use std::io::Write;
 use std::path::Path;
 use tmesh::Document;

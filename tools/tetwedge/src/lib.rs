@@ -18,3 +18,5 @@ pub use document::{Meshed, tetrahedralize};
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod turned;

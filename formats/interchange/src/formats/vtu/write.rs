@@ -8,10 +8,10 @@
 
 use super::spool::Spool;
 use crate::binary::Order;
+use crate::formats::vtk::cells::{CellArray, Cells, Values, name_fields};
 use crate::sink::ByteSink;
 use crate::stream::MeshStream;
 use crate::text::one_line;
-use crate::vtk::cells::{CellArray, Cells, Values, name_fields};
 use crate::{WriteError, WriteOptions};
 use std::fmt::Write as _;
 use std::io::{self, Write};
