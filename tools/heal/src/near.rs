@@ -22,7 +22,7 @@ pub fn near_points(points: &[DVec3], candidates: &[u32], tolerance: f64) -> Vec<
     let mut sets = DisjointSets::new(candidates.len());
     for i in 0..candidates.len() as u32 {
         let p = place(i);
-        grid.each_within(p, reach, &mut CROWD.clone(), |j, _| {
+        grid.each_within_of(p, reach, &mut CROWD.clone(), |j, _| {
             if (p - place(j)).abs().max_element() <= tolerance {
                 sets.join(i, j);
             }

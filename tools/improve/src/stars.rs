@@ -2,10 +2,6 @@
 
 use tmesh::Tet;
 
-/// Room for further tetrahedra at a vertex, to begin with, and what a list gets on top of twice its length
-/// where that is used up.
-const ROOM: u32 = 4;
-
 /// Part of the common store that a vertex has for its list.
 #[derive(Clone, Copy, Debug, Default)]
 struct Span {
@@ -33,7 +29,6 @@ impl Stars {
         let mut end = 0;
         for span in &mut spans {
             span.start = end;
-            span.room += ROOM;
             end += span.room;
         }
         let mut stars = Self {
@@ -82,7 +77,7 @@ impl Stars {
         if span.len == span.room {
             let [from, len] = [span.start, span.len].map(|i| i as usize);
             span.start = self.store.len() as u32;
-            span.room = 2 * span.len + ROOM;
+            span.room = 2 * span.len + 1;
             self.store.extend_from_within(from..from + len);
             self.store.resize((span.start + span.room) as usize, 0);
         }

@@ -1,7 +1,8 @@
 //! Regions of tetrahedra, from the two sides of the refined surface's triangles.
 
 use crate::{Elements, Plc};
-use geom::edges::orientation;
+use geom::measure::double_area_vector;
+use geom::predicate::orientation;
 use geom::sets::DisjointSets;
 use glam::DVec3;
 use tmesh::{OUTSIDE, Triangle};
@@ -70,7 +71,7 @@ pub fn label(plc: &Plc, mesh: &dyn Elements) -> Result<Cells, Contradiction> {
     for (corners, facet, sides) in &pieces {
         let facet = &plc.facets.facets[*facet];
         let [a, b, c] = corners.map(at);
-        let along = (b - a).cross(c - a).dot(facet.normal);
+        let along = double_area_vector(a, b, c).dot(facet.normal);
         for tet in sides.iter().copied().flatten() {
             let apex = at(apex(tets[tet], *corners));
             let in_front = (orientation(a, b, c, apex) > 0.0) == (along > 0.0);
@@ -113,7 +114,7 @@ pub fn label(plc: &Plc, mesh: &dyn Elements) -> Result<Cells, Contradiction> {
             (true, true) => {
                 // The same region on both sides: the facet's normal decides.
                 let [a, b, c] = corners.map(at);
-                let along = (b - a).cross(c - a).dot(facet.normal) > 0.0;
+                let along = double_area_vector(a, b, c).dot(facet.normal) > 0.0;
                 let first = sides[0]
                     .is_some_and(|t| orientation(a, b, c, at(apex(tets[t], corners))) > 0.0);
                 usize::from(first != along)

@@ -16,7 +16,7 @@ mod tetgen;
 
 pub use cells::{Cells, Contradiction, Surface, label};
 pub use complex::{
-    Attributes, Description, Facet, Facets, Order, PROJECTIONS, Plc, ROUNDING, SizeSeed,
+    Attributes, Description, FLATNESS, Facet, Facets, Order, PROJECTIONS, Plc, ROUNDING, SizeSeed,
 };
 pub use deadline::Deadline;
 pub use error::{Error, Fault, Place, RegionName};

@@ -30,3 +30,11 @@ pub const NEIGHBOURHOODS: usize = 16_000;
 /// Tests of an order that is listed as not holding, and corners that powers of an operation proved from faces are
 /// measured in: a maximum over so many places is the largest but for a hundredth of the surface.
 pub const LISTED: usize = 128;
+/// Places that regions vote at, and that a body is compared with a body of revolution at.
+pub const SURVEY: usize = 20_000;
+/// Next best candidates (orders, angles) that are adjusted and verified when the best one does not hold: candidates are
+/// local optima of a scan, of which equivalent ones have been merged, so that others are chance.
+pub const NEXT_BEST: usize = 6;
+/// Axes, or candidates for axes, looked at or listed at most beside the principal ones: a polyhedral group has up to 31
+/// axes and as many normals of mirror planes, and a D_64 has 64 half turns.
+pub const MOST_AXES: usize = 64;

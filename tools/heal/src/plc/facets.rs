@@ -3,11 +3,11 @@
 use super::segments::split_segments;
 use crate::HealError;
 use crate::document::largest_coordinate;
-use crate::facet::{Projection, area_vector, enclosed};
+use crate::facet::{Projection, area_vector};
 use crate::meeting::lowest_contact;
 use crate::welded::welded;
 use crate::words::{dropped, place};
-use geom::cdt::CdtError;
+use geom::cdt::{CdtError, triangulate_enclosed};
 use glam::DVec3;
 use interchange::parsed::{Facet, Plc};
 use rustc_hash::FxHashSet;
@@ -151,7 +151,7 @@ fn triangulate_facet(
         .collect();
     let segments: Vec<[u32; 2]> = segments.iter().map(|s| s.map(local)).collect();
     let holes: Vec<[f64; 2]> = facet.holes.iter().map(|&h| project.flat(h)).collect();
-    let triangles = enclosed(&flat, &segments, &holes).map_err(|error| {
+    let triangles = triangulate_enclosed(&flat, &segments, &holes).map_err(|error| {
         let at = |v: u32| place(points[nodes[v as usize] as usize]);
         let reason = match error {
             CdtError::Coincident(a, b) => format!(

@@ -6,15 +6,15 @@
 //! and on it multiples of that direction by numbers with few digits: then all products are exact. The shift
 //! is about 1e-10 of the radius (below 1e-9 for a few orders above 180), and is taken back afterwards.
 
-use geom::edges::orientation;
+use super::roundings::FLATNESS;
+use geom::predicate::orientation;
 use glam::DVec3;
 
-/// Bits of the direction's whole numbers; a coordinate has 53.
+/// Bits of the direction's whole numbers, of the 53 that a coordinate has: with fewer the direction is off by more (a fraction
+/// with denominators up to 2^20 is within 2^-40 of most angles), with more the multiples get coarser.
 const DIRECTION_BITS: i32 = 20;
 /// Bits of the multiples.
 const MULTIPLE_BITS: i32 = 53 - DIRECTION_BITS;
-/// Largest error of the direction that is accepted.
-const LARGEST_ERROR: f64 = 1e-9;
 
 /// Moves the listed points into one plane through the z axis, exactly, near the angle with the given
 /// cosine and sine. Returns the largest distance moved; nothing moves when the points are exact
@@ -36,7 +36,7 @@ pub fn flatten(points: &mut [[f64; 3]], listed: &[usize], cos: f64, sin: f64) ->
     };
     let length = direction.length();
     let error = (direction / length - DVec3::new(cos, sin, 0.0)).length();
-    if error > LARGEST_ERROR || listed.iter().all(|&i| on_plane(&points[i])) {
+    if error > FLATNESS || listed.iter().all(|&i| on_plane(&points[i])) {
         return 0.0;
     }
     let multiple = |p: &[f64; 3]| (p[0] * x + p[1] * y) / (length * length);

@@ -3,29 +3,13 @@
 use super::description::{Description, Order, mixed};
 use super::facets::Facets;
 use super::flat::flatten;
+use super::roundings::{FLATNESS, PRECISIONS};
 use super::seeds::{Seed, seeds};
 use crate::faces::Faces;
 use crate::{Error, Sizes};
 use geom::edges::Edges;
 use glam::DVec3;
 use tmesh::{Document, OUTSIDE, Template};
-
-/// Facets may be uneven by this part of the body's diagonal, which is what the wall planes are moved by at most (see
-/// [`super::flat`]): less would take facets apart that end at such a wall ...
-const FLATNESS: f64 = 1e-9;
-
-/// ... or by so many times the input's precision where that is more: two roundings for each of a plane's point and of
-/// the vertex off it.
-const PRECISIONS: f64 = 4.0;
-
-/// Points that the mesher puts on a plane or on the axis may be this far from it, relative to the largest coordinate: some
-/// ten thousand roundings, which is what the coordinates of circumcentres of nearly flat triangles lose.
-pub const ROUNDING: f64 = 1e-11;
-
-/// How often points are put back onto planes that meet: a single projection meets a single plane, and leaves
-/// others that it crosses by less each time. Planes at an angle of 45 degrees and more, as nearly all are, have
-/// what is left halved by each round.
-pub const PROJECTIONS: usize = 4;
 
 /// A point in a cell, with the size wanted there.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,12 +5,12 @@ use super::room::Room;
 use super::rungs::{Change, Ending, Rung};
 use crate::error::{ADVICE, Place};
 use crate::{Deadline, Error, Failure, FailureKind, Limits, Log, Mesher, Params, Plc, Sizes};
-use geom::measure::region_volume;
+use geom::measure::volume_of_region;
 use std::time::{Duration, Instant};
 use tmesh::Document;
 
 /// Most tetrahedra that may be asked for in a template: TetGen counts their corners in 32 bits.
-const MOST: f64 = 4e8;
+const MOST: f64 = i32::MAX as f64 / 4.0;
 
 /// How long finding the place of a failure may take at most. It is for the message only, and is worth about as much
 /// patience as reading it.
@@ -261,7 +261,8 @@ impl Climb<'_> {
         let sizes = self.document.regions.iter().zip(&self.sizes.of_region);
         for (region, limit) in sizes {
             if let Some(max_volume) = *limit {
-                let count = region_volume(template, region.id) / max_volume;
+                let count =
+                    volume_of_region(&template.vertices, template.faces(), region.id) / max_volume;
                 if count > MOST {
                     return Err(Error::TooMany {
                         template: self.template,

@@ -6,23 +6,24 @@
 
 use super::rungs::Ending;
 use crate::{Elements, Plc, Sizes};
-use geom::measure::region_volume;
+use geom::measure::volume_of_region;
 use glam::DVec3;
 use tmesh::Document;
 
-/// Points that may be added at first, at least: some seconds of work, so that a small surface whose mesh is to be large is
-/// rarely meshed twice.
+/// Points that may be added at first, at least. A choice: a second or two of work, so that a small surface whose mesh is to be
+/// large is rarely meshed twice, and a heap is soon noticed.
 const LEAST: f64 = 5e4;
 
-/// The same for each point of the surface: wedges of thin films, the extreme, have tens.
+/// The same for each point of the surface. A choice with the same reasons, for large surfaces.
 const PER_POINT: f64 = 200.0;
 
-/// Edges shorter than this part of the shortest one of the surface are those of a heap. Refinement that ends leaves none
-/// below half of it for a bound of 2, and rarely any below a tenth for the bounds in use.
+/// Edges shorter than this part of the shortest one of the surface are those of a heap. A choice: refinement that ends
+/// makes few edges shorter than the surface's, and one that does not halves them again and again; a larger value
+/// takes fine meshes for heaps, a smaller one lets heaps grow to four hundred times the room.
 const SHRUNK: f64 = 0.05;
 
 /// TetGen counts points in 32 bits.
-const MOST: f64 = 2e9;
+const MOST: f64 = i32::MAX as f64;
 
 /// Points that may be added to a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +35,9 @@ impl Room {
         let template = &document.templates[plc.template];
         let limits = document.regions.iter().zip(&sizes.of_region);
         let by_size: f64 = limits
-            .filter_map(|(r, limit)| Some(region_volume(template, r.id) / (*limit)?))
+            .filter_map(|(r, limit)| {
+                Some(volume_of_region(&template.vertices, template.faces(), r.id) / (*limit)?)
+            })
             .sum();
         Self(LEAST.max(PER_POINT * plc.points.len() as f64).max(by_size))
     }

@@ -58,14 +58,14 @@ const fn describe(order: Order, stir: Option<f64>, rounds_from: Option<u32>) -> 
 /// The rungs, each of which is taken once at most, so that there is one attempt more than rungs in the worst case.
 ///
 /// - Elements that are not as asked for are put down to the easing of the bounds first, and then to the shape.
-/// - The limit of points is a guess (see [`super::Room`]); where the mesh is to be large, it gets four hundred times as many
-///   in two steps, which is more than 32 bits of tetrahedra for all but the smallest surfaces.
+/// - The limit of points is a guess (see `room.rs`); where the mesh is to be large, it gets four hundred times as many
+///   in two steps.
 /// - Where points heap up, refinement would not end: Delaunay refinement is sure to end for radius-edge bounds of 2 and above
 ///   without a bound of the angle, if no angle of the input is acute (Shewchuk, "Tetrahedral mesh generation by
 ///   Delaunay refinement", 1998). Acute ones are left to the last limit, 20 points for each of the surface.
 /// - Equivalent descriptions of the surface are draws of the same lot. Of 72 open vias with films of 1e-4 to 7e-4 at orders
-///   24 to 64 the first failed for 10, and the second for a few of these; each of the rest was needed by one of ten
-///   thousand random bodies. An order by itself is another draw; a stir breaks up cospherical points, least first;
+///   24 to 64 the first failed for 10, and the third for none; the others came with ten thousand random bodies. An
+///   order by itself is another draw; a stir breaks up cospherical points, by no more than walls are moved anyway;
 ///   random rounds break up an order that depends on the places alone; walls as they are, and no facet but exactly
 ///   coplanar triangles, are for surfaces on which flattening or merging is what fails.
 pub const LADDER: [Rung; 12] = [

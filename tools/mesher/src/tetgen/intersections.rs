@@ -1,21 +1,13 @@
 //! Triangles of a complex that intersect, as TetGen's switch `d` finds them.
 
-/// Longest text that is looked at, bytes. A line has fewer than a hundred, and the first pair is the one that is
-/// reported, beside their number.
-pub const LONGEST_TEXT: usize = 1 << 20;
-
-/// The pairs named in what TetGen prints, of triangles below `count`.
-pub fn pairs(text: &str, count: usize) -> Vec<[usize; 2]> {
-    let all: Vec<[usize; 2]> = text.lines().filter_map(facet_pair).collect();
+/// The pairs named in lines that TetGen prints, the first one of triangles below `count`; none if there is no such pair.
+pub fn pairs<'a>(lines: impl Iterator<Item = &'a str>, count: usize) -> Vec<[usize; 2]> {
+    let mut all: Vec<[usize; 2]> = lines.filter_map(facet_pair).collect();
     match all.iter().position(|pair| pair.iter().all(|&t| t < count)) {
-        Some(first) => {
-            // The pair to be shown comes first.
-            let mut all = all;
-            all.swap(0, first);
-            all
-        }
-        None => Vec::new(),
+        Some(first) => all.swap(0, first),
+        None => all.clear(),
     }
+    all
 }
 
 /// Reads a line such as `Facet #12 intersects facet #31 at triangles:`; facets count from 1.
@@ -43,7 +35,7 @@ mod tests {
         assert_eq!(facet_pair("Facet #2"), None);
         assert_eq!(facet_pair("Delaunizing vertices..."), None);
         let text = "Facet #1 intersects facet #99 at\nFacet #2 intersects facet #3 at\n";
-        assert_eq!(pairs(text, 5), [[1, 2], [0, 98]]);
-        assert!(pairs(text, 2).is_empty());
+        assert_eq!(pairs(text.lines(), 5), [[1, 2], [0, 98]]);
+        assert!(pairs(text.lines(), 2).is_empty());
     }
 }

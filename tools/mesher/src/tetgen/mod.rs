@@ -6,7 +6,7 @@ mod switches;
 
 use crate::{Elements, Failure, FailureKind, Limits, Log, Mesh, Mesher, Plc, Task};
 use chatter::Chatter;
-use intersections::{LONGEST_TEXT, pairs};
+use intersections::pairs;
 use switches::switches;
 use tetgen_sys::{Complex, Error, RegionSeed, tetrahedralize};
 
@@ -39,13 +39,11 @@ impl Mesher for TetGen {
     fn intersections(&self, plc: &Plc, limits: Limits) -> Vec<[usize; 2]> {
         let mut text = Vec::new();
         let seeds = seeds(plc);
-        // Only what it prints is of interest.
+        // Only what it prints is of interest: at most a line for each pair that it looks at in the time given.
         let _ = tetrahedralize(&complex(plc, &seeds), "pd", limits.into(), &mut |bytes| {
-            if text.len() < LONGEST_TEXT {
-                text.extend_from_slice(bytes);
-            }
+            text.extend_from_slice(bytes);
         });
-        pairs(&String::from_utf8_lossy(&text), plc.triangles.len())
+        pairs(String::from_utf8_lossy(&text).lines(), plc.triangles.len())
     }
 }
 

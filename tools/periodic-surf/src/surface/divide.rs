@@ -2,7 +2,7 @@
 
 use super::maker::Maker;
 use super::orbits::{Link, Orbit, links, orbits};
-use super::outline::{merged, reversed, same, symmetric};
+use super::pieces::{merged, reversed, same, symmetric};
 use glam::DVec3;
 use tmesh::FixedSet;
 

@@ -2,16 +2,13 @@
 
 use super::features::NONE;
 use super::maker::Maker;
-use super::planar::Patch;
-use super::plane::Plane;
+use super::pairing::facing;
+use super::pieces::{Frame, Patch, STRAIGHT};
 use crate::SurfaceError;
 use glam::{DVec2, DVec3};
 use mesher::{ROUNDING, face_key};
 use rustc_hash::FxHashMap;
 use tmesh::{FixedSet, Triangle};
-
-/// Twice the area of a triangle up to which its corners count as on one line, over the square of its longer sides.
-const FLAT: f64 = 1e-10;
 
 /// The outline of a facet in the new numbering.
 #[derive(Default)]
@@ -136,7 +133,7 @@ impl Maker<'_> {
             self.face_of
                 .push(face_key(self.pairings[pairing].wall, true));
             self.made.triangles.push(Triangle {
-                vertices: self.pairings[pairing].turned(corners),
+                vertices: facing(self.pairings[pairing].step, corners),
                 ..like
             });
         }
@@ -172,11 +169,11 @@ impl Maker<'_> {
             let [a, b, c] = guide.triangles[t as usize].map(|v| guide.vertices[v as usize]);
             let (u, v) = (b - a, c - a);
             let longest = u.length_squared().max(v.length_squared());
-            u.cross(v).length() <= FLAT * longest
+            u.cross(v).length() <= STRAIGHT * longest
         };
         if master.is_some() || outline.changed || fine.iter().any(is_flat) {
             let normal = guide.facets.facets[facet].normal;
-            return self.triangulate(&Plane::new(normal), &outline, &inner, settle);
+            return self.triangulate(&Frame::new(normal), &outline, &inner, settle);
         }
         for &v in &inner {
             let new = self.add(settle(guide.vertices[v as usize]));
@@ -224,7 +221,7 @@ impl Maker<'_> {
     /// belong.
     fn triangulate(
         &mut self,
-        plane: &Plane,
+        plane: &Frame,
         outline: &Outline,
         inner: &[u32],
         settle: impl Fn(DVec3) -> DVec3,

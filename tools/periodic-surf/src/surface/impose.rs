@@ -3,6 +3,7 @@
 //! The face was refined where the other template was meshed. Each of its images replaces the triangles
 //! that the template had there; triangles beside it are divided where its outline is.
 
+use super::pairing::facing;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Document, FixedSet, Gluing, Placed, RegionMap, Template, Triangle};
@@ -224,17 +225,11 @@ impl Maker {
                     .zip(triangle.vertices)
                     .map(|(a, b)| [a, b]),
             );
-            let [a, b, c] = vertices;
             hub.triangle_pairs
                 .push([self.new.triangles.len() as u32, t]);
             let region = |r: u32| regions.map_or(r, |map| map.get(r));
             self.new.triangles.push(Triangle {
-                // Both faces look out of their template.
-                vertices: if hub.step.reverses_orientation() {
-                    [a, b, c]
-                } else {
-                    [a, c, b]
-                },
+                vertices: facing(hub.step, vertices),
                 front: region(triangle.front),
                 back: region(triangle.back),
                 ..triangle
@@ -344,7 +339,7 @@ impl Maker {
                 };
                 pairs.push([self.new.triangles.len() as u32, piece]);
                 self.new.triangles.push(Triangle {
-                    vertices: [a, c, b],
+                    vertices: facing(seam.step, [a, b, c]),
                     ..like
                 });
             }

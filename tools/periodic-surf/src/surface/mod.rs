@@ -4,9 +4,8 @@
 //!
 //! 1. A free pass of the mesher gives the guide (`guide.rs`): where the surface must be fine.
 //! 2. Feature edges (`features.rs`) that are images of each other form orbits (`orbits.rs`), under the steps of all
-//!    pairs of faces that are glued to each other (`pairing.rs`). Each orbit gets one division (`outline.rs`,
-//!    `divide.rs`); edges of faces that another template shares stay undivided.
-//! 3. Of two faces glued to each other, the master is triangulated between these edges (`fill.rs`, `planar.rs`), with the
+//!    pairs of faces that are glued to each other (`pairing.rs`). Each orbit gets one division (`divide.rs`); edges of faces that another template shares stay undivided.
+//! 3. Of two faces glued to each other, the master is triangulated between these edges (`fill.rs`), with the
 //!    guide's inner points; the other one is its image.
 //! 4. Flat facets whose outline differs from the guide's are triangulated anew; all others are as in
 //!    the guide.
@@ -17,16 +16,14 @@ mod check;
 mod divide;
 mod features;
 mod fill;
+mod gluings;
 mod guide;
 mod impose;
 mod make;
 mod maker;
 mod orbits;
-mod outline;
 mod pairing;
-mod planar;
-mod plane;
-mod walls;
+mod pieces;
 
 pub use guide::EASED as GUIDE_EASED;
 pub use impose::{Other, impose};

@@ -35,13 +35,13 @@ impl Pairing {
     pub fn fixed(&self) -> FixedSet {
         FixedSet::of(self.step)
     }
+}
 
-    /// The corners of a triangle's image, in the order that faces out of the template if the triangle does: the step
-    /// takes what is outside of the master to the inside of its image.
-    pub fn turned(&self, [a, b, c]: [u32; 3]) -> [u32; 3] {
-        match self.step.reverses_orientation() {
-            true => [a, b, c],
-            false => [a, c, b],
-        }
+/// The corners of a triangle's image under the step of a gluing, in the order that faces out of its template if the
+/// triangle does: the step takes what is outside of the one face to the inside of the other.
+pub fn facing(step: Isometry, [a, b, c]: [u32; 3]) -> [u32; 3] {
+    match step.reverses_orientation() {
+        true => [a, b, c],
+        false => [a, c, b],
     }
 }

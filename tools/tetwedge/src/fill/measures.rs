@@ -1,12 +1,9 @@
 //! What meshing must not change: the volume of each region and the area of each wall.
 
 use geom::measure::{corners, tet_volume, triangle_area};
-use mesher::{NO_FACE, Plc};
+use mesher::{FLATNESS, NO_FACE, Plc};
 use std::collections::BTreeMap;
 use tmesh::{Document, OUTSIDE, Template};
-
-/// Allowed relative change.
-const CHANGE: f64 = 1e-9;
 
 /// Compares the filled template with the surface it was made from.
 ///
@@ -42,7 +39,7 @@ pub fn measures(
         volumes.entry(t.region).or_default().1 += tet_volume(a, b, c, d);
     }
     for (region, (before, after)) in volumes {
-        let allowed = CHANGE * before.abs() + slack + rounding(plc, 3);
+        let allowed = FLATNESS * before.abs() + slack + rounding(plc, 3);
         if !within(before, after, allowed) {
             return Err(format!(
                 "region {region} has the volume {after:.12e}, its surface encloses {before:.12e} \
@@ -63,7 +60,7 @@ pub fn measures(
     }
     areas.remove(&NO_FACE);
     for (key, (before, after)) in areas {
-        let allowed = CHANGE * before + rounding(plc, 2);
+        let allowed = FLATNESS * before + rounding(plc, 2);
         if !within(before, after, allowed) {
             let wall = input.gluings.get((key as usize - 1) / 2);
             let name = wall.map_or("hub", |w| w.name.as_str());

@@ -56,7 +56,7 @@ impl Groups {
         let least = match params.hub {
             _ if found.order == 1 => 1,
             Hub::Radius(_) => HUB_LEAST_ORDER,
-            _ if mirrors || groups.at(1).len() > 1 => 1,
+            _ if mirrors => 1,
             _ => 2,
         };
         groups.orders = match params.order {

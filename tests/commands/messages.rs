@@ -1,55 +1,31 @@
 //! Messages as objects, of every tool: `--message-format json`.
 
 use serde_json::Value;
-use std::io::Write;
-use std::process::{Command, Stdio};
+use support::{TOOLS, run};
 
-const TOOLS: [(&str, &str); 6] = [
-    ("symdetect", env!("CARGO_BIN_EXE_symdetect")),
-    ("wedgecut", env!("CARGO_BIN_EXE_wedgecut")),
-    ("periodic-surf", env!("CARGO_BIN_EXE_periodic-surf")),
-    ("tetwedge", env!("CARGO_BIN_EXE_tetwedge")),
-    ("rotassemble", env!("CARGO_BIN_EXE_rotassemble")),
-    ("meshqual", env!("CARGO_BIN_EXE_meshqual")),
-];
-
-const PYRAMID: &[u8] = include_bytes!("../formats/tmesh/tests/golden/pyramid.tmesh");
+const PYRAMID: &[u8] = include_bytes!("../../formats/tmesh/tests/golden/pyramid.tmesh");
 
 /// Runs a tool; its exit code and the objects on standard error.
 #[track_caller]
-fn objects(path: &str, arguments: &[&str], input: &[u8]) -> (i32, Vec<Value>) {
-    let mut child = Command::new(path)
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("it starts");
-    let mut stdin = child.stdin.take().expect("a pipe");
-    // The tool may end without reading.
-    let _ = stdin.write_all(input);
-    drop(stdin);
-    let output = child.wait_with_output().expect("it ends");
-    let text = String::from_utf8(output.stderr).expect("text");
-    let objects = text.lines().map(|line| match serde_json::from_str(line) {
+fn objects(tool: &str, arguments: &[&str], input: &[u8]) -> (i32, Vec<Value>) {
+    let output = run(tool, arguments, input);
+    let objects = output.stderr.lines();
+    let objects = objects.map(|line| match serde_json::from_str(line) {
         Ok(object) => object,
         Err(error) => panic!("{error}: {line}"),
     });
-    (
-        output.status.code().expect("an exit code"),
-        objects.collect(),
-    )
+    (output.code, objects.collect())
 }
 
 /// The run fails with one object that says why.
 #[track_caller]
-fn fails(tool: (&str, &str), arguments: &[&str], input: &[u8], code: i32, part: &str) {
-    let (found, objects) = objects(tool.1, arguments, input);
+fn fails(tool: &str, arguments: &[&str], input: &[u8], code: i32, part: &str) {
+    let (found, objects) = objects(tool, arguments, input);
     assert_eq!(found, code, "{objects:?}");
     let errors: Vec<_> = objects.iter().filter(|o| o["level"] == "error").collect();
     assert_eq!(errors.len(), 1, "{objects:?}");
     assert_eq!(objects.last(), Some(errors[0]));
-    assert_eq!(errors[0]["tool"], tool.0);
+    assert_eq!(errors[0]["tool"], tool);
     assert_eq!(errors[0]["code"], code);
     let message = errors[0]["message"].as_str().expect("text");
     assert!(message.contains(part), "{message}");
@@ -71,19 +47,17 @@ fn errors_are_objects() {
         let exclusive = ["--message-format=json", "-q", "-v"];
         fails(tool, &exclusive, b"", 2, "cannot be used with");
     }
-    let meshqual = TOOLS[5];
     let unmet = ["--message-format=json", "--fail-below", "volume=1e9"];
-    fails(meshqual, &unmet, PYRAMID, 1, "volume");
+    fails("meshqual", &unmet, PYRAMID, 1, "volume");
     let nowhere = ["--message-format=json", "-o", "/nowhere/report"];
-    fails(meshqual, &nowhere, PYRAMID, 4, "/nowhere/report");
+    fails("meshqual", &nowhere, PYRAMID, 4, "/nowhere/report");
 }
 
 #[test]
 fn other_messages_are_objects_too() {
-    let [symdetect, ..] = TOOLS;
     let arguments = ["--message-format=json", "--allow-asymmetric", "-vv"];
     let off = b"OFF 4 4 0\n0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
-    let (code, objects) = objects(symdetect.1, &arguments, off);
+    let (code, objects) = objects("symdetect", &arguments, off);
     assert_eq!(code, 0, "{objects:?}");
     let has = |level: &str| objects.iter().any(|o| o["level"] == level);
     assert!(has("note") && has("info") && !has("error"), "{objects:?}");

@@ -1,7 +1,6 @@
 //! One division for two edges that are images of each other.
 
-/// Divisions that differ by less than this, relative to the edge, are the same.
-const SAME: f64 = 1e-9;
+use mesher::FLATNESS;
 
 /// A division of the unit interval as dense as the denser of two everywhere, evenly so: inner
 /// points, increasing.
@@ -39,7 +38,7 @@ pub fn merged(low: &[f64], high: &[f64]) -> Vec<f64> {
 
 /// Whether two divisions are the same but for rounding.
 pub fn same(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME)
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= FLATNESS)
 }
 
 /// The same division, seen from the other end.

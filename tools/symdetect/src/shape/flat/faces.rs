@@ -6,11 +6,12 @@
 //! wanted holds everywhere, as well as it does in the corners. That is quicker to see than that many places of the
 //! surface land on it, and says more.
 
+use crate::shape::flat::outlines::Outlines;
 use crate::shape::motion::{Motion, Target};
-use crate::shape::outlines::Outlines;
 use crate::shape::table::Table;
 use geom::edges::{EdgeUse, Edges};
 use geom::grid::Grid;
+use geom::measure::double_area_vector;
 use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -46,7 +47,7 @@ pub struct Surface<'a> {
 impl Surface<'_> {
     fn area(&self, triangle: u32) -> DVec3 {
         let [a, b, c] = self.triangles[triangle as usize].map(|v| self.vertices[v as usize]);
-        let area = (b - a).cross(c - a);
+        let area = double_area_vector(a, b, c);
         if self.is_turned(triangle) {
             -area
         } else {

@@ -4,7 +4,7 @@
 //! shared edge without passing through a triangle. A component of sides bounds one cell of space;
 //! a cell with cavities has several components.
 
-use crate::edges::{EdgeUse, Edges};
+use crate::complex::edges::{EdgeUse, Edges};
 use crate::sets::DisjointSets;
 use glam::DVec3;
 

@@ -3,8 +3,8 @@
 //! A region grows from a seed, and its plane is that of the seed, so that it cannot creep around a bend. Which
 //! triangles it takes depends on the seed alone and not on the way it grows.
 
-use crate::edges::Across;
-use crate::measure::double_area_vector;
+use crate::complex::edges::Across;
+use crate::element::measure::double_area_vector;
 use glam::DVec3;
 
 /// No region.
@@ -149,7 +149,7 @@ impl Flats {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::edges::Edges;
+    use crate::complex::edges::Edges;
 
     /// A strip of four triangles: two flat but for `bump`, then two tilted.
     fn strip(bump: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {

@@ -7,14 +7,14 @@ use glam::{DVec2, DVec3};
 const STEEP: f64 = 0.9;
 
 /// An orthonormal frame in a facet's plane; upright and level facets keep exact coordinates.
-pub struct Plane {
+pub struct Frame {
     u: DVec3,
     v: DVec3,
     /// Unit normal.
     pub normal: DVec3,
 }
 
-impl Plane {
+impl Frame {
     /// The frame of a plane with this unit normal.
     pub fn new(normal: DVec3) -> Self {
         let across = if normal.z.abs() > STEEP {

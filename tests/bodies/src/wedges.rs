@@ -1,4 +1,4 @@
-//! Wedges made in code, for the tests.
+//! Surfaces of wedges with their gluings, made in code as grids of cells.
 
 use glam::DVec3;
 use tmesh::{Document, Gluing, Instance, Isometry, OUTSIDE, Region, Template, Triangle};
@@ -6,18 +6,25 @@ use tmesh::{Document, Gluing, Instance, Isometry, OUTSIDE, Region, Template, Tri
 /// A grid of cells in cylindrical coordinates: radii, `turns` equal steps over the wedge's angle,
 /// heights. Its surface separates cells of different regions.
 pub struct Grid<'a> {
+    /// Order of the rotation.
     pub order: u32,
+    /// Mirror walls and half the angle; else a seam.
     pub mirror: bool,
+    /// Radii of the grid's points; the first may be 0.
     pub radii: &'a [f64],
+    /// Steps over the angle.
     pub turns: usize,
+    /// Heights of the grid's points.
     pub heights: &'a [f64],
     /// Region of the cell (radius, turn, height).
     pub region: &'a dyn Fn(usize, usize, usize) -> u32,
 }
 
-/// Marker of the inner and outer side, of the walls, and of bottom and top.
+/// Marker of the inner and the outer side.
 pub const SIDE: u32 = 1;
+/// Marker of the walls.
 pub const WALL: u32 = 2;
+/// Marker of bottom and top.
 pub const LEVEL: u32 = 3;
 
 impl Grid<'_> {

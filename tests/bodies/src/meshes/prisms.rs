@@ -1,6 +1,6 @@
 //! Meshes for tests: structured prisms as wedges, and assembled by welding placed copies.
 
-use geom::tet::FACES;
+use super::tets::{FACES, is_inverted};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use tmesh::{
@@ -268,7 +268,7 @@ fn prism(tets: &mut Vec<Tet>, mut base: [usize; 3], k: usize, per_layer: usize, 
 
 fn orient(tet: &mut Tet, points: &[DVec3]) {
     let [a, b, c, d] = tet.vertices.map(|v| points[v as usize]);
-    if geom::measure::tet_volume(a, b, c, d) < 0.0 {
+    if is_inverted([a, b, c, d]) {
         tet.vertices.swap(0, 1);
     }
 }

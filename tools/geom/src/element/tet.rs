@@ -1,6 +1,6 @@
 //! Quality measures of a tetrahedron.
 
-use crate::measure::tet_volume;
+use crate::element::measure::tet_volume;
 use glam::DVec3;
 
 /// Radius-edge ratio of the regular tetrahedron, the smallest there is.

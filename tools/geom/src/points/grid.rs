@@ -76,9 +76,17 @@ impl<const N: usize> Grid<N> {
     /// Calls `visit` with the number and the distance of every point within a distance of a place until it
     /// returns false. The order is the same in every run; a point may come twice where the lists of
     /// two cells are one.
-    ///
-    /// `looked_at` counts down for every point compared; the search ends when it is zero.
     pub fn each_within(
+        &self,
+        place: impl Into<[f64; N]>,
+        within: f64,
+        visit: impl FnMut(u32, f64) -> bool,
+    ) {
+        self.each_within_of(place, within, &mut u64::MAX.clone(), visit);
+    }
+
+    /// The same; the search ends when as many points as `looked_at` says have been compared, which is counted down.
+    pub fn each_within_of(
         &self,
         place: impl Into<[f64; N]>,
         within: f64,
@@ -121,7 +129,7 @@ impl<const N: usize> Grid<N> {
         looked_at: &mut u64,
     ) -> Option<(u32, f64)> {
         let mut best: Option<(f64, u32)> = None;
-        self.each_within(place, within, looked_at, |point, distance| {
+        self.each_within_of(place, within, looked_at, |point, distance| {
             if best.is_none_or(|b| (distance, point) < b) {
                 best = Some((distance, point));
             }

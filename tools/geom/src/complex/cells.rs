@@ -1,15 +1,15 @@
 //! The cells a triangle complex divides space into.
 //!
-//! Components of triangle sides (see [`crate::sides`]) bound cells from one side each. A connected
+//! Components of triangle sides (see [`crate::complex::sides`]) bound cells from one side each. A connected
 //! piece of the complex, a *shell*, has one component on its outer side, the one that encloses a
 //! negative volume; which cell that one lies in is settled by a ray from an extreme vertex of the
 //! shell to the next triangle of another shell. Compare "Mesh Arrangements for Solid Geometry",
 //! Zhou et al. 2016, section 3.3, which uses closest points where we use rays.
 
-use crate::edges::Edges;
-use crate::measure::tet_volume;
+use crate::complex::edges::Edges;
+use crate::complex::sides::{SideComponents, side_components};
+use crate::element::measure::tet_volume;
 use crate::sets::DisjointSets;
-use crate::sides::{SideComponents, side_components};
 use crate::tree::{Direction, Met, Rays};
 use glam::DVec3;
 use std::cell::OnceCell;
@@ -254,11 +254,11 @@ fn outer_components(
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
 
     /// Adds a box with outward triangles; returns the index of its first triangle.
-    pub(crate) fn add_box(
+    fn add_box(
         vertices: &mut Vec<DVec3>,
         triangles: &mut Vec<[u32; 3]>,
         low: DVec3,

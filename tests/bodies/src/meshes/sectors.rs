@@ -1,7 +1,7 @@
 //! Sectors of all kinds of group: a few tetrahedra, with every kind of wall that there is.
 
 use super::prisms::skin;
-use geom::measure::tet_volume;
+use super::tets::is_inverted;
 use glam::DVec3;
 use tmesh::{
     Axis, Document, Frame, Gluing, Group, Instance, Isometry, Kind, Promise, Region, Symmetry,
@@ -68,7 +68,7 @@ pub fn sector(group: Group) -> Document {
     });
     for tet in &mut template.tets {
         let [a, b, c, d] = tet.vertices.map(|v| template.vertices[v as usize]);
-        if tet_volume(a, b, c, d) < 0.0 {
+        if is_inverted([a, b, c, d]) {
             tet.vertices.swap(0, 1);
         }
     }

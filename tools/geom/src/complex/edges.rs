@@ -1,6 +1,6 @@
 //! Edges of a triangle complex and the triangles around them, in angular order.
 
-pub use crate::predicate::orientation;
+use crate::element::predicate::orientation;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
@@ -143,28 +143,18 @@ impl Across {
 }
 
 impl Edges {
-    /// Neighbours over edges with exactly two triangles.
-    fn neighbours(&self, accept: impl Fn(&EdgeUse, &EdgeUse) -> bool) -> Across {
+    /// Neighbours over edges with exactly two triangles that are wound alike.
+    pub fn across(&self) -> Across {
         let mut beyond = vec![[NONE; 3]; self.uses.len() / 3];
         for edge in 0..self.len() {
             if let [u, v] = self.around(edge)
-                && accept(u, v)
+                && u.forward != v.forward
             {
                 beyond[u.triangle as usize][u.corner as usize] = v.triangle;
                 beyond[v.triangle as usize][v.corner as usize] = u.triangle;
             }
         }
         Across { beyond }
-    }
-
-    /// Neighbours over edges with exactly two triangles that are wound alike.
-    pub fn across(&self) -> Across {
-        self.neighbours(|u, v| u.forward != v.forward)
-    }
-
-    /// Neighbours over edges with exactly two triangles, however these are wound.
-    pub fn across_any(&self) -> Across {
-        self.neighbours(|_, _| true)
     }
 }
 
@@ -175,7 +165,7 @@ pub fn apex_of(triangle: &[u32; 3], corner: u8) -> u32 {
 
 /// Compares the angles of `p` and `q` about the directed line `a b`, measured right-handed from the
 /// half plane of `first`, exactly. `first` itself has angle 0.
-pub fn turn_order(a: DVec3, b: DVec3, first: DVec3, p: DVec3, q: DVec3) -> Ordering {
+fn turn_order(a: DVec3, b: DVec3, first: DVec3, p: DVec3, q: DVec3) -> Ordering {
     let half = |x: DVec3| {
         let side = orientation(a, b, first, x);
         if side > 0.0 {

@@ -3,6 +3,7 @@
 use assert_cmd::Command;
 use glam::DVec3;
 use serde_json::Value;
+use support::bytes;
 use tmesh::{Document, Gluing, Instance, Isometry, OUTSIDE, Region, Template, Tet, Triangle};
 
 /// An octagonal pyramid of radius 1 and height 1 as half-wedges of a fourfold symmetry:
@@ -50,12 +51,6 @@ fn pyramid() -> Document {
         volume: None,
     }];
     document
-}
-
-fn bytes(document: &Document) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    tmesh::write(document, &mut bytes).unwrap();
-    bytes
 }
 
 fn meshqual(arguments: &[&str], input: &[u8]) -> (i32, String, String) {

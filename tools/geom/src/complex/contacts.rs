@@ -1,7 +1,7 @@
 //! Where triangles meet in any other way than in common vertices and edges.
 
-use crate::alignment::alignment;
-use crate::predicate::orientation;
+use crate::element::predicate::orientation;
+use crate::tree::alignment::alignment;
 use crate::tree::pairs;
 use glam::DVec3;
 use robust::{Coord, orient2d};
@@ -25,8 +25,15 @@ pub enum Search {
     GaveUp,
 }
 
-/// Bound on the error of a coordinate that was turned, relative to the largest one.
-const ROUNDING: f64 = 1e-14;
+/// Pairs of triangles that are compared at most, per triangle and in addition. Real surfaces have some ten pairs
+/// per triangle, and fans of thin triangles hundreds; the limit ends a search through triangles that all lie
+/// over each other after seconds instead of hours.
+const PAIRS_PER_TRIANGLE: u64 = 1000;
+const PAIRS: u64 = 10_000_000;
+
+/// Bound on the error of a coordinate that was turned, relative to the largest one: three products and two sums of
+/// half a rounding each, times `sqrt(3)`, and those of the rotation's own entries.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Finds contacts between triangles of different groups, and hands them to `found` until it returns
 /// false. Two triangles with the same three vertices are no contact; neither is one without area.
@@ -49,7 +56,7 @@ pub fn contacts(
         let [a, b, c] = corners(t).map(|p| frame.map_or(p, |frame| frame * p));
         [a.min(b).min(c) - margin, a.max(b).max(c) + margin]
     });
-    let mut left = 1000 * triangles.len() as u64 + 10_000_000;
+    let mut left = PAIRS_PER_TRIANGLE * triangles.len() as u64 + PAIRS;
     let mut end = Search::Done;
     pairs(boxes, &group, |s, t| {
         left -= 1;
@@ -139,8 +146,8 @@ fn meeting(p: [DVec3; 3], q: [DVec3; 3], shared: &[(usize, usize)]) -> Option<DV
 }
 
 /// Bound on the error of a determinant of three differences of points, relative to the sum of the sizes of
-/// its terms; Shewchuk's is 7.8e-16.
-const FILTER: f64 = 1e-15;
+/// its terms: Shewchuk's `(7 + 56 e) e` with `e` half of [`f64::EPSILON`], rounded up.
+const FILTER: f64 = 4.0 * f64::EPSILON;
 
 /// The determinant of two vectors with a third, which is rounded.
 struct Determinant {
@@ -228,7 +235,8 @@ fn separated_at(common: DVec3, p: [DVec3; 2], q: [DVec3; 2]) -> bool {
 }
 
 /// Height of one triangle above the plane of another, relative to its distance, up to which they are looked
-/// at in projection first.
+/// at in projection first: far above rounding, so that nearly coplanar neighbours on a fan are settled by
+/// projection. A choice that changes the time only.
 const LEVEL: f64 = 1e-9;
 
 /// Whether two triangles are nearly in one plane, and an edge line of one of them separates them in a

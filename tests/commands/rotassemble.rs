@@ -1,13 +1,14 @@
 //! The command line of `rotassemble`, over the real binary.
 
 use bodies::structured::Structured;
-use bodies::{Encoding, Placement, Tsv};
+use bodies::{Placement, Tsv};
 use serde_json::{Value, json};
 use std::fs;
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
-use tmesh::{Document, Outside};
+use std::process::{Command, Stdio};
+use support::{EXACT_STL, Outcome, bytes, encode};
+use tmesh::Outside;
 
 fn wedge() -> Structured {
     Structured {
@@ -20,48 +21,23 @@ fn wedge() -> Structured {
     }
 }
 
-fn bytes(document: &Document) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    tmesh::write(document, &mut bytes).unwrap();
-    bytes
-}
-
 /// Runs the tool with the given standard input.
-fn run(arguments: &[&str], input: &[u8]) -> Output {
-    run_tool(env!("CARGO_BIN_EXE_rotassemble"), arguments, input)
-}
-
-fn run_tool(path: &str, arguments: &[&str], input: &[u8]) -> Output {
-    let mut child = Command::new(path)
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let input = input.to_vec();
-    // The tool may end without reading.
-    let feeder = std::thread::spawn(move || drop(stdin.write_all(&input)));
-    let output = child.wait_with_output().unwrap();
-    feeder.join().unwrap();
-    output
+fn run(arguments: &[&str], input: &[u8]) -> Outcome {
+    support::run("rotassemble", arguments, input)
 }
 
 #[track_caller]
 fn succeeds(arguments: &[&str], input: &[u8]) -> Vec<u8> {
     let output = run(arguments, input);
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{stderr}");
-    assert_eq!(stderr, "");
+    assert_eq!((output.code, output.stderr.as_str()), (0, ""));
     output.stdout
 }
 
 #[track_caller]
 fn fails(arguments: &[&str], input: &[u8], code: i32, sentence: &str) {
     let output = run(arguments, input);
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(code), "{stderr}");
+    let stderr = &output.stderr;
+    assert_eq!(output.code, code, "{stderr}");
     assert!(stderr.contains(sentence), "{stderr}");
     assert!(output.stdout.is_empty());
 }
@@ -72,7 +48,7 @@ fn legacy_vtk_by_default() {
     let text = String::from_utf8_lossy(&output);
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("# vtk DataFile Version 3.0"));
-    let title = "symtet C6v order=6 mirror=1 axis=0,0,0,0,0,1,1,0,0";
+    let title = "symtet C6v axis=0,0,0,0,0,1,1,0,0";
     assert_eq!(lines.next(), Some(title));
     assert!(!text.contains("marker"));
     let with_boundary = succeeds(&["--boundary"], &bytes(&wedge().document()));
@@ -92,18 +68,14 @@ fn the_expanded_document_can_be_assembled_again() {
 }
 
 /// Runs `meshqual --check`; the exit code, the symmetry in the report, and what is broken of it.
-fn checked(input: &[u8]) -> (Option<i32>, Value, String) {
+fn checked(input: &[u8]) -> (i32, Value, String) {
     let arguments = ["-q", "--check", "--json", "-"];
-    let output = run_tool(env!("CARGO_BIN_EXE_meshqual"), &arguments, input);
+    let output = support::run("meshqual", &arguments, input);
     let report: Value = serde_json::from_slice(&output.stdout).unwrap();
     let broken = report["checks"]["violations"].as_array().unwrap().iter();
     let texts = broken.filter(|b| b["promise"] == "symmetry");
     let texts: Vec<_> = texts.map(|b| b["text"].as_str().unwrap()).collect();
-    (
-        output.status.code(),
-        report["symmetry"].clone(),
-        texts.join("\n"),
-    )
+    (output.code, report["symmetry"].clone(), texts.join("\n"))
 }
 
 #[test]
@@ -121,24 +93,17 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
         ..Placement::default()
     };
     place.apply(&mut body);
-    let mut meshed = Vec::new();
-    let exact = Encoding::StlAscii { digits: None };
-    bodies::write(&body, exact, &mut meshed).unwrap();
-    let (tools, cut) = (
-        [
-            env!("CARGO_BIN_EXE_symdetect"),
-            env!("CARGO_BIN_EXE_wedgecut"),
-            env!("CARGO_BIN_EXE_tetwedge"),
-        ],
-        ["-q", "--hub", "0.1", "--order", "16"],
-    );
-    for (tool, arguments) in tools.into_iter().zip([&cut[..1], &cut, &cut[..1]]) {
-        let output = run_tool(tool, arguments, &meshed);
-        assert!(output.status.success(), "{tool}");
-        meshed = output.stdout;
+    let mut meshed = encode(&body, EXACT_STL);
+    let cut = ["-q", "--hub", "0.1", "--order", "16"];
+    for (tool, arguments) in [
+        ("symdetect", &cut[..1]),
+        ("wedgecut", &cut),
+        ("tetwedge", &cut[..1]),
+    ] {
+        meshed = support::run(tool, arguments, &meshed).success();
     }
     let (code, symmetry, errors) = checked(&meshed);
-    assert_eq!(code, Some(0), "{errors}");
+    assert_eq!(code, 0, "{errors}");
     let whole = symmetry["order"].as_u64().unwrap();
     assert!(whole < 16 && 16 % whole == 0, "{symmetry}");
     let outside = &symmetry["outside"];
@@ -154,7 +119,7 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
         let mut symmetry = symmetry.clone();
         symmetry["outside"]["radius"] = json!(rounded);
         let assembled = succeeds(&["--to", format], &meshed);
-        assert_eq!(checked(&assembled), (Some(0), symmetry, String::new()));
+        assert_eq!(checked(&assembled), (0, symmetry, String::new()));
     }
 
     let assembled = succeeds(&["--to", "tmesh"], &meshed);
@@ -166,16 +131,10 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
         checked(&bytes(&changed))
     };
     let (code, _, errors) = promised(&|outside| outside.group.order = 32);
-    assert!(
-        code == Some(1) && errors.contains("order 32 outside"),
-        "{errors}"
-    );
+    assert!(code == 1 && errors.contains("order 32 outside"), "{errors}");
     // The hub does not have that order.
     let (code, _, errors) = promised(&|outside| outside.radius = 0.0);
-    assert!(
-        code == Some(1) && errors.contains("order 16 outside"),
-        "{errors}"
-    );
+    assert!(code == 1 && errors.contains("order 16 outside"), "{errors}");
     // Slices of the outer part are another material, in a way that keeps the lower order.
     let mut disturbed = document.clone();
     let promise = disturbed.promise.clone().unwrap();
@@ -199,7 +158,7 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
     }
     assert!(changed > 0);
     let (code, _, text) = checked(&bytes(&disturbed));
-    assert_eq!(code, Some(1));
+    assert_eq!(code, 1);
     assert!(text.contains("order 16 outside"), "{text}");
     assert!(!text.contains(&format!("order {whole} ")), "{text}");
 }
@@ -242,7 +201,7 @@ fn surfaces_and_listings() {
     let listing = succeeds(&["--to", "txt"], &bytes(&document));
     let listing = String::from_utf8(listing).unwrap();
     assert!(listing.contains("instances: 12\n"), "{listing}");
-    assert!(listing.contains("WALL"), "{listing}");
+    assert!(listing.contains("GLUE"), "{listing}");
     document.templates[0].tets.clear();
     let stl = succeeds(&["--to", "stl"], &bytes(&document));
     let all = succeeds(&["--to", "stl", "--surface", "all"], &bytes(&document));
@@ -259,7 +218,7 @@ fn the_format_follows_the_extension() {
         ("a.msh", b"$MeshFormat\n4.1 1 8\n"),
         ("a.msh2", b"$MeshFormat\n2.2 1 8\n"),
         ("a.mesh", b"MeshVersionFormatted 2\n"),
-        ("a.inp", b"*HEADING\nsymtet C6v order=6"),
+        ("a.inp", b"*HEADING\nsymtet C6v axis="),
         ("a.vtk", b"# vtk DataFile Version 3.0\n"),
         ("a.vtu", b"<?xml version=\"1.0\"?>\n<VTKFile"),
         ("a.tmesh", &tmesh::MAGIC),
@@ -513,8 +472,8 @@ fn conditions_at_mirror_planes() {
         "on the axis",
     );
     let output = run(&[&sector[..], &["--mirror", "none"]].concat(), &input);
-    assert_eq!(output.status.code(), Some(0));
-    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.code, 0);
+    let stderr = &output.stderr;
     assert!(stderr.contains("nodal diameter 1"), "{stderr}");
 
     // Between mirror planes there is no model, and conditions where they are wished for. Those of
@@ -624,8 +583,8 @@ fn elements_of_second_order() {
         }
         for format in ["mesh", "inp"] {
             let arguments = ["--second-order", "--to", format];
-            let code = run(&arguments, &input).status.code();
-            assert_eq!(code, Some(if format == "inp" { 0 } else { 2 }));
+            let code = run(&arguments, &input).code;
+            assert_eq!(code, if format == "inp" { 0 } else { 2 });
         }
     }
 }
