@@ -4,15 +4,8 @@ use bodies::{Body, Gear, Impeller, Placement, Prism, Ratchet, Tessellation, Tsv}
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use serde_json::Value;
-use support::{EXACT_STL, encode, run};
+use support::{EXACT_STL, encode, read, run};
 use tmesh::Document;
-
-fn read(bytes: &[u8]) -> Document {
-    let document = tmesh::read(bytes).expect("a document");
-    let broken = tmesh::validate(&document);
-    assert!(broken.is_empty(), "{broken:?}");
-    document
-}
 
 fn tsv(order: u32) -> Body {
     Tsv {

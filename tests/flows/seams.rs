@@ -1,19 +1,12 @@
 //! Wedges without mirrors: their surface as `periodic-surf` makes it, and what becomes of it.
 
 use bodies::{Body, Impeller, Placement, Prism, Ratchet, Tessellation};
-use geom::measure::region_volume;
+use geom::measure::volume_of_region;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::collections::HashSet;
-use support::{EXACT_STL, encode, run};
+use support::{EXACT_STL, encode, read, run};
 use tmesh::{Document, Gluing, Template};
-
-fn read(bytes: &[u8]) -> Document {
-    let document = tmesh::read(bytes).expect("a document");
-    let broken = tmesh::validate(&document);
-    assert!(broken.is_empty(), "{broken:?}");
-    document
-}
 
 fn seam(template: &Template) -> &Gluing {
     let seam = template.gluings.iter().find(|gluing| gluing.is_seam(0));
@@ -83,7 +76,10 @@ fn mesh(name: &str, body: &Body, options: &[&str]) {
     check_seam(name, &after);
     check_closed(name, &after.templates[0]);
     for region in &before.regions {
-        let volume = |d: &Document| region_volume(&d.templates[0], region.id);
+        let volume = |d: &Document| {
+            let t = &d.templates[0];
+            volume_of_region(&t.vertices, t.faces(), region.id)
+        };
         let (old, new) = (volume(&before), volume(&after));
         assert!((new - old).abs() <= 1e-9 * old, "{name}: {old} {new}");
     }

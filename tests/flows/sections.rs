@@ -5,8 +5,7 @@ use bodies::{Body, Face, Placement, Ratchet, Screw};
 use glam::DVec3;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use support::{EXACT_STL, encode, run};
-use tmesh::Document;
+use support::{EXACT_STL, bytes, encode, read, run};
 
 fn screw(order: u32, facets: u32, drawing: u64, coating: f64) -> Body {
     Screw {
@@ -25,12 +24,6 @@ fn screw(order: u32, facets: u32, drawing: u64, coating: f64) -> Body {
         drawing,
     }
     .build()
-}
-
-fn read(bytes: &[u8]) -> Document {
-    let document = tmesh::read(bytes).expect("a document");
-    assert_eq!(tmesh::validate(&document), []);
-    document
 }
 
 /// The movement that a cut reports for its sections, model units, and the points inserted.
@@ -111,7 +104,7 @@ fn sections_that_differ_more_are_refused() {
     .success();
     let mut document = read(&found);
     document.symmetry.as_mut().expect("a symmetry").residual = 1e-6;
-    let stated = write(&document);
+    let stated = bytes(&document);
     run("wedgecut", &[], &stated).fails(1, &["sections", "tolerance", "near ("]);
 }
 
@@ -150,12 +143,6 @@ fn sections_that_differ_in_topology_are_refused() {
     let mut document = read(&found);
     let with_void = run("symdetect", &["-q", "--allow-asymmetric"], &hollow).success();
     document.templates = read(&with_void).templates;
-    let cut = run("wedgecut", &["--start-angle", "0"], &write(&document));
+    let cut = run("wedgecut", &["--start-angle", "0"], &bytes(&document));
     cut.fails(1, &["sections", "curves against", "near ("]);
-}
-
-fn write(document: &Document) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    tmesh::write(document, &mut bytes).expect("memory takes it");
-    bytes
 }

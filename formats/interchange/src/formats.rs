@@ -2,12 +2,25 @@
 //!
 //! A new format is a folder with its reader and writer, an entry here, and tests.
 
+mod bdf;
+mod inp;
+mod listing;
+mod medit;
+mod msh;
+mod obj;
+mod off;
+mod ply;
+mod stl;
+mod tetgen;
+mod vtk;
+mod vtu;
+
+pub use listing::write_text;
+pub use vtu::write_pieces;
+
 use crate::parsed::Parsed;
 use crate::stream::{MeshStream, Plain};
-use crate::{
-    ReadError, WriteError, WriteOptions, inp, listing, medit, msh, obj, off, ply, stl, tetgen, vtk,
-    vtu,
-};
+use crate::{ReadError, WriteError, WriteOptions};
 use std::io::Write;
 use std::path::Path;
 use tmesh::Document;
@@ -205,6 +218,15 @@ table! {
         by_region: true,
         first_id: 1,
     }
+    /// Nastran bulk data.
+    Bdf {
+        name: "bdf",
+        also: &["nas"],
+        sniff: Sniff::Likeness(bdf::looks_like),
+        read: Some(bdf::read),
+        writer: Writer::Mesh(bdf::write, bdf::size_estimate),
+        first_id: 1,
+    }
     /// TetGen mesh: files for nodes, elements and faces.
     Node {
         name: "node",
@@ -392,6 +414,7 @@ mod tests {
                 | Format::Msh
                 | Format::Msh2
                 | Format::Medit
+                | Format::Bdf
                 | Format::Inp => {
                     result.unwrap();
                     assert!(!bytes.is_empty());

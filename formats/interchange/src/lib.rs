@@ -6,30 +6,18 @@
 mod binary;
 mod error;
 mod formats;
-mod inp;
-mod listing;
-mod medit;
-mod msh;
-mod obj;
-mod off;
 mod options;
 pub mod parsed;
-mod ply;
 mod sink;
-mod stl;
 mod stream;
-mod tetgen;
 pub mod text;
 mod title;
-mod vtk;
-mod vtu;
 
 pub use error::{ReadError, WriteError};
 pub use formats::{
     Entry, Format, Writer, file_parts, parse, size_estimate, sniff, write, write_document,
-    write_part,
+    write_part, write_pieces, write_text,
 };
-pub use listing::write_text;
 pub use options::{Parity, Surface, WriteOptions};
 pub use parsed::Parsed;
 pub use stream::{
@@ -38,4 +26,3 @@ pub use stream::{
     placed_side, second_order, sides,
 };
 pub use title::{parse_promise, promise_title};
-pub use vtu::write_pieces;

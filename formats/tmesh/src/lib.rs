@@ -8,6 +8,7 @@
 mod codec;
 mod document;
 mod error;
+mod faces;
 mod fixed;
 mod frame;
 mod gluing;

@@ -1,22 +1,25 @@
 //! The bodies of all tests, each with exactly known symmetry, regions and volumes.
 //!
-//! A [`Body`] is a list of vertices and of triangles with the material on either side. [`swept`] builds
-//! bodies from rings around an axis, so that neighbouring materials share their triangles, and
-//! [`orbits`] bodies that their group turns over. [`random_solid`]
-//! makes bodies from random numbers, [`adversarial`] the shapes that make programs slow, [`facets`] and
-//! [`files`] what the readers of files are given, and [`structured`] documents of meshed wedges without any of the tools.
+//! A [`Body`] is a list of vertices and of triangles with the material on either side. [`swept`] builds bodies
+//! from rings around an axis, so that neighbouring materials share their triangles, [`orbits`] bodies that their
+//! group turns over, and [`random_solid`] bodies from random numbers.
+//!
+//! [`adversarial`] has the shapes that make programs slow, [`facets`] and [`files`] have what the readers of files
+//! are given. [`structured`], [`wedges`] and [`meshes`] make documents of wedges without any of the tools.
 
 pub mod adversarial;
 mod body;
 mod chance;
 pub mod facets;
 pub mod files;
+pub mod meshes;
 pub mod orbits;
 mod output;
 mod placement;
 pub mod random_solid;
 pub mod structured;
 pub mod swept;
+pub mod wedges;
 
 pub use body::{Body, Face, Material};
 pub use chance::{Dice, Random};

@@ -5,6 +5,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
+use tmesh::Document;
 
 /// The six tools in the order of the pipe.
 pub const TOOLS: [&str; 6] = [
@@ -190,6 +191,21 @@ pub fn encode(body: &Body, encoding: Encoding) -> Vec<u8> {
     let mut bytes = Vec::new();
     bodies::write(body, encoding, &mut bytes).expect("the encoding can hold the body");
     bytes
+}
+
+/// A document as a file.
+pub fn bytes(document: &Document) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    tmesh::write(document, &mut bytes).expect("a vector takes all bytes");
+    bytes
+}
+
+/// The document of a file, which has to be sound.
+#[track_caller]
+pub fn read(bytes: &[u8]) -> Document {
+    let document = tmesh::read(bytes).expect("the output can be read");
+    assert_eq!(tmesh::validate(&document), []);
+    document
 }
 
 /// ASCII STL with all digits.

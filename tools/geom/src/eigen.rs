@@ -8,6 +8,12 @@ pub struct Eigen<const N: usize> {
     pub vectors: [[f64; N]; N],
 }
 
+/// Sum of squares off the diagonal, relative to that of all entries, at which a matrix is diagonal: far below the
+/// square of the machine's precision, 4.9e-32. Convergence is quadratic, so that it costs one sweep.
+const OFF: f64 = 1e-36;
+/// Sweeps at most; ten are enough for the sizes used here.
+const SWEEPS: usize = 60;
+
 /// Eigen decomposition of a symmetric matrix by cyclic Jacobi rotations (Golub and Van Loan, "Matrix
 /// Computations", 8.5). Accurate to rounding for the sizes used here.
 pub fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> Eigen<N> {
@@ -15,7 +21,7 @@ pub fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> Eigen<N> {
     for (i, row) in v.iter_mut().enumerate() {
         row[i] = 1.0;
     }
-    for _ in 0..60 {
+    for _ in 0..SWEEPS {
         let mut off = 0.0;
         let mut all = 0.0;
         for (i, row) in a.iter().enumerate() {
@@ -26,7 +32,7 @@ pub fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> Eigen<N> {
                 }
             }
         }
-        if off <= 1e-36 * all {
+        if off <= OFF * all {
             break;
         }
         for p in 0..N {

@@ -1,26 +1,24 @@
-//! Geometry shared by the tools: measures of triangles and tetrahedra, edge adjacency, the order of
-//! triangles around an edge, the cells a triangle complex divides space into, and where triangles
-//! meet that should not; and parts of what is joined two at a time.
+//! Geometry shared by the tools, on slices of coordinates and indices; it does not know documents.
+//!
+//! | what | where |
+//! |---|---|
+//! | measures of triangles and tetrahedra, exact predicates | [`measure`], [`tet`], [`predicate`] |
+//! | equal points, near points | [`weld`], [`grid`] |
+//! | triangles around edges, sides, cells of space, flat regions, contacts | [`edges`], [`sides`], [`cells`], [`flat`], [`contacts`] |
+//! | nearest points of triangles, rays, pairs of boxes | [`tree`] |
+//! | constrained Delaunay triangulation with regions | [`cdt`] |
+//! | disjoint sets, eigenvectors | [`sets`], [`eigen`] |
+//! | what counts as equal | [`tolerance`] |
 
-pub mod alignment;
 pub mod cdt;
-pub mod cells;
-pub mod contacts;
-pub mod edges;
+mod complex;
 pub mod eigen;
-pub mod fan;
-pub mod flat;
-pub mod grid;
-pub mod measure;
-pub mod predicate;
+mod element;
+mod points;
 pub mod sets;
-pub mod sides;
-pub mod tet;
 pub mod tolerance;
 pub mod tree;
-pub mod weld;
 
-/// The former name of [`tree`].
-pub mod bvh {
-    pub use crate::tree::{Nearest, Tree as Bvh, closest_point};
-}
+pub use complex::{cells, contacts, edges, flat, sides};
+pub use element::{measure, predicate, tet};
+pub use points::{grid, weld};

@@ -4,8 +4,9 @@
 //! of what is computed from them, and that a body is only nearly symmetric. [`Tolerance`] is built from these once
 //! per document, and each comparison asks it by the name of its question.
 //!
-//! The values are nested: `rounding <= equal <= on_plane <= on_axis`, and `2 on_plane <= partner`. So points that
-//! are equal stay equal on a plane, and two points that are each moved onto a plane are still partners.
+//! The values are nested: `rounding <= equal <= on_plane <= on_axis`, unless the user says how far points are moved, and
+//! `2 on_plane <= partner`. So points that are equal stay equal on a plane, and two points that are each moved onto
+//! a plane are still partners.
 
 use glam::DVec3;
 
@@ -102,11 +103,6 @@ impl Tolerance {
             detail: relative * self.extent.radius,
             ..self
         }
-    }
-
-    /// The reach of the body.
-    pub fn extent(&self) -> Extent {
-        self.extent
     }
 
     /// What computing may lose.

@@ -2,7 +2,7 @@
 
 use crate::HealError;
 use crate::words::short;
-use geom::measure::{boundary_area, corners, tet_volume, triangle_area};
+use geom::measure::{area_of_region, corners, tet_volume, triangle_area};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Document, Marker, OUTSIDE, Region, Source, Template};
@@ -63,7 +63,7 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, He
         format: format.to_owned(),
         triangles: template.triangles.len() as u64,
         volume: regions.iter().filter_map(|r| r.volume).sum(),
-        boundary_area: boundary_area(&template),
+        boundary_area: area_of_region(&template.vertices, template.faces(), OUTSIDE),
         precision,
     };
     let mut document = Document::single(template);

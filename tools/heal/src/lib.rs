@@ -8,13 +8,15 @@ mod document;
 mod error;
 mod facet;
 mod leak;
+mod meeting;
 mod mesh;
+mod near;
 mod plc;
 mod read;
 mod shells;
 mod sides;
 mod soup;
-mod weld;
+mod welded;
 mod words;
 
 pub use document::Imported;

@@ -2,7 +2,7 @@
 
 use crate::error::RegionName;
 use crate::{Elements, Plc};
-use geom::edges::orientation;
+use geom::predicate::orientation;
 use geom::sets::DisjointSets;
 use glam::DVec3;
 use tmesh::{OUTSIDE, Triangle};

@@ -11,8 +11,6 @@ mod measure;
 mod present;
 mod report;
 mod soundness;
-#[cfg(test)]
-mod specimens;
 
 pub use check::{Broken, Checks};
 pub use cli::Cli;

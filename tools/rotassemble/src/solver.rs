@@ -1,6 +1,6 @@
 //! What a solver has to be told about the cut faces of a sector.
 
-use interchange::{MeshStream, Parity};
+use interchange::{Coupling, MeshStream, Parity};
 use kit::Failure;
 use std::str::FromStr;
 
@@ -46,7 +46,7 @@ pub struct Conditions {
 ///
 /// # Errors
 /// Sectors whose deck would be that of another body: with a column around the axis that has a symmetry
-/// of its own, or halved at a mirror plane with nothing wished for it. Wishes for walls that there are not.
+/// of its own, coupled by operations that turn the axis over, or halved at a mirror plane with nothing wished for it. Wishes for walls that there are not.
 pub fn conditions(mesh: &dyn MeshStream, wishes: &[MirrorWish]) -> Result<Conditions, Failure> {
     let names = mesh.wall_names();
     let mirrors: Vec<usize> = (0..names.len())
@@ -72,6 +72,13 @@ pub fn conditions(mesh: &dyn MeshStream, wishes: &[MirrorWish]) -> Result<Condit
             };
             return Err(Failure::Usage(format!("{which}{there}")));
         }
+    }
+    if let Some(coupling) = mesh.couplings().iter().find(|c| turns_over(c)) {
+        return Err(Failure::Impossible(format!(
+            "the neighbour of a sector across `{}` is turned over, which is no cyclic symmetry, and a solver \
+             cannot couple them; cut sectors of rotations alone: wedgecut --domain rotation",
+            coupling.name
+        )));
     }
     if mesh.couplings().iter().any(|c| c.sectors.is_none()) {
         return Err(Failure::Impossible(
@@ -109,6 +116,14 @@ pub fn conditions(mesh: &dyn MeshStream, wishes: &[MirrorWish]) -> Result<Condit
             .to_owned()
     });
     Ok(Conditions { parities, note })
+}
+
+/// Whether a coupling maps the axis onto itself in reverse, as half turns across it and rotary
+/// reflections do.
+fn turns_over(coupling: &Coupling) -> bool {
+    let [from, to] = coupling.axis;
+    let direction = to - from;
+    (coupling.matrix * direction).dot(direction) < 0.0
 }
 
 #[cfg(test)]

@@ -216,10 +216,8 @@ fn levels(layers: u32) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Puts a body somewhere, at some scale, with noise of the given share of the size on every
-/// coordinate, rounded to single precision.
-pub fn place(document: &Document, random: &mut Random, scale: f64, noise: f64) -> Document {
-    let mut placed = document.clone();
+/// Somewhere in space, at some scale.
+pub fn placement(random: &mut Random, scale: f64) -> impl Fn(DVec3) -> DVec3 + use<> {
     let q = DQuat::from_xyzw(
         random.unit() - 0.5,
         random.unit() - 0.5,
@@ -228,10 +226,18 @@ pub fn place(document: &Document, random: &mut Random, scale: f64, noise: f64) -
     );
     let rotation = DMat3::from_quat(q.normalize());
     let shift = 4.0 * random_vector(random);
+    move |p| (rotation * p + shift) * scale
+}
+
+/// Puts a body somewhere, at some scale, with noise of the given share of the size on every
+/// coordinate, rounded to single precision.
+pub fn place(document: &Document, random: &mut Random, scale: f64, noise: f64) -> Document {
+    let mut placed = document.clone();
+    let place = placement(random, scale);
     let mut largest = 0.0_f64;
     for p in &mut placed.templates[0].vertices {
-        let moved = rotation * *p + shift + noise * random_vector(random);
-        *p = (moved * scale).as_vec3().as_dvec3();
+        let moved = place(*p) + scale * noise * random_vector(random);
+        *p = moved.as_vec3().as_dvec3();
         largest = largest.max(p.abs().max_element());
     }
     placed.source = Some(tmesh::Source {
@@ -348,4 +354,91 @@ pub fn hull(points: &[DVec3]) -> Document {
         }
     }
     document(points.to_vec(), triangles)
+}
+
+/// A body around the z axis, divided into sectors and layers that may be of different regions.
+pub struct Cells<P> {
+    /// Sectors around the axis.
+    pub sectors: usize,
+    /// Heights of the levels between the layers, increasing.
+    pub levels: Vec<f64>,
+    /// The outermost point at the start of a sector, on a level.
+    pub place: P,
+}
+
+impl<P: Fn(usize, f64) -> DVec3> Cells<P> {
+    /// The body with the region that `region` gives each cell by its sector, its layer and the number of layers.
+    pub fn document(&self, region: impl Fn(usize, usize, usize) -> u32) -> Document {
+        let (n, layers) = (self.sectors, self.levels.len() - 1);
+        let rings = (self.levels.iter()).flat_map(|&z| (0..n).map(move |i| (self.place)(i, z)));
+        let mut vertices: Vec<DVec3> = rings.collect();
+        let middles = vertices.chunks(n).map(|ring| ring[0].z);
+        let axis: Vec<DVec3> = middles.map(|z| DVec3::new(0.0, 0.0, z)).collect();
+        vertices.extend(axis);
+        let ring = |i: usize, level: usize| (level * n + i % n) as u32;
+        let axis = |level: usize| (n * (layers + 1) + level) as u32;
+        let mut triangles = Vec::new();
+        let mut add = |corners: &[u32], front: u32, back: u32| {
+            if front == back {
+                return;
+            }
+            let mut corners = corners.to_vec();
+            let mut sides = [front, back];
+            if back == OUTSIDE {
+                corners.reverse();
+                sides.reverse();
+            }
+            let mut triangle = |vertices| {
+                triangles.push(Triangle {
+                    vertices,
+                    marker: 0,
+                    front: sides[0],
+                    back: sides[1],
+                });
+            };
+            if let [a, b, c] = corners[..] {
+                return triangle([a, b, c]);
+            }
+            // Four triangles around the middle: diagonals would lean to one side.
+            let middle = vertices.len() as u32;
+            let sum: DVec3 = corners.iter().map(|&v| vertices[v as usize]).sum();
+            vertices.push(0.25 * sum);
+            for (i, &a) in corners.iter().enumerate() {
+                triangle([a, corners[(i + 1) % corners.len()], middle]);
+            }
+        };
+        for i in 0..n {
+            let at = |layer: usize| region(i, layer, layers);
+            for layer in 0..layers {
+                let [low, high] = [layer, layer + 1];
+                let outer = [
+                    ring(i, low),
+                    ring(i + 1, low),
+                    ring(i + 1, high),
+                    ring(i, high),
+                ];
+                add(&outer, OUTSIDE, at(layer));
+                let wall = [axis(low), ring(i, low), ring(i, high), axis(high)];
+                add(&wall, region((i + n - 1) % n, layer, layers), at(layer));
+            }
+            for level in 0..=layers {
+                let above = if level < layers { at(level) } else { OUTSIDE };
+                let below = if level > 0 { at(level - 1) } else { OUTSIDE };
+                add(
+                    &[axis(level), ring(i, level), ring(i + 1, level)],
+                    above,
+                    below,
+                );
+            }
+        }
+        let ids = triangles.iter().map(|t: &Triangle| t.back);
+        let ids: std::collections::BTreeSet<u32> = ids.collect();
+        let mut document = Document::single(Template {
+            vertices,
+            triangles,
+            ..Template::default()
+        });
+        document.regions = ids.into_iter().map(self::region).collect();
+        document
+    }
 }

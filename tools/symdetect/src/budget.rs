@@ -12,6 +12,8 @@ use std::ops::Range;
 pub const GLANCE: usize = 24;
 /// Tests of one of hundreds of orders or angles in a scan: flaws of 5 % of the surface.
 pub const SCAN: usize = 96;
+/// Tests of one of hundreds of angles, whose deviations are added up: flaws of 8 % of the surface.
+pub const SCORE: usize = 64;
 /// Tests for a residual that is only reported: of an order that does not hold, or of one in a plot.
 pub const REPORTED: usize = 600;
 /// Tests of one operation, or spread over all of a family, in a quick verification: flaws of 0.3 % of the surface.
@@ -25,8 +27,19 @@ pub const FULL: Range<usize> = 8_000..60_000;
 /// Tests, equations or places for each triangle in a full verification and in the last adjustment, within the bounds
 /// above: every triangle is looked at from all powers of a rotation together.
 pub const PER_TRIANGLE: usize = 8;
-/// Places that statistics over neighbourhoods are taken from: enough for each of some hundred of them.
-pub const NEIGHBOURHOODS: usize = 16_000;
+/// Places that means over neighbourhoods are taken from: a hundred for each of some hundred of them.
+pub const NEIGHBOURHOODS: usize = 12_000;
+/// Places at which deviations are looked for all around, a sector and shell at a time: as many again for the corners
+/// as for the faces of coarse drawings.
+pub const ALL_AROUND: usize = 16_000;
 /// Tests of an order that is listed as not holding, and corners that powers of an operation proved from faces are
 /// measured in: a maximum over so many places is the largest but for a hundredth of the surface.
 pub const LISTED: usize = 128;
+/// Places that regions vote at, and that a body is compared with a body of revolution at.
+pub const SURVEY: usize = 20_000;
+/// Next best candidates (orders, angles) that are adjusted and verified when the best one does not hold: candidates are
+/// local optima of a scan, of which equivalent ones have been merged, so that others are chance.
+pub const NEXT_BEST: usize = 6;
+/// Axes, or candidates for axes, looked at or listed at most beside the principal ones: a polyhedral group has up to 31
+/// axes and as many normals of mirror planes, and a D_64 has 64 half turns.
+pub const MOST_AXES: usize = 64;

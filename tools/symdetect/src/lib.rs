@@ -24,6 +24,8 @@ mod verify;
 mod bodies;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_groups;
 
 pub use cli::Cli;
 pub use detect::detect;

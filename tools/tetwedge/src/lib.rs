@@ -17,8 +17,6 @@ pub use cli::Cli;
 pub use document::{Meshed, tetrahedralize};
 
 #[cfg(test)]
-mod bodies;
-#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod turned;

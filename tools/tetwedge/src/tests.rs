@@ -1,7 +1,7 @@
-use crate::bodies::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
 use crate::fill::{fill, finish};
 use crate::{Meshed, tetrahedralize};
-use geom::measure::{region_volume, tet_volume};
+use bodies::wedges::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
+use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
 use kit::Failure;
 use mesher::{
@@ -59,8 +59,8 @@ fn check(before: &Document, after: &Document) {
             assert!(tet_volume(a, b, c, d) > 0.0);
         }
         for region in &before.regions {
-            let surface = region_volume(old, region.id);
-            let refined = region_volume(new, region.id);
+            let surface = volume_of_region(&old.vertices, old.faces(), region.id);
+            let refined = volume_of_region(&new.vertices, new.faces(), region.id);
             let tets = volume(new, region.id);
             assert!(
                 (surface - tets).abs() <= 1e-9 * surface.abs(),

@@ -1,7 +1,7 @@
 //! Wedges whose walls are glued by half turns and rotary reflections, made in code, and their whole way to a mesh.
 
-use crate::bodies::{Grid, name_regions};
 use crate::tetrahedralize;
+use bodies::wedges::{Grid, name_regions};
 use geom::measure::tet_volume;
 use glam::DVec3;
 use mesher::Params;

@@ -60,7 +60,10 @@ impl<'a> Body<'a> {
 
     /// Largest volume of an element in a region that will be asked for, model units cubed.
     pub fn max_volume(&self, region: u32) -> Option<f64> {
-        self.params.max_volume_of(&self.document.regions, region)
+        let regions = &self.document.regions;
+        let at = regions.binary_search_by_key(&region, |r| r.id).ok()?;
+        let wished = self.document.wishes.max_volume();
+        regions[at].max_volume.or(wished)
     }
 
     /// The size of elements beside a triangle, model units: as asked for, at most that of the body.

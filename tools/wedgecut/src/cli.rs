@@ -2,23 +2,20 @@
 
 use crate::params::{Domain, Hub, Params};
 use crate::{cut, names};
-use geom::tet::REGULAR_RADIUS_EDGE;
-use kit::{Command, CommonArgs, Failure, Session, ThreadArgs};
-
-/// Radius-edge bound that the mesher will be given, where nothing else is said.
-pub const RADIUS_EDGE: f64 = 1.4;
+use kit::{Command, CommonArgs, Failure, Session, ThreadArgs, WishArgs};
 
 const EXAMPLES: &str = "Examples:
   symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
   symdetect gear.stl | wedgecut --order 4 --to vtk -o wedge.vtk
-  symdetect via.stl | wedgecut --max-volume 0.01 | tetwedge --max-volume 0.01 -o via.tmesh
+  symdetect via.stl | wedgecut --max-volume 0.01 | tetwedge -o via.tmesh
   symdetect fan.stl | wedgecut --domain rotation --start-angle 15 | tetwedge | rotassemble > fan.vtk";
 
 /// Cut one wedge out of a symmetric body.
 ///
 /// Reads a document that symdetect has written. The wedge reaches from one mirror plane to the next
 /// (angle 180/n degrees), or, for bodies without mirror planes, over 360/n degrees with cut faces
-/// that match under the rotation. The cut faces carry the interfaces between materials.
+/// that match under the rotation. Half turns about axes across the main one, rotary reflections and the mirror
+/// plane across the axis make it half of that. The cut faces carry the interfaces between materials.
 #[derive(clap::Parser, Debug)]
 #[command(name = "wedgecut", version, after_help = EXAMPLES)]
 pub struct Cli {
@@ -37,21 +34,6 @@ pub struct Cli {
     /// Halve the wedge at a mirror plane across the axis, where there is one: `auto` where it pays
     #[arg(long, value_enum, default_value_t)]
     horizontal_mirror: Halving,
-
-    /// Largest volume of an element that tetwedge will be asked for, so that order and hub are
-    /// chosen for it
-    #[arg(long, value_name = "V", value_parser = positive, allow_negative_numbers = true)]
-    max_volume: Option<f64>,
-
-    /// The same as an edge length: the volume of the regular tetrahedron with this edge
-    #[arg(long, value_name = "H", value_parser = positive, conflicts_with = "max_volume")]
-    #[arg(allow_negative_numbers = true)]
-    edge_length: Option<f64>,
-
-    /// Radius-edge bound that tetwedge will be given, for the same choice
-    #[arg(long, value_name = "R", default_value_t = RADIUS_EDGE, value_parser = radius_edge)]
-    #[arg(allow_negative_numbers = true)]
-    radius_edge: f64,
 
     /// Angle of the first cut face from the mirror direction (rotation wedges: any; mirror wedges:
     /// a multiple of 180/n)
@@ -74,6 +56,10 @@ pub struct Cli {
     /// Collapse edges shorter than this, relative to the radius about the axis
     #[arg(long, value_name = "REL|off", default_value = "1e-6", value_parser = clean)]
     clean: Clean,
+
+    // Order and hub are chosen for these; the later tools inherit them.
+    #[command(flatten)]
+    wishes: WishArgs,
 
     #[command(flatten)]
     threads: ThreadArgs,
@@ -134,33 +120,11 @@ fn angle(text: &str) -> Result<Angle, String> {
     }
 }
 
-fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(x) if x > 0.0 && x.is_finite() => Ok(x),
-        _ => Err("expected a positive number".to_owned()),
-    }
-}
-
-fn radius_edge(text: &str) -> Result<f64, String> {
-    let least = REGULAR_RADIUS_EDGE;
-    match text.parse::<f64>() {
-        Ok(x) if x > least && x.is_finite() => Ok(x),
-        _ => Err(format!(
-            "must be above {least:.3}, the ratio of the regular tetrahedron"
-        )),
-    }
-}
-
 fn relative(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if (0.0..=0.01).contains(&x) => Ok(x),
         _ => Err("expected a number from 0 to 0.01".to_owned()),
     }
-}
-
-/// Volume of the regular tetrahedron with the given edge.
-fn volume_of_edge(edge: f64) -> f64 {
-    edge * edge * edge / (6.0 * std::f64::consts::SQRT_2)
 }
 
 impl Command for Cli {
@@ -176,13 +140,12 @@ impl Command for Cli {
             snap: self.snap,
             hub: self.hub,
             level: self.horizontal_mirror == Halving::Auto,
-            max_volume: self.max_volume.or(self.edge_length.map(volume_of_edge)),
-            radius_edge: self.radius_edge,
             clean: self.clean.0,
             threads: self.threads.count(),
         };
         session.check_output()?;
-        let document = session.read()?;
+        let mut document = session.read()?;
+        self.wishes.apply(&mut document)?;
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));
         for remark in names::lost(&document).iter().chain(&report.warning) {

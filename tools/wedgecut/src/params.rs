@@ -1,7 +1,5 @@
 //! What to cut.
 
-use tmesh::Region;
-
 /// Which walls the wedge gets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Domain {
@@ -44,11 +42,6 @@ pub struct Params {
     pub hub: Hub,
     /// Whether a mirror plane across the axis halves the wedge where it pays; false for never.
     pub level: bool,
-    /// Largest volume of an element that will be asked of the mesher, model units cubed, where the
-    /// document has none for the region.
-    pub max_volume: Option<f64>,
-    /// Bound on the ratio of circumradius to shortest edge that will be asked of the mesher.
-    pub radius_edge: f64,
     /// Edges shorter than this, relative to the radius about the axis, are collapsed; 0 for none.
     pub clean: f64,
     /// Threads used at most; the result does not depend on it.
@@ -59,11 +52,5 @@ impl Params {
     /// Whether anything is left to choose once the order found is known.
     pub fn chooses(&self) -> bool {
         self.order.is_none() || self.hub == Hub::Auto || self.level
-    }
-
-    /// Largest volume of an element in a region that will be asked for, model units cubed.
-    pub fn max_volume_of(&self, regions: &[Region], region: u32) -> Option<f64> {
-        let at = regions.binary_search_by_key(&region, |r| r.id).ok()?;
-        regions[at].max_volume.or(self.max_volume)
     }
 }

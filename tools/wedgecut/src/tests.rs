@@ -9,8 +9,6 @@ use tmesh::{
 
 const DEFAULT: Params = Params {
     hub: crate::Hub::None,
-    max_volume: None,
-    radius_edge: crate::cli::RADIUS_EDGE,
     level: false,
     domain: Domain::Auto,
     order: None,
@@ -216,7 +214,7 @@ fn placement(seed: u64) -> (DMat3, DVec3) {
 }
 
 fn volume(template: &Template, region: u32) -> f64 {
-    geom::measure::region_volume(template, region)
+    geom::measure::volume_of_region(&template.vertices, template.faces(), region)
 }
 
 fn check(body: &Document, params: &Params, copies: usize) -> Document {

@@ -1,6 +1,6 @@
 //! What is known of the cut faces of a sector: pairs, maps, the axis.
 
-use super::plain::WallNames;
+use super::walls::WallNames;
 use super::{Coupling, Middles};
 use rustc_hash::FxHashSet;
 use tmesh::{Document, Isometry};

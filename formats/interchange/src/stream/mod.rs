@@ -8,6 +8,7 @@ mod plain;
 mod sample;
 pub mod sides;
 mod tags;
+mod walls;
 
 pub use mesh_stream::{
     Coupling, Label, MeshStream, Patch, PatchBlock, PatchSink, PointSink, Side, TetBlock,

@@ -1,6 +1,6 @@
 //! What segments enclose.
 
-use super::triangulation::{Cdt, NONE};
+use super::triangulation::{Cdt, CdtError, NONE};
 
 impl Cdt {
     /// Whether each triangle is enclosed by segments: what can be reached from the outside of the convex hull or
@@ -31,6 +31,24 @@ impl Cdt {
     }
 }
 
+/// Triangles of the part of the plane that segments enclose, counter-clockwise, points by index, without the parts
+/// around holes; see [`Cdt::enclosed`]. No points are added.
+///
+/// # Errors
+/// Segments that cross, coincident points.
+pub fn triangulate_enclosed(
+    points: &[[f64; 2]],
+    segments: &[[u32; 2]],
+    holes: &[[f64; 2]],
+) -> Result<Vec<[u32; 3]>, CdtError> {
+    if points.len() < 3 {
+        return Ok(Vec::new());
+    }
+    let cdt = Cdt::new(points, segments)?;
+    let triangles = cdt.triangles.iter().zip(cdt.enclosed(holes));
+    Ok(triangles.filter(|t| t.1).map(|t| *t.0).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -40,16 +58,12 @@ mod tests {
     }
 
     fn area(points: &[[f64; 2]], segments: &[[u32; 2]], holes: &[[f64; 2]]) -> f64 {
-        let cdt = Cdt::new(points, segments).unwrap();
-        let inside = cdt.enclosed(holes);
-        let triangles = cdt.triangles.iter().zip(inside);
-        triangles
-            .filter(|(_, inside)| *inside)
-            .map(|(t, _)| {
-                let [a, b, c] = t.map(|v| points[v as usize]);
-                0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-            })
-            .sum()
+        let triangles = triangulate_enclosed(points, segments, holes).unwrap();
+        let area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| points[v as usize]);
+            0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+        };
+        triangles.iter().map(area).sum()
     }
 
     const LOOPS: [[u32; 2]; 8] = [
@@ -76,15 +90,26 @@ mod tests {
     #[test]
     fn an_open_chain_encloses_nothing() {
         let chain = [[0, 1], [1, 2], [2, 3]];
-        assert_eq!(area(&ring(0.0, 1.0), &chain, &[]), 0.0);
+        let triangles = triangulate_enclosed(&ring(0.0, 1.0), &chain, &[]);
+        assert_eq!(triangles, Ok(Vec::new()));
+    }
+
+    #[test]
+    fn crossing_segments_and_equal_points_are_errors() {
+        let points = ring(0.0, 1.0);
+        let crossing = triangulate_enclosed(&points, &[[0, 2], [1, 3]], &[]);
+        assert!(matches!(crossing, Err(CdtError::Crossing(..))));
+        let twice = [points.as_slice(), &[[-0.0, 0.0]]].concat();
+        let twice = triangulate_enclosed(&twice, &[[0, 1]], &[]);
+        assert_eq!(twice, Err(CdtError::Coincident(0, 4)));
     }
 
     #[test]
     fn any_scale_will_do() {
         for scale in [1e-200, 1e-6, 1e200] {
             let points = ring(0.0, 4.0).map(|p| p.map(|x| x * scale));
-            let cdt = Cdt::new(&points, &LOOPS[..4]).unwrap();
-            assert_eq!(cdt.enclosed(&[]), [true; 2]);
+            let square = triangulate_enclosed(&points, &LOOPS[..4], &[]).unwrap();
+            assert_eq!(square.len(), 2);
         }
     }
 }

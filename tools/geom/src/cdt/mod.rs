@@ -2,12 +2,13 @@
 //! predicates), and which of its triangles belong to what the segments bound.
 //!
 //! - [`Cdt`]: the triangulation as arrays.
-//! - [`Borders`]: segments that know what lies on either side; [`Cdt::label`] spreads that.
-//! - [`Cdt::enclosed`]: what the segments enclose, without holes.
+//! - [`Borders`]: segments that know what lies on either side; [`Cdt::label`] spreads that, [`triangulate`] gives the triangles.
+//! - [`triangulate_enclosed`]: what the segments enclose, without holes.
 
 mod enclosed;
 mod label;
 mod triangulation;
 
+pub use enclosed::triangulate_enclosed;
 pub use label::{Borders, Labels, Segment, triangulate};
 pub use triangulation::{Cdt, CdtError, NONE};

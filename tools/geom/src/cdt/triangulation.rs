@@ -1,6 +1,6 @@
 //! The triangulation as arrays.
 
-use crate::weld::Welder;
+use crate::points::weld::Welder;
 use spade::handles::FixedVertexHandle;
 use spade::{
     ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation,

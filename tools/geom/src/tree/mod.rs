@@ -6,6 +6,7 @@
 //! Its boxes are in single precision and contain what they stand for, so that they only sort out; what is
 //! left is decided in double precision, or exactly.
 
+pub(crate) mod alignment;
 mod boxes;
 mod nearest;
 mod pairs;

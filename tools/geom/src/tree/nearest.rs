@@ -3,7 +3,7 @@
 use super::boxes::{Bounds, Boxes, Item, LEAF, STACK};
 use super::placement::Placement;
 use super::thin::Thin;
-use crate::alignment::alignment;
+use crate::tree::alignment::alignment;
 use arrayvec::ArrayVec;
 use glam::DVec3;
 
@@ -13,7 +13,7 @@ const ROUNDING: f32 = 4e-7;
 
 /// A tree over triangles for the nearest one; owns a copy of their corners.
 ///
-/// Boxes are along the faces of the set ([`crate::alignment`]), and long and thin triangles have several; distances
+/// Boxes are along the faces of the set ([`crate::tree::alignment`]), and long and thin triangles have several; distances
 /// to boxes are taken a margin too small, so that no rounding can hide a triangle. Distances to triangles
 /// are in double precision.
 pub struct Tree {

@@ -2,7 +2,7 @@
 
 use super::boxes::{Bounds, Boxes, Item, LEAF, WIDTH};
 use super::placement::Placement;
-use crate::predicate::orientation;
+use crate::element::predicate::orientation;
 use glam::DVec3;
 use robust::{Coord, orient2d};
 
@@ -306,9 +306,14 @@ fn entry(low: DVec3, high: DVec3, inverse: DVec3, limit: f64) -> Option<f64> {
     (from <= to * (1.0 + 8.0 * f64::EPSILON) + f64::MIN_POSITIVE).then_some(from)
 }
 
+/// Rounding of a distance along a ray, relative to the coordinates it is made of: some times 2.2e-16 over the sine of
+/// the angle between ray and triangle, here down to a twentieth of a degree. Distances that differ by
+/// less are compared exactly, which takes longer and is right as well.
+const DISTANCE: f64 = 1e-12;
+
 /// Rounding to expect of a distance from `p`.
 fn rounding(p: DVec3, distance: f64) -> f64 {
-    1e-12 * (p.abs().max_element() + distance)
+    DISTANCE * (p.abs().max_element() + distance)
 }
 
 enum Ray {

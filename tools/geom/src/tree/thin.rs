@@ -3,7 +3,7 @@
 use super::boxes::Bounds;
 use glam::DVec3;
 
-/// What counts as long and thin. The box of such a triangle, if it is oblique, is nearly empty, and where
+/// What counts as long and thin; a choice of time and memory only. The box of such a triangle, if it is oblique, is nearly empty, and where
 /// many of them meet in a point each place is in the boxes of all; boxes of pieces are smaller.
 pub struct Thin {
     /// Pieces per unit of half a box's surface over twice the triangle's area; zero for none.

@@ -1,7 +1,7 @@
 //! Polygons that need not be planar or convex, broken into triangles.
 
 use super::plane::{Projection, area_vector};
-use super::triangulate::triangulate;
+use geom::cdt::triangulate_enclosed;
 use glam::DVec3;
 
 /// Triangles of a polygon whose corners are distinct points by id, but for neighbours that were the same
@@ -52,7 +52,7 @@ fn planar(points: &[DVec3], corners: &[u32]) -> Option<Vec<[u32; 3]>> {
         .collect();
     let n = corners.len() as u32;
     let loop_: Vec<[u32; 2]> = (0..n).map(|i| [i, (i + 1) % n]).collect();
-    let triangles = triangulate(&flat, &loop_, &[]).ok()?;
+    let triangles = triangulate_enclosed(&flat, &loop_, &[]).ok()?;
     // Fewer where a corner lies on another edge: the boundary would be lost.
     (triangles.len() as u32 == n - 2).then(|| {
         triangles
@@ -65,12 +65,10 @@ fn planar(points: &[DVec3], corners: &[u32]) -> Option<Vec<[u32; 3]>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::weld::Welder;
+    use crate::welded::welded;
 
     fn broken(corners: &[[f64; 3]]) -> (f64, usize) {
-        let mut welder = Welder::new(8);
-        let ids: Vec<u32> = corners.iter().map(|&c| welder.id(DVec3::from(c))).collect();
-        let points = welder.into_points();
+        let (points, ids) = welded(corners.iter().map(|&c| DVec3::from(c)), 8);
         let triangles = triangles_of(&points, &ids);
         let area = triangles
             .iter()

@@ -3,10 +3,11 @@
 use super::segments::split_segments;
 use crate::HealError;
 use crate::document::largest_coordinate;
-use crate::facet::{FacetError, Projection, area_vector, triangulate};
-use crate::weld::Welder;
+use crate::facet::{Projection, area_vector};
+use crate::meeting::lowest_contact;
+use crate::welded::welded;
 use crate::words::{dropped, place};
-use geom::contacts::contacts;
+use geom::cdt::{CdtError, triangulate_enclosed};
 use glam::DVec3;
 use interchange::parsed::{Facet, Plc};
 use rustc_hash::FxHashSet;
@@ -35,9 +36,7 @@ pub struct Facets {
 /// # Errors
 /// Facets that are not planar subdivisions.
 pub fn triangulate_facets(plc: &Plc, notices: &mut Vec<String>) -> Result<Facets, HealError> {
-    let mut welder = Welder::new(plc.points.len());
-    let id: Vec<u32> = plc.points.iter().map(|&p| welder.id(p)).collect();
-    let points = welder.into_points();
+    let (points, id) = welded(plc.points.iter().copied(), plc.points.len());
     // Segments of each facet, and what they are split into by nodes that lie on them.
     let segments: Vec<Vec<[u32; 2]>> = plc.facets.iter().map(|f| segments(f, &id)).collect();
     let tolerance = plc.relative_precision.max(FINEST) * ROUNDINGS * largest_coordinate(&points);
@@ -152,20 +151,20 @@ fn triangulate_facet(
         .collect();
     let segments: Vec<[u32; 2]> = segments.iter().map(|s| s.map(local)).collect();
     let holes: Vec<[f64; 2]> = facet.holes.iter().map(|&h| project.flat(h)).collect();
-    let triangles = triangulate(&flat, &segments, &holes).map_err(|error| {
+    let triangles = triangulate_enclosed(&flat, &segments, &holes).map_err(|error| {
         let at = |v: u32| place(points[nodes[v as usize] as usize]);
         let reason = match error {
-            FacetError::Coincident(a, b) => format!(
+            CdtError::Coincident(a, b) => format!(
                 "{} and {} lie above each other, so it is not planar",
                 at(a),
                 at(b)
             ),
-            FacetError::Crossing(a, b) => format!(
+            CdtError::Crossing(a, b) => format!(
                 "the segment from {} to {} crosses another one",
                 at(a),
                 at(b)
             ),
-            FacetError::Coordinate => "its coordinates are too large or too small".to_owned(),
+            _ => "its coordinates are too large or too small".to_owned(),
         };
         HealError::BadSurface(format!("facet {} (counted from 1): {reason}", index + 1))
     })?;
@@ -181,17 +180,8 @@ pub fn check_crossing(
     triangles: &[[u32; 3]],
     facet_of: &[u32],
 ) -> Result<(), HealError> {
-    let mut found = None;
-    contacts(
-        points,
-        triangles,
-        |t| facet_of[t as usize],
-        |contact| {
-            found = Some(contact);
-            false
-        },
-    );
-    match found {
+    let facet = |t: u32| facet_of[t as usize];
+    match lowest_contact(points, triangles, facet, |_| true).0 {
         None => Ok(()),
         Some(contact) => {
             let [a, b] = contact.triangles.map(|t| facet_of[t as usize] + 1);

@@ -7,12 +7,12 @@
 use crate::HealError;
 use crate::document::{Imported, Labelled, check_scale, document};
 use crate::leak::leak;
+use crate::meeting::lowest_contact;
 use crate::sides::sided;
 use crate::soup;
-use crate::weld::Welder;
+use crate::welded::welded;
 use crate::words::{dropped, place};
 use geom::cells::Cells;
-use geom::contacts::contacts;
 use geom::edges::Edges;
 use glam::DVec3;
 use interchange::parsed::{Faces, Group, Shells, Soup, Volume};
@@ -84,10 +84,10 @@ struct Distinct {
 
 impl Distinct {
     fn of(shells: &Shells) -> Self {
-        let mut welder = Welder::new(shells.points.len());
-        let ids: Vec<u32> = shells.points.iter().map(|&p| welder.id(p)).collect();
+        let all = shells.points.iter().copied();
+        let (points, ids) = welded(all, shells.points.len());
         let mut distinct = Self {
-            points: welder.into_points(),
+            points,
             triangles: Vec::new(),
             markers: Vec::new(),
             pieces: Vec::new(),
@@ -177,17 +177,7 @@ fn contents(shells: &Shells, cells: &Cells<'_>, pieces: &[i64]) -> Contents {
 }
 
 fn check_crossing(points: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), HealError> {
-    let mut found = None;
-    contacts(
-        points,
-        triangles,
-        |t| t,
-        |contact| {
-            found = Some(contact);
-            false
-        },
-    );
-    match found {
+    match lowest_contact(points, triangles, |t| t, |_| true).0 {
         None => Ok(()),
         Some(contact) => Err(HealError::BadSurface(format!(
             "two triangles cross or touch at {}, away from common points and edges",

@@ -3,7 +3,7 @@
 use super::closure::odd_edges;
 use super::surface::Surface;
 use crate::document::largest_coordinate;
-use crate::weld::near_points;
+use crate::near::near_points;
 use crate::words::short;
 use geom::edges::Edges;
 use glam::DVec3;

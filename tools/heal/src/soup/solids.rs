@@ -8,9 +8,10 @@
 use super::notices::explain_turned;
 use super::surface::{NONE, Surface};
 use crate::HealError;
+use crate::meeting::lowest_contact;
 use crate::words::place;
 use geom::cells::Cells;
-use geom::contacts::{Contact, Search, contacts};
+use geom::contacts::{Contact, Search};
 use geom::edges::Edges;
 use geom::measure::tet_volume;
 use geom::sets::DisjointSets;
@@ -105,8 +106,7 @@ fn check_contacts(
     notices: &mut Vec<String>,
 ) -> Result<Option<String>, HealError> {
     let of = |t: u32| (surface.solid[t as usize], surface.partner[t as usize]);
-    let mut met: Option<Contact> = None;
-    let search = contacts(
+    let (met, search) = lowest_contact(
         &surface.points,
         &surface.triangles,
         |t| shell[t as usize],
@@ -114,14 +114,10 @@ fn check_contacts(
             let [(a, b), (c, d)] = contact.triangles.map(of);
             // An interface's own solids meet at it.
             let related = a == c || a == d || b == c || (b == d && b != NONE);
-            if related && (b != NONE || d != NONE) {
-                return true;
-            }
-            met = Some(contact);
-            false
+            !(related && (b != NONE || d != NONE))
         },
     );
-    if search == Search::GaveUp {
+    if met.is_none() && search == Search::GaveUp {
         notices.push(
             "too many triangles lie close to each other to tell whether all pieces are apart"
                 .to_owned(),

@@ -1,7 +1,7 @@
 //! Polygons by distinct points, broken into triangles.
 
 use crate::facet::triangles_of;
-use crate::weld::Welder;
+use crate::welded::welded;
 use glam::DVec3;
 use interchange::parsed::Faces;
 
@@ -19,9 +19,8 @@ pub struct Welded {
 /// group of each polygon, or nothing where all are in group 0.
 pub fn weld(points: Vec<DVec3>, faces: Faces, group_of: &[u32]) -> Welded {
     // A closed surface of triangles has half as many vertices as triangles, but for a few.
-    let mut welder = Welder::new(points.len().min(faces.len() / 2 + 3));
-    let ids: Vec<u32> = points.into_iter().map(|p| welder.id(p)).collect();
-    let points = welder.into_points();
+    let expected = points.len().min(faces.len() / 2 + 3);
+    let (points, ids) = welded(points, expected);
     let id = |v: u32| ids[v as usize];
     let group_of = |polygon: usize| group_of.get(polygon).copied().unwrap_or(0);
     let (triangles, group) = match faces {

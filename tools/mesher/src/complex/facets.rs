@@ -5,7 +5,8 @@
 
 use crate::faces::NO_FACE;
 use geom::edges::Edges;
-use geom::measure::double_area_vector;
+use geom::flat::{Flatness, Flats};
+use geom::measure::{corners, triangle_area};
 use glam::DVec3;
 use tmesh::Template;
 
@@ -46,111 +47,52 @@ pub struct Facets {
     pub facets: Vec<Facet>,
 }
 
-/// No neighbour across an edge.
-const NONE: u32 = u32::MAX;
-
 impl Facets {
     /// Groups the triangles of a template. `face` gives each triangle's wall face; vertices may be
     /// `tolerance` (model units) off a facet's plane: the first on walls, the second elsewhere.
     pub fn new(template: &Template, edges: &Edges, face: &[u32], tolerance: [f64; 2]) -> Self {
-        let n = template.triangles.len();
-        let attributes = |t: usize| {
-            let triangle = &template.triangles[t];
+        let attributes = |t: u32| {
+            let triangle = &template.triangles[t as usize];
             Attributes {
                 marker: triangle.marker,
                 front: triangle.front,
                 back: triangle.back,
-                face: face[t],
+                face: face[t as usize],
             }
         };
-        let area_vectors: Vec<DVec3> = template
-            .triangles
-            .iter()
-            .map(|t| {
-                let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
-                0.5 * double_area_vector(a, b, c)
-            })
-            .collect();
-        let areas: Vec<f64> = area_vectors.iter().map(|v| v.length()).collect();
-        let across = neighbours(n, edges);
-
-        let mut order: Vec<u32> = (0..n as u32).collect();
-        order.sort_by(|&a, &b| areas[b as usize].total_cmp(&areas[a as usize]));
-        let mut of_triangle = vec![NONE; n];
-        let mut facets = Vec::new();
-        let mut queue = Vec::new();
-        for &seed in &order {
-            let seed = seed as usize;
-            if of_triangle[seed] != NONE {
-                continue;
-            }
-            let tolerance = tolerance[usize::from(face[seed] == NO_FACE)];
-            let id = facets.len() as u32;
-            let triangle = &template.triangles[seed];
-            let [a, b, c] = triangle.vertices.map(|v| template.vertices[v as usize]);
-            let mut facet = Facet {
+        let flatness = |seed: u32| Flatness {
+            distance: tolerance[usize::from(face[seed as usize] == NO_FACE)],
+            // What is folded over is another facet, however thin the fold.
+            cosine: 0.0,
+        };
+        let ids: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
+        let across = edges.across();
+        let alike = |s: u32, t: u32| attributes(s) == attributes(t);
+        let flats = Flats::new(&template.vertices, &ids, &across, flatness, alike);
+        let seeds = flats.regions.seeds.iter().zip(&flats.planes);
+        let mut facets: Vec<Facet> = seeds
+            .map(|(&seed, plane)| Facet {
                 attributes: attributes(seed),
-                normal: area_vectors[seed].try_normalize().unwrap_or_default(),
-                origin: (a + b + c) / 3.0,
+                normal: plane.normal,
+                origin: plane.origin,
                 area: 0.0,
                 deviation: 0.0,
-            };
-            of_triangle[seed] = id;
-            queue.push(seed);
-            while let Some(t) = queue.pop() {
-                facet.area += areas[t];
-                for &next in &across[3 * t..3 * t + 3] {
-                    let next_index = next as usize;
-                    if next == NONE
-                        || of_triangle[next_index] != NONE
-                        || attributes(next_index) != facet.attributes
-                        || area_vectors[next_index].dot(facet.normal) < 0.0
-                        || facet.normal == DVec3::ZERO
-                    {
-                        continue;
-                    }
-                    let off = template.triangles[next_index]
-                        .vertices
-                        .iter()
-                        .map(|&v| {
-                            (template.vertices[v as usize] - facet.origin)
-                                .dot(facet.normal)
-                                .abs()
-                        })
-                        .fold(0.0, f64::max);
-                    if off <= tolerance {
-                        facet.deviation = facet.deviation.max(off);
-                        of_triangle[next_index] = id;
-                        queue.push(next_index);
-                    }
-                }
+            })
+            .collect();
+        for (t, &id) in (0..).zip(&flats.regions.of) {
+            let [a, b, c] = corners(&template.vertices, ids[t as usize]);
+            let facet = &mut facets[id as usize];
+            facet.area += triangle_area(a, b, c);
+            if t != flats.regions.seeds[id as usize] {
+                let off = flats.planes[id as usize].off([a, b, c]);
+                facet.deviation = facet.deviation.max(off);
             }
-            facets.push(facet);
         }
         Self {
-            of_triangle,
+            of_triangle: flats.regions.of,
             facets,
         }
     }
-}
-
-/// For each triangle the ones across its edges, where exactly two triangles meet and are wound
-/// alike.
-fn neighbours(triangles: usize, edges: &Edges) -> Vec<u32> {
-    let mut across = vec![NONE; 3 * triangles];
-    let mut count = vec![0_u8; triangles];
-    for edge in 0..edges.len() {
-        if let [a, b] = edges.around(edge)
-            && a.forward != b.forward
-        {
-            for (from, to) in [(a, b), (b, a)] {
-                let t = from.triangle as usize;
-                across[3 * t + usize::from(count[t])] = to.triangle;
-                count[t] += 1;
-            }
-        }
-    }
-    across
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! is about 1e-10 of the radius (below 1e-9 for a few orders above 180), and is taken back afterwards.
 
 use super::roundings::FLATNESS;
-use geom::edges::orientation;
+use geom::predicate::orientation;
 use glam::DVec3;
 
 /// Bits of the direction's whole numbers, of the 53 that a coordinate has: with fewer the direction is off by more (a fraction

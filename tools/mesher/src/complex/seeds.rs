@@ -3,6 +3,7 @@
 use crate::Error;
 use crate::error::{Place, RegionName};
 use geom::edges::Edges;
+use geom::measure::double_area_vector;
 use geom::sides::{SideComponents, side_components};
 use geom::tree::Rays;
 use glam::DVec3;
@@ -40,7 +41,7 @@ pub fn seeds(
     for (&region, &(side, _)) in regions.iter().zip(&best) {
         let triangle = side / 2;
         let [a, b, c] = corners[triangle].map(|v| template.vertices[v as usize]);
-        let Some(normal) = (b - a).cross(c - a).try_normalize() else {
+        let Some(normal) = double_area_vector(a, b, c).try_normalize() else {
             continue;
         };
         let direction = if side % 2 == 0 { normal } else { -normal };
@@ -117,7 +118,7 @@ fn roundest(template: &Template, sides: &SideComponents) -> Vec<(usize, f64)> {
         let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
         let perimeter = (b - a).length() + (c - b).length() + (a - c).length();
         let radius = if perimeter > 0.0 {
-            (b - a).cross(c - a).length() / perimeter
+            double_area_vector(a, b, c).length() / perimeter
         } else {
             0.0
         };

@@ -5,7 +5,7 @@ use super::room::Room;
 use super::rungs::{Change, Ending, Rung};
 use crate::error::{ADVICE, Place};
 use crate::{Deadline, Error, Failure, FailureKind, Limits, Log, Mesher, Params, Plc, Sizes};
-use geom::measure::region_volume;
+use geom::measure::volume_of_region;
 use std::time::{Duration, Instant};
 use tmesh::Document;
 
@@ -261,7 +261,8 @@ impl Climb<'_> {
         let sizes = self.document.regions.iter().zip(&self.sizes.of_region);
         for (region, limit) in sizes {
             if let Some(max_volume) = *limit {
-                let count = region_volume(template, region.id) / max_volume;
+                let count =
+                    volume_of_region(&template.vertices, template.faces(), region.id) / max_volume;
                 if count > MOST {
                     return Err(Error::TooMany {
                         template: self.template,

@@ -6,7 +6,7 @@
 
 use super::rungs::Ending;
 use crate::{Elements, Plc, Sizes};
-use geom::measure::region_volume;
+use geom::measure::volume_of_region;
 use glam::DVec3;
 use tmesh::Document;
 
@@ -35,7 +35,9 @@ impl Room {
         let template = &document.templates[plc.template];
         let limits = document.regions.iter().zip(&sizes.of_region);
         let by_size: f64 = limits
-            .filter_map(|(r, limit)| Some(region_volume(template, r.id) / (*limit)?))
+            .filter_map(|(r, limit)| {
+                Some(volume_of_region(&template.vertices, template.faces(), r.id) / (*limit)?)
+            })
             .sum();
         Self(LEAST.max(PER_POINT * plc.points.len() as f64).max(by_size))
     }

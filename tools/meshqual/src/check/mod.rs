@@ -13,7 +13,6 @@
 mod checks;
 mod faces;
 mod findings;
-mod nearby;
 mod symmetry;
 #[cfg(test)]
 mod tests;

@@ -1,8 +1,8 @@
 //! What counts as equal, in one place.
 
 /// Distance below which two vertices coincide, relative to the mesh's size (the diagonal of its
-/// bounding box): a choice between the rounding of coordinates, some 1e-16 of the size, and the
-/// smallest edges that meshes have, which are above 1e-9 of it. What meshes promise says 1e-12.
+/// bounding box): the promise of assembled meshes. Copies of a vertex that were not welded are some
+/// 1e-16 of the size apart, and edges this short would have no direction left to compute with.
 pub const COINCIDENCE: f64 = 1e-12;
 
 /// How well a vertex has to fall on its image, relative to the size: the promise of assembled meshes.

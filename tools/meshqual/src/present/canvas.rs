@@ -1,6 +1,7 @@
 //! A buffer of colours and depths on which triangles are drawn: flat shading, edges.
 
 use super::layout::{LAYOUT, Layout};
+use geom::measure::double_area_vector;
 use glam::DVec3;
 use png::EncodingError;
 
@@ -29,7 +30,7 @@ impl Canvas {
     /// nothing is nearer.
     pub fn triangle(&mut self, corners: [DVec3; 3], colour: [f64; 3]) {
         let [a, b, c] = corners;
-        let normal = (b - a).cross(c - a);
+        let normal = double_area_vector(a, b, c);
         if normal.z == 0.0 || !normal.is_finite() {
             return;
         }

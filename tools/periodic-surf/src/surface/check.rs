@@ -1,6 +1,6 @@
 //! What a new surface must have in common with the old one.
 
-use geom::measure::{corners, region_volume};
+use geom::measure::{corners, volume_of_region};
 use mesher::FLATNESS;
 use tmesh::{OUTSIDE, Template};
 
@@ -41,7 +41,7 @@ pub fn same_body(before: &Template, after: &Template, slack: f64) -> Result<(), 
         .iter()
         .fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
     for region in regions.into_iter().filter(|&r| r != OUTSIDE) {
-        let [old, new] = [before, after].map(|t| region_volume(t, region));
+        let [old, new] = [before, after].map(|t| volume_of_region(&t.vertices, t.faces(), region));
         let allowed = FLATNESS * old.abs() + slack + 1e-15 * extent.powi(3);
         // False for NaN, too.
         let unchanged = (new - old).abs() <= allowed;

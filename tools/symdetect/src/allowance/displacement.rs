@@ -6,6 +6,7 @@ use crate::allowance::swing::Swing;
 use crate::budget::{NEIGHBOURHOODS, PER_TRIANGLE};
 use crate::shape::Shape;
 use crate::verify::Operation;
+use geom::measure::double_area_vector;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::Frame;
@@ -77,7 +78,7 @@ impl Displacements<'_> {
         let mut shells: FxHashMap<[u8; 3], (Swing, bool)> = FxHashMap::default();
         for (t, corners) in shape.triangles.iter().enumerate().step_by(step) {
             let [a, b, c] = corners.map(|v| shape.vertices[v as usize]);
-            let area = (b - a).cross(c - a).length();
+            let area = double_area_vector(a, b, c).length();
             for i in 0..each {
                 let [u, v] = spread_over_triangle(i);
                 let point = a + (b - a) * u + (c - a) * v;

@@ -9,8 +9,8 @@
 /// drawings as exact as the tolerance deviate by `2 sqrt 2` tolerances, one of which is allowed everywhere.
 pub const FACETS: f64 = 2.0 * std::f64::consts::SQRT_2 - 1.0;
 
-/// Bulge of some facet, in tolerances, from which facets may matter at all: with less on either side of a deviation,
-/// facets decide in the last tenth of the tolerance only, where the tolerance itself is not that well justified.
+/// Bulge of some facet, in tolerances, from which on facets are taken into account. Smaller ones could explain a tenth
+/// of a tolerance at most, and no tolerance is meant that exactly.
 pub const COARSE: f64 = 0.1;
 
 /// Share of the largest deviation that a place must have for it to count as deviating too: at nine

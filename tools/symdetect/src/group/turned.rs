@@ -1,6 +1,6 @@
 //! Mirrors that contain the axis, and half turns about axes across it.
 
-use crate::budget::{FIT, SCAN};
+use crate::budget::{FIT, NEXT_BEST, SCORE};
 use crate::group::found::Beside;
 use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, powers, refine};
 use crate::shape::{Motion, Target};
@@ -11,8 +11,6 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use tmesh::{Frame, Isometry};
 
-/// Candidate angles looked at closely: of mirrors all equivalent ones are merged into one, so that others are chance.
-const CLOSE: usize = 6;
 /// Angles tried at least over one period, however loose the limits.
 const FEWEST_ANGLES: usize = 32;
 
@@ -92,7 +90,7 @@ impl Turned<'_> {
             })
             .collect();
         candidates.sort_by(|&i, &j| scores[i].total_cmp(&scores[j]).then(i.cmp(&j)));
-        candidates.truncate(CLOSE);
+        candidates.truncate(NEXT_BEST);
         candidates.into_iter().map(|i| angles[i]).collect()
     }
 
@@ -100,7 +98,7 @@ impl Turned<'_> {
     fn score(&self, angle: f64) -> f64 {
         let shape = self.query.shape;
         let loose = self.query.limits.loose * self.rotation.radius;
-        let samples = &shape.samples.mixed[..SCAN.min(shape.samples.mixed.len())];
+        let samples = &shape.samples.mixed[..SCORE.min(shape.samples.mixed.len())];
         let allowed = (OUTLIERS * samples.len() as f64) as usize;
         let turned = turn_matrix(angle / PI) * self.operation.matrix();
         let motion = Motion::new(&self.rotation.frame, turned);
@@ -162,7 +160,7 @@ impl Turned<'_> {
             .collect();
         parts.sort_unstable_by(f64::total_cmp);
         parts.dedup_by(|a, b| *a - *b < SINGLE);
-        parts.truncate(CLOSE);
+        parts.truncate(NEXT_BEST);
         let bound = self.query.limits.bound(rotation.radius);
         parts.into_iter().find_map(|part| {
             let frame = self.turned_to(angles[0] + 0.5 * part * step)?;

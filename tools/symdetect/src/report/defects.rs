@@ -3,6 +3,7 @@
 use crate::shape::Flats;
 use geom::contacts::{Search, contacts};
 use geom::edges::Edges;
+use geom::measure::double_area_vector;
 use glam::DVec3;
 use heal::OddEdges;
 use kit::point;
@@ -93,7 +94,7 @@ impl Defects {
         let normals: Vec<DVec3> = (triangles.iter())
             .map(|t| {
                 let [a, b, c] = t.map(|v| template.vertices[v as usize]);
-                (b - a).cross(c - a).normalize_or_zero()
+                double_area_vector(a, b, c).normalize_or_zero()
             })
             .collect();
         let flats = Flats::new(&triangles, &normals, &edges);

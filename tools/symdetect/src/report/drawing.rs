@@ -1,6 +1,7 @@
 //! The body in outline, seen along its axis and from the side.
 
 use geom::edges::{Edges, apex_of};
+use geom::measure::double_area_vector;
 use glam::DVec3;
 use tmesh::{Frame, Symmetry, Template};
 
@@ -49,7 +50,7 @@ pub fn views(template: &Template, symmetry: &Symmetry) -> Views {
     let normals: Vec<DVec3> = (triangles.iter())
         .map(|t| {
             let [a, b, c] = t.map(|v| points[v as usize]);
-            (b - a).cross(c - a).normalize_or_zero()
+            double_area_vector(a, b, c).normalize_or_zero()
         })
         .collect();
     let (mut span, mut reach) = ([f64::INFINITY, f64::NEG_INFINITY], 0.0_f64);

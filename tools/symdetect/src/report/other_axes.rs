@@ -1,14 +1,12 @@
 //! Axes beside the main one.
 
+use crate::budget::MOST_AXES;
 use crate::group::{Found, forward};
 use crate::rotation::{Query, Rotation};
 use crate::shape::Motion;
 use crate::verify::Depth;
 use glam::{DMat3, DVec3};
 use tmesh::{Isometry, OtherAxis};
-
-/// Other axes listed at most: more than any polyhedral group has.
-const MOST_OTHER_AXES: usize = 64;
 
 impl Query<'_> {
     /// Further axes: half turns across the main one, and those of a polyhedral group.
@@ -17,7 +15,7 @@ impl Query<'_> {
         let mut axes: Vec<OtherAxis> = Vec::new();
         let mut add = |d: DVec3, order: u32, residual: f64| {
             let same = |a: &OtherAxis| self.same_axis(DVec3::from_array(a.direction), d);
-            if !axes.iter().any(same) && !self.same_axis(d, z) && axes.len() < MOST_OTHER_AXES {
+            if !axes.iter().any(same) && !self.same_axis(d, z) && axes.len() < MOST_AXES {
                 axes.push(OtherAxis {
                     direction: forward(d).to_array(),
                     order,

@@ -1,15 +1,13 @@
 //! The rotations about all axes that a body can have.
 
 use crate::allowance::model::COARSE;
+use crate::budget::MOST_AXES;
 use crate::rotation::candidates::{self, distinct};
 use crate::rotation::find::Rotation;
 use crate::rotation::limits::Limits;
 use crate::rotation::query::Query;
 use glam::DVec3;
 
-/// Candidate directions tried beyond the principal ones: a polyhedral group has 31 axes at most and as many normals of
-/// mirror planes; near-isotropic bodies of revolution have curves of critical points, of which a few will do.
-const MOST_FURTHER: usize = 60;
 /// Candidate directions that are tried again with more tolerance, where no rotation was found at all.
 pub const FIRST_DIRECTIONS: usize = 16;
 
@@ -54,7 +52,7 @@ impl Query<'_> {
             let tried = directions.len();
             directions.extend(candidates::higher(self.shape));
             directions = distinct(directions, self.parallel);
-            directions.truncate(tried + MOST_FURTHER);
+            directions.truncate(tried + MOST_AXES);
             found.extend(directions[tried..].iter().filter_map(find));
             log(&format!(
                 "{} further directions tried, {} have a rotation in all",

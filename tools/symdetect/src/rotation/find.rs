@@ -1,6 +1,6 @@
 //! The highest rotation order about one axis.
 
-use crate::budget::FIT;
+use crate::budget::{FIT, NEXT_BEST};
 use crate::rotation::limits::{Limits, OUTLIERS};
 use crate::rotation::refine::{Canonical, refine};
 use crate::shape::{Permutation, Shape, Target};
@@ -51,11 +51,11 @@ impl Rotation {
 
 /// Rotations by golden turns that an axis is adjusted to where no order is to be preferred.
 const GOLDEN: usize = 12;
-/// Candidate orders from which on a body is taken for nearly one of revolution: those orders have more divisors
-/// between them than any single order below 1024 has.
+/// Candidate orders from which on a body counts as nearly one of revolution, and is adjusted to rotations by any angle.
+/// The divisors of an order are candidates together with it, up to 12 of them below 100: with a smaller number,
+/// ordinary parts would count too; with a larger one, nearly round bodies would be adjusted to whatever order
+/// happens to be the highest.
 const MANY: usize = 20;
-/// Lower candidates for whose orders axis and centre are adjusted when the highest one turns out not to hold.
-const SECOND_CHOICES: usize = 5;
 
 /// A search for the highest order about an axis.
 pub struct OrderSearch<'a> {
@@ -120,7 +120,7 @@ impl OrderSearch<'_> {
         let target = shape.target_in_place();
         let best = self.better(as_is, in_frame_for(&powers(largest, &target)));
         best.or_else(|| {
-            let others = candidates.iter().rev().skip(1).take(SECOND_CHOICES);
+            let others = candidates.iter().rev().skip(1).take(NEXT_BEST - 1);
             others
                 .map(|&n| in_frame_for(&powers(n, &target)))
                 .find_map(|found| found)

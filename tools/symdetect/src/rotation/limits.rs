@@ -6,11 +6,12 @@ use crate::verify::Bound;
 /// Share of samples that may be off in a scan, while axis and centre are still rough: one in eight.
 pub const OUTLIERS: f64 = 0.125;
 
-/// Deviations, in tolerances, that a candidate may have before axis and centre are adjusted. The centre of mass is off
-/// the centre by what a flaw weighs, and both halves of a deviation by as much again.
+/// Deviations, in tolerances, that a candidate may have before axis and centre are adjusted. Both come from moments,
+/// which every flaw shifts; an axis or a centre that is off by some distance displaces images by up to twice that, so
+/// that this leaves room for each of them to be off by two tolerances.
 const LOOSE: f64 = 8.0;
-/// Bounds on that, relative to the radius: with less, the default tolerance's candidates would be lost at tight
-/// tolerances, though their axes are no better known; with more, anything is a candidate.
+/// Bounds on that, relative to the radius. At tighter tolerances than the default one, moments know the axis no better.
+/// Beyond a fifth of the radius, any order of any body passes.
 const LOOSE_RANGE: [f64; 2] = [8e-3, 0.2];
 
 /// Tolerances of a search, relative to the radius about the axis.

@@ -6,6 +6,14 @@ use geom::eigen;
 use glam::{DMat3, DVec3};
 use tmesh::{Frame, Isometry};
 
+/// Steps after which an adjustment is given up: Gauss-Newton doubles the correct digits with every step from a
+/// candidate that has two or three of them, but the nearest triangles change meanwhile.
+const STEPS: usize = 12;
+/// Share of the mean square that must be left at most for another step to be worth it.
+const GAIN: f64 = 0.9;
+/// Largest step, in radians and in units of the shape: more than any candidate is off by, and little enough for the
+/// linearized rotation.
+const LONGEST_STEP: f64 = 0.1;
 /// Triangles whose normals differ by more than this cosine are not taken for images of each other.
 const SAME_FACE: f64 = 0.7;
 
@@ -44,14 +52,14 @@ pub fn refine(
     let mut reach = reach;
     let mut best_error = f64::INFINITY;
     let mut frame = start;
-    for _ in 0..12 {
+    for _ in 0..STEPS {
         let Some(step) = gauss_newton(shape, &frame, operations, samples, reach) else {
             break;
         };
         if step.mean_square >= best_error {
             break;
         }
-        let gain = step.mean_square < 0.9 * best_error;
+        let gain = step.mean_square < GAIN * best_error;
         best_error = step.mean_square;
         best = frame;
         if !gain || step.mean_square == 0.0 {
@@ -137,7 +145,7 @@ fn gauss_newton(
     }
     let turn = DVec3::new(x[0], x[1], x[2]);
     let shift = DVec3::new(x[3], x[4], x[5]);
-    let scale = (0.1 / turn.length().max(shift.length())).min(1.0);
+    let scale = (LONGEST_STEP / turn.length().max(shift.length())).min(1.0);
     Some(Step {
         frame: moved(frame, turn * scale, shift * scale),
         mean_square: sum / count as f64,

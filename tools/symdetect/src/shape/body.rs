@@ -1,7 +1,7 @@
 //! The body, made ready for symmetry tests: centred, scaled to unit size, sampled, and searchable.
 
-use crate::shape::faces::{Exactness, Faces, Surface};
 use crate::shape::facets::Facets;
+use crate::shape::flat::{Exactness, Faces, Surface};
 use crate::shape::interfaces::Interfaces;
 use crate::shape::moments::Moments;
 use crate::shape::motion::Target;
@@ -9,7 +9,8 @@ use crate::shape::regions::Permutation;
 use crate::shape::samples::Samples;
 use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
-use geom::bvh::{Bvh, Nearest};
+use geom::measure::double_area_vector;
+use geom::tree::{Nearest, Tree};
 use glam::DVec3;
 use std::sync::OnceLock;
 use tmesh::{Frame, Template};
@@ -34,7 +35,7 @@ pub struct Shape {
     pub moments: Moments,
     /// Test points.
     pub samples: Samples,
-    all: Bvh,
+    all: Tree,
     by_class: Vec<ClassSurface>,
     facets: OnceLock<Facets>,
     faces: OnceLock<Option<Faces>>,
@@ -42,7 +43,7 @@ pub struct Shape {
 
 /// The triangles of one class.
 struct ClassSurface {
-    bvh: Bvh,
+    tree: Tree,
     /// Index of each of them in the whole surface.
     triangles: Vec<u32>,
 }
@@ -73,13 +74,13 @@ impl Shape {
         let precision = precision.unwrap_or(placed.largest * f64::from(f32::EPSILON) / 2.0);
         let normal = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| vertices[v as usize]);
-            (b - a).cross(c - a).normalize_or_zero()
+            double_area_vector(a, b, c).normalize_or_zero()
         };
         let normals = triangles.iter().map(normal).collect();
         let corners = |t: u32| triangles[t as usize].map(|v| vertices[v as usize]);
         let sample = || {
             let samples = Samples::new(&vertices, &triangles, &interfaces);
-            (samples, Bvh::new((0..triangles.len() as u32).map(corners)))
+            (samples, Tree::new((0..triangles.len() as u32).map(corners)))
         };
         let (by_class, (samples, all)) = both(|| sort_out(&interfaces, corners), sample);
         Some(Self {
@@ -150,7 +151,7 @@ impl Shape {
             Target::Classes(map) if !self.by_class.is_empty() => {
                 let class = map[self.interfaces.class[triangle as usize] as usize];
                 let surface = self.by_class.get(class as usize)?;
-                let mut hit = surface.bvh.near_enough(image, within, enough)?;
+                let mut hit = surface.tree.near_enough(image, within, enough)?;
                 hit.triangle = surface.triangles[hit.triangle as usize];
                 Some(hit)
             }
@@ -284,7 +285,7 @@ fn sort_out(interfaces: &Interfaces, corners: impl Fn(u32) -> [DVec3; 3]) -> Vec
         }
     }
     let surface = |members: Vec<u32>| ClassSurface {
-        bvh: Bvh::new(members.iter().map(|&t| corners(t))),
+        tree: Tree::new(members.iter().map(|&t| corners(t))),
         triangles: members,
     };
     members.into_iter().map(surface).collect()

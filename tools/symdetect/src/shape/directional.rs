@@ -2,6 +2,7 @@
 
 use crate::tolerance::VANISHING;
 use geom::eigen;
+use geom::measure::double_area_vector;
 use glam::{DMat3, DVec3};
 
 /// Starts of the search for critical points: a function of degree eight has less than a hundred of them up to sign, and
@@ -49,7 +50,7 @@ impl DirectionalMoment {
         let mut volume = vec![0.0; directions.len()];
         let (mut total_area, mut total_volume) = (0.0_f64, 0.0_f64);
         for ([a, b, c], sign) in triangles {
-            let s = (b - a).cross(c - a).length();
+            let s = double_area_vector(a, b, c).length();
             let v = sign * a.dot(b.cross(c));
             total_area += s;
             total_volume += v;

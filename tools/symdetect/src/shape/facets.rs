@@ -6,7 +6,7 @@
 //! coarsely. A feature of its own (a dent, an oval bore) moves corners without making the facets
 //! coarse at the places that it should have had images at.
 
-use crate::shape::flats::Flats;
+use crate::shape::flat::Flats;
 use crate::shape::table::Table;
 use geom::edges::Edges;
 use glam::DVec3;

@@ -2,13 +2,11 @@
 
 mod body;
 mod directional;
-mod faces;
 mod facets;
-mod flats;
+mod flat;
 mod interfaces;
 mod moments;
 mod motion;
-mod outlines;
 mod random;
 mod regions;
 mod samples;
@@ -16,8 +14,7 @@ mod table;
 
 pub use body::Shape;
 pub use directional::DirectionalMoment;
-pub use faces::Faces;
-pub use flats::Flats;
+pub use flat::{Faces, Flats};
 pub use motion::{Motion, NO_CLASS, Target};
 pub use random::Random;
 pub use regions::Permutation;

@@ -2,6 +2,7 @@
 //! they depend on the shape and not on its tessellation.
 
 use crate::tolerance::VANISHING;
+use geom::measure::triangle_area;
 use glam::{DMat3, DVec3};
 
 /// Volume moments of the material and area moments of all triangles (boundary and interfaces).
@@ -33,7 +34,7 @@ impl Moments {
             volume += v;
             first += sum * (v / 4.0);
             second += squares * (v / 20.0);
-            let s = 0.5 * (b - a).cross(c - a).length();
+            let s = triangle_area(a, b, c);
             area += s;
             area_first += sum * (s / 3.0);
             area_second += squares * (s / 12.0);

@@ -2,6 +2,7 @@
 
 use crate::shape::interfaces::Interfaces;
 use crate::shape::random::Random;
+use geom::measure::double_area_vector;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -83,7 +84,7 @@ fn sample_faces(
     let count = class.len();
     let area = |t: usize| {
         let [a, b, c] = corners(t);
-        (b - a).cross(c - a).length()
+        double_area_vector(a, b, c).length()
     };
     let inside = |t: usize, random: &mut Random| {
         let [a, b, c] = corners(t);
@@ -170,7 +171,7 @@ fn sharp_vertices(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Vec<bool> {
     let mut sum = vec![(DVec3::ZERO, 0.0); vertices.len()];
     for t in triangles {
         let [a, b, c] = t.map(|v| vertices[v as usize]);
-        let n = (b - a).cross(c - a);
+        let n = double_area_vector(a, b, c);
         let length = n.length();
         for &v in t {
             let s = &mut sum[v as usize];

@@ -1,5 +1,6 @@
 //! What operations do to regions.
 
+use crate::budget::SURVEY;
 use crate::shape::{Motion, NO_CLASS, Permutation, Shape, Target};
 use crate::verify::deviation::{Bound, Deviation};
 use rustc_hash::FxHashMap;
@@ -10,7 +11,7 @@ impl Shape {
     pub fn vote(&self, motion: &Motion, within: f64) -> Option<Permutation> {
         let n = self.region_count();
         let mut votes: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-        for sample in self.samples.faces.iter().take(20_000.max(40 * n)) {
+        for sample in self.samples.faces.iter().take(SURVEY.max(40 * n)) {
             let Some(hit) = self.nearest(motion.apply(sample.point), 0, &Target::Any, within)
             else {
                 continue;

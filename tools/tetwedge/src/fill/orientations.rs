@@ -1,6 +1,6 @@
 //! Tetrahedra that are positive, here and where their copies are placed.
 
-use geom::edges::orientation;
+use geom::predicate::orientation;
 use glam::DVec3;
 use mesher::Place;
 use rayon::prelude::*;

@@ -20,15 +20,23 @@ pub struct Choice {
 
 /// Orders what is left of the groups by the cost that a first wedge tells.
 pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> Option<Choice> {
-    let kinds: Vec<Group> = orders.iter().flat_map(|&n| groups.at(n)).collect();
-    let cuts: Vec<estimate::Cut> = kinds.iter().map(|&g| describe(body, g, first)).collect();
     let needles = estimate::needles(body.surface, body.element_size());
     let wedge = estimate::Wedge::new(&first.templates[0], first.wedges);
     let max_volume = |region| body.max_volume(region);
     let model = CostModel::CALIBRATED;
     let estimate = Estimate::new(model, &wedge, needles, max_volume, body.params.threads);
+    // Half turns and rotary reflections are used wherever they can be; only a narrow wedge may do better with a hub.
+    let may_choose = body.params.order.is_none() || body.params.hub != Hub::Auto;
+    let wanted = |g: &Group| {
+        let is_last = groups.at(g.order).last() == Some(g);
+        let hub = may_choose && may_have_hub(*g) && estimate.is_narrow(angle(*g));
+        is_last || !groups.has_half_turns_or_rotary_reflections() || hub
+    };
+    let kinds = orders.iter().flat_map(|&n| groups.at(n));
+    let kinds: Vec<Group> = kinds.filter(wanted).collect();
+    let cuts: Vec<estimate::Cut> = kinds.iter().map(|&g| describe(body, g, first)).collect();
     let bounds = Bounds {
-        radius_edge: body.params.radius_edge,
+        radius_edge: body.document.wishes.radius_edge(),
         hubs: match body.params.hub {
             Hub::Radius(radius) => Hubs::Radius(radius),
             Hub::None => Hubs::None,
@@ -90,14 +98,18 @@ fn turning_over(group: Group) -> &'static str {
     }
 }
 
+/// The angle of a group's wedge, radians.
+fn angle(group: Group) -> f64 {
+    let turn = opening(group);
+    match turn.k() {
+        0 => TAU,
+        k => TAU * f64::from(k) / f64::from(turn.n()),
+    }
+}
+
 /// A group's wedge, as the estimate sees it.
 fn describe(body: &Body<'_>, group: Group, first: &Cut) -> estimate::Cut {
-    let turn = opening(group);
-    let fraction = match turn.k() {
-        0 => 1.0,
-        k => f64::from(k) / f64::from(turn.n()),
-    };
-    let angle = TAU * fraction;
+    let angle = angle(group);
     let mirrors = group.has_vertical_mirrors();
     let copies = f64::from(group.size());
     // A seam costs at any order what it costs at the order of the first wedge.

@@ -4,7 +4,7 @@ use super::copies::Copies;
 use crate::body::{Body, region_volumes};
 use crate::error::CutError;
 use std::collections::BTreeMap;
-use tmesh::Template;
+use tmesh::{OUTSIDE, Template};
 
 /// Volume and boundary of the body.
 pub struct Whole {
@@ -19,7 +19,7 @@ impl Whole {
         let regions = region_volumes(&surface.vertices, &surface.triangles);
         Self {
             volume: regions.values().sum(),
-            area: geom::measure::boundary_area(surface),
+            area: geom::measure::area_of_region(&surface.vertices, surface.faces(), OUTSIDE),
             regions,
         }
     }

@@ -6,6 +6,7 @@ use crate::cell::{Cell, Join};
 use crate::error::CutError;
 use crate::section::{Chain, Piece, Section, chains};
 use crate::surface::Surface;
+use geom::grid::Grid;
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Frame, RegionMap};
@@ -316,25 +317,9 @@ fn begin_alike(chain: &mut Chain, other: &mut Chain, reach: f64) -> bool {
 
 /// For each point the nearest of `among` within `reach`, by index.
 fn nearest(points: &[(u32, DVec2)], among: &[(u32, DVec2)], reach: f64) -> Vec<Option<usize>> {
-    let cell = |p: DVec2| (p / reach).floor().to_array().map(|x| x as i64);
-    let mut grid: FxHashMap<[i64; 2], Vec<usize>> = FxHashMap::default();
-    for (j, q) in among.iter().enumerate() {
-        grid.entry(cell(q.1)).or_default().push(j);
-    }
-    points
-        .iter()
-        .map(|p| {
-            let [x, y] = cell(p.1);
-            let around = (-1..=1).flat_map(|i| (-1..=1).map(move |k| [x + i, y + k]));
-            around
-                .filter_map(|key| grid.get(&key))
-                .flatten()
-                .map(|&j| (j, among[j].1.distance(p.1)))
-                .filter(|(_, d)| *d <= reach)
-                .min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
-                .map(|(j, _)| j)
-        })
-        .collect()
+    let grid = Grid::of(among.iter().map(|q| q.1), reach);
+    let nearest = |p: &(u32, DVec2)| Some(grid.nearest(p.1, reach)?.0 as usize);
+    points.iter().map(nearest).collect()
 }
 
 fn check_edges(

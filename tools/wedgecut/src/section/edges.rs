@@ -2,7 +2,7 @@
 
 use crate::cell::{Cell, Part};
 use crate::surface::Surface;
-use geom::edges::orientation;
+use geom::predicate::orientation;
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{RegionMap, Triangle};

@@ -3,8 +3,8 @@
 use super::coincident::join_coincident;
 use super::patches::flat_patches;
 use crate::cell::{Cell, Class};
+use geom::weld::Welder;
 use glam::DVec3;
-use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::Triangle;
 
 /// A surface in the canonical frame, with every point classified.
@@ -32,12 +32,15 @@ impl Surface {
         flatness: f64,
     ) -> Self {
         let mut surface = Self::default();
-        let mut at: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+        let mut welder = Welder::new(points.len());
         let mut renumbered = Vec::with_capacity(points.len());
         for p in points {
             let (p, class) = cell.map_or((p, Class::INSIDE), |cell| cell.classify(p));
-            let entry = at.entry(bits(p));
-            renumbered.push(*entry.or_insert_with(|| surface.add(p, class)));
+            let (v, is_new) = welder.add(p);
+            if is_new {
+                surface.add(p, class);
+            }
+            renumbered.push(v);
         }
         for mut face in faces {
             face.vertices = face.vertices.map(|v| renumbered[v as usize]);
@@ -62,9 +65,12 @@ impl Surface {
     /// body.
     pub fn add_corners(&mut self, cell: &Cell) {
         let used = self.faces.iter().flat_map(|f| f.vertices);
-        let present: FxHashSet<[u64; 3]> = used.map(|v| bits(self.points[v as usize])).collect();
+        let mut present = Welder::new(self.points.len());
+        for v in used {
+            present.id(self.points[v as usize]);
+        }
         for (p, class) in cell.corners() {
-            if !present.contains(&bits(p)) {
+            if present.find(p).is_none() {
                 let v = self.add(p, class);
                 self.corners.push(v);
             }
@@ -75,9 +81,4 @@ impl Surface {
     pub fn at(&self, v: u32) -> (DVec3, Class) {
         (self.points[v as usize], self.classes[v as usize])
     }
-}
-
-fn bits(p: DVec3) -> [u64; 3] {
-    // Adding zero folds the two zeros into one.
-    (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }

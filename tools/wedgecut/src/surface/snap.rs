@@ -5,6 +5,7 @@
 //! positions seen along the axis, that differ by no more than the precision of the input are made
 //! equal.
 
+use geom::grid::Grid;
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
@@ -55,27 +56,22 @@ fn snap_heights(points: &mut [DVec3], reach: f64) {
 
 fn snap_columns(points: &mut [DVec3], reach: f64) {
     let plane = |p: DVec3| DVec2::new(p.x, p.y);
-    // Points in one or neighbouring cells may be near; cells of twice the reach keep that to four.
-    let cell = |p: DVec2| (p / (2.0 * reach)).floor().to_array().map(|x| x as i64);
-    let mut grid: FxHashMap<[i64; 2], Vec<u32>> = FxHashMap::default();
+    let mut grid = Grid::for_reach(reach, points.len());
+    // The points in the grid, each of which leads those near to it that come later.
+    let mut leaders: Vec<u32> = Vec::new();
     let mut leader: Vec<u32> = Vec::with_capacity(points.len());
     for i in 0..points.len() as u32 {
         let p = plane(points[i as usize]);
-        let [x, y] = cell(p);
-        let near = (-1..=1)
-            .flat_map(|a| (-1..=1).map(move |b| [x + a, y + b]))
-            .filter_map(|key| grid.get(&key))
-            .flatten()
-            .copied()
-            .filter(|&j| plane(points[j as usize]).distance(p) <= reach)
-            .min();
-        match near {
-            Some(j) => leader.push(j),
-            None => {
-                grid.entry([x, y]).or_default().push(i);
-                leader.push(i);
-            }
+        let mut near: Option<u32> = None;
+        grid.each_within(p, reach, |j, _| {
+            near = Some(near.map_or(j, |k| k.min(j)));
+            true
+        });
+        if near.is_none() {
+            grid.insert(p);
+            leaders.push(i);
         }
+        leader.push(near.map_or(i, |j| leaders[j as usize]));
     }
     let mut sums: FxHashMap<u32, (DVec2, u32)> = FxHashMap::default();
     for (p, &l) in points.iter().zip(&leader) {

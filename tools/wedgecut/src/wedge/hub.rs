@@ -8,11 +8,11 @@
 
 use super::assemble::{Caps, Wedge, image};
 use super::closed::check_closed;
+use super::fan::{Fan, Joint, Lies};
 use crate::cell::{Cell, LEVEL_WALL, hub_order};
 use crate::error::CutError;
 use crate::seam::Matched;
 use crate::surface::Surface;
-use geom::fan::{Fan, Joint, Lies};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Frame, Gluing, Group, Isometry, RegionMap, Template, Triangle};

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod closed;
+mod fan;
 mod hub;
 
 pub use assemble::{Caps, Parts, assemble, whole};

@@ -1,7 +1,7 @@
 //! All tetrahedra are positively oriented.
 
 use crate::check::findings::{Findings, Kind, at};
-use geom::edges::orientation;
+use geom::predicate::orientation;
 use tmesh::Document;
 
 /// Indices of the tetrahedra of a template that are flat or inside out, increasing.

@@ -1,14 +1,15 @@
 //! No two vertices in one place.
 
 use crate::check::findings::{Findings, Kind, at};
-use crate::check::nearby::coincident;
 use crate::check::tolerances::COINCIDENCE;
+use geom::grid::coincident;
 use tmesh::Document;
 
 /// Looks for vertices of a template that coincide with an earlier one.
 pub fn coincident_vertices(document: &Document, size: f64, findings: &mut Findings) {
     for (index, template) in document.templates.iter().enumerate() {
-        coincident(&template.vertices, COINCIDENCE * size, |later, earlier| {
+        let vertices = template.vertices.iter().copied();
+        coincident(vertices, COINCIDENCE * size, |later, earlier| {
             findings.add(Kind::Coincident, || {
                 let [p, q] = [later, earlier].map(|v| template.vertices[v as usize]);
                 format!(

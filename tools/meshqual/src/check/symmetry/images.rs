@@ -3,8 +3,8 @@
 use super::generators::Generator;
 use super::part::Part;
 use crate::check::findings::{Findings, Kind, at};
-use crate::check::nearby::Nearby;
 use crate::check::tolerances::{IMAGE, REACH, ROUNDINGS};
+use geom::grid::Grid;
 use glam::DVec3;
 use tmesh::Document;
 
@@ -24,8 +24,8 @@ pub struct Matcher<'a> {
     size: f64,
     /// Largest distance allowed, model units.
     pub limit: f64,
-    near: Option<Nearby<'a>>,
-    far: Option<Nearby<'a>>,
+    near: Option<Grid<3>>,
+    far: Option<Grid<3>>,
 }
 
 impl<'a> Matcher<'a> {
@@ -58,7 +58,7 @@ impl<'a> Matcher<'a> {
         let placed = generator.isometry.placed();
         let (points, limit) = (self.points, self.limit);
         let mut budget = COMPARISONS * points.len() as u64;
-        let mut unlimited = u64::MAX;
+        let all = |reach: f64| Grid::of(points.iter().copied(), reach);
         let mut residual = 0.0_f64;
         let mut images = Vec::with_capacity(points.len());
         for (v, &p) in points.iter().enumerate() {
@@ -67,12 +67,12 @@ impl<'a> Matcher<'a> {
                 continue;
             }
             let image = placed.apply(p);
-            let near = self.near.get_or_insert_with(|| Nearby::all(points, limit));
-            let mut found = near.nearest(image, &mut unlimited);
+            let near = self.near.get_or_insert_with(|| all(limit));
+            let mut found = near.nearest(image, limit);
             if found.is_none() {
                 let reach = REACH * self.size;
-                let far = self.far.get_or_insert_with(|| Nearby::all(points, reach));
-                found = far.nearest(image, &mut budget);
+                let far = self.far.get_or_insert_with(|| all(reach));
+                found = far.nearest_of(image, reach, &mut budget);
                 self.report(v as u32, found, &generator.name, findings);
             }
             let (image, distance) = found.unwrap_or((NONE, REACH * self.size));

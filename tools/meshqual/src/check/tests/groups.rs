@@ -1,7 +1,7 @@
 //! Every kind of group, promised and kept or broken.
 
 use super::{broken, report, sound};
-use crate::specimens::{assembled, sector};
+use bodies::meshes::{assembled, sector};
 use glam::DVec3;
 use tmesh::{Document, Group, Isometry, Kind, Outside};
 
@@ -109,7 +109,7 @@ fn a_region_that_only_rotations_keep_breaks_the_half_turn() {
                 tets.iter_mut().for_each(|t| t.region = 1);
             }
         }
-        mesh.templates[0].triangles = crate::specimens::skin(&mesh.templates[0].tets);
+        mesh.templates[0].triangles = bodies::meshes::skin(&mesh.templates[0].tets);
         let found = broken(&mesh, "symmetry", "maps tetrahedron");
         assert_eq!(found.checks.connectivity_symmetric, Some(false));
         mesh.promise.as_mut().unwrap().group = kept;

@@ -2,8 +2,8 @@
 
 mod groups;
 
-use crate::specimens::{assembled, wedge};
 use crate::{Params, Report, analyse};
+use bodies::meshes::{assembled, wedge};
 use glam::DVec3;
 use tmesh::{
     Document, Gluing, Group, Instance, Isometry, Kind, OUTSIDE, Outside, Plane, Promise, Template,
@@ -735,7 +735,7 @@ fn hub() -> Document {
                 t.tets.push(Tet { vertices, region });
             }
         }
-        t.triangles = crate::specimens::skin(&t.tets);
+        t.triangles = bodies::meshes::skin(&t.tets);
         t
     };
     let far = Isometry::reflection(1, 8);

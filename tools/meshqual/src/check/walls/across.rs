@@ -2,9 +2,9 @@
 
 use super::face::Face;
 use crate::check::findings::{Findings, Kind};
-use crate::check::nearby::Nearby;
 use crate::check::tolerances::COINCIDENCE;
 use crate::instances::Links;
+use geom::grid::Grid;
 use rustc_hash::FxHashSet;
 use tmesh::Isometry;
 
@@ -65,13 +65,13 @@ impl<'a> Across<'a> {
     fn check_vertices(&self, findings: &mut Findings) {
         let mesh = &self.wall.mesh;
         let here = &self.wall.template(self.wall.own).vertices;
-        let grid = Nearby::all(here, COINCIDENCE * mesh.size);
+        let reach = COINCIDENCE * mesh.size;
+        let grid = Grid::of(here.iter().copied(), reach);
         let step = self.wall.gluing.step;
         let placed = step.placed();
         let mut links = None;
-        let mut budget = u64::MAX;
         for (v, &p) in (0..).zip(&self.wall.template(self.beyond).vertices) {
-            let Some((w, distance)) = grid.nearest(placed.apply(p), &mut budget) else {
+            let Some((w, distance)) = grid.nearest(placed.apply(p), reach) else {
                 continue;
             };
             let partner = self.partner(v);

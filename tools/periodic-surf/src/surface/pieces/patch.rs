@@ -1,10 +1,8 @@
 //! Triangulation of one flat facet, and its refinement with the outline kept.
 
+use geom::cdt::{Borders, Cdt, CdtError, NONE, Segment};
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
-use spade::{
-    ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation,
-};
 
 /// Triangles with smaller angles are improved where the outline allows it, degrees. Insertion of
 /// circumcentres ends for any bound below 30, and takes many more points close to it.
@@ -37,17 +35,9 @@ pub struct Patch {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Broken(pub u32);
 
-struct Site(Point2<f64>);
-
-impl HasPosition for Site {
-    type Scalar = f64;
-
-    fn position(&self) -> Point2<f64> {
-        self.0
-    }
-}
-
-type Cdt = ConstrainedDelaunayTriangulation<Site>;
+/// Labels of the two sides of the outline.
+const OUTSIDE: u32 = 0;
+const FACET: u32 = 1;
 
 /// A triangulation of those points of a patch that are in use.
 struct Mesh {
@@ -59,21 +49,20 @@ struct Mesh {
 }
 
 impl Patch {
-    /// Triangles of the facet, counter-clockwise, by constrained Delaunay (crate `spade`, exact
-    /// predicates). Points beyond `fixed` that are in the diametral circle of an outline edge are
+    /// Triangles of the facet, counter-clockwise, by constrained Delaunay triangulation. Points beyond `fixed` that are in the diametral circle of an outline edge are
     /// left out; circumcentres of bad triangles are appended to `points` where they are in none.
     /// (After Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh
     /// generation", 1995, but the outline is never split.)
     pub fn triangulate(&mut self) -> Result<Vec<[u32; 3]>, Broken> {
-        let scale = self.scale();
         let edges: FxHashSet<[u32; 2]> = self.outline.iter().copied().collect();
+        let borders = self.borders(&edges);
         self.bow(&edges);
         let mut used = vec![true; self.points.len()];
         // Triangles whose circumcentres were inserted in vain.
         let mut hopeless: FxHashSet<[u32; 3]> = FxHashSet::default();
         let mut author: FxHashMap<u32, [u32; 3]> = FxHashMap::default();
         for round in 0..=ROUNDS {
-            let mesh = self.mesh(&used, &edges, scale)?;
+            let mesh = self.mesh(&used, &borders, &edges)?;
             let triangles = mesh.triangles();
             if round == ROUNDS {
                 return Ok(triangles);
@@ -86,7 +75,7 @@ impl Patch {
                 }
                 continue;
             }
-            let added = self.centres(&mesh, &hopeless, scale);
+            let added = self.centres(&mesh, &hopeless);
             if added.is_empty() {
                 return Ok(triangles);
             }
@@ -144,74 +133,59 @@ impl Patch {
         }
     }
 
-    /// A power of two that brings the coordinates near one, whatever the model's unit.
-    fn scale(&self) -> f64 {
-        let size = |m: f64, p: &DVec2| m.max(p.abs().max_element());
-        let largest = self.points.iter().fold(0.0, size);
-        if largest > 0.0 {
-            (-largest.log2().floor()).exp2()
-        } else {
-            1.0
-        }
+    /// The outline, with what lies on either side. Points that must stay have the same numbers in every
+    /// triangulation.
+    fn borders(&self, edges: &FxHashSet<[u32; 2]>) -> Borders {
+        let both = |e: &[u32; 2]| edges.contains(&[e[1], e[0]]);
+        let once = self.outline.iter().filter(|e| e[0] < e[1] || !both(e));
+        let segments: Vec<Segment> = once
+            .map(|e| Segment {
+                ends: *e,
+                left: Some(FACET),
+                right: Some(if both(e) { FACET } else { OUTSIDE }),
+            })
+            .collect();
+        Borders::new(&segments)
     }
 
-    fn mesh(&self, used: &[bool], edges: &FxHashSet<[u32; 2]>, scale: f64) -> Result<Mesh, Broken> {
-        let mut vertex = vec![u32::MAX; self.points.len()];
-        let mut points = Vec::new();
-        let mut seen: FxHashSet<[u64; 2]> = FxHashSet::default();
-        let mut sites = Vec::new();
-        for (i, p) in self.points.iter().enumerate().filter(|(i, _)| used[*i]) {
-            // What spade refuses to take is zero on the scale of the model.
-            let tidy = |x: f64| {
-                if (x * scale).abs() < 1e-40 {
-                    0.0
-                } else {
-                    x * scale
-                }
-            };
-            let site = Point2::new(tidy(p.x), tidy(p.y));
-            if seen.insert([site.x.to_bits(), site.y.to_bits()]) {
-                vertex[i] = points.len() as u32;
-                points.push(i as u32);
-                sites.push(Site(site));
-            } else if i < self.fixed {
-                return Err(Broken(i as u32));
-            }
-        }
-        let constraints = self
-            .outline
-            .iter()
-            .filter(|e| e[0] < e[1] || !edges.contains(&[e[1], e[0]]))
-            .map(|e| e.map(|v| vertex[v as usize] as usize))
+    fn mesh(
+        &self,
+        used: &[bool],
+        borders: &Borders,
+        edges: &FxHashSet<[u32; 2]>,
+    ) -> Result<Mesh, Broken> {
+        let mut points: Vec<u32> = (0..self.points.len() as u32)
+            .filter(|&p| used[p as usize])
             .collect();
-        let mut conflict = None;
-        let cdt = Cdt::try_bulk_load_cdt(sites, constraints, |e| {
-            conflict.get_or_insert(e[0]);
-        })
-        .map_err(|_| Broken(0))?;
-        if let Some(v) = conflict {
-            return Err(Broken(points[v]));
+        let cdt = loop {
+            let places: Vec<[f64; 2]> = points
+                .iter()
+                .map(|&p| self.points[p as usize].to_array())
+                .collect();
+            match Cdt::new(&places, &borders.segments) {
+                Ok(cdt) => break cdt,
+                Err(CdtError::Coincident(_, twice)) if twice as usize >= self.fixed => {
+                    points.remove(twice as usize);
+                }
+                Err(error) => return Err(broken(&error, &points)),
+            }
+        };
+        let labels = cdt.label(borders).map_err(|e| broken(&e, &points))?;
+        if let Some((_, near)) = labels.open.iter().find(|open| open.0 == FACET) {
+            return Err(Broken(points[*near as usize]));
         }
-        let mut mesh = Mesh {
-            inside: vec![false; cdt.num_all_faces()],
+        let mesh = Mesh {
+            inside: labels.of.iter().map(|l| *l == Some(FACET)).collect(),
             cdt,
             points,
         };
-        mesh.label(edges)?;
-        let found = mesh
-            .cdt
-            .inner_faces()
-            .filter(|f| mesh.inside[f.fix().index()]);
-        let sides: usize = found
-            .map(|f| {
-                f.adjacent_edges()
-                    .iter()
-                    .filter(|e| edges.contains(&mesh.key(**e)))
-                    .count()
-            })
-            .sum();
+        let sides = |t: [u32; 3]| {
+            (0..3)
+                .filter(|&i| edges.contains(&[t[i], t[(i + 1) % 3]]))
+                .count()
+        };
         // Every edge has the facet to its left.
-        if sides != edges.len() {
+        if mesh.triangles().into_iter().map(sides).sum::<usize>() != edges.len() {
             return Err(Broken(self.outline[0][0]));
         }
         Ok(mesh)
@@ -238,19 +212,10 @@ impl Patch {
     }
 
     /// Circumcentres to insert, worst triangles first, far from each other, each with its triangle.
-    fn centres(
-        &self,
-        mesh: &Mesh,
-        hopeless: &FxHashSet<[u32; 3]>,
-        scale: f64,
-    ) -> Vec<([u32; 3], DVec2)> {
+    fn centres(&self, mesh: &Mesh, hopeless: &FxHashSet<[u32; 3]>) -> Vec<([u32; 3], DVec2)> {
         let limit = 0.5 / libm::sin(MIN_ANGLE.to_radians());
         let mut bad = Vec::new();
-        for face in mesh.cdt.inner_faces() {
-            if !mesh.inside[face.fix().index()] {
-                continue;
-            }
-            let mut key = mesh.corners(face);
+        for mut key in mesh.triangles() {
             let [a, b, c] = key.map(|v| self.points[v as usize]);
             let (u, v) = (b - a, c - a);
             let shortest = u
@@ -272,83 +237,40 @@ impl Patch {
         let mut taken = vec![false; mesh.inside.len()];
         let mut added = Vec::new();
         for (_, key, centre) in bad {
-            let place = Point2::new(centre.x * scale, centre.y * scale);
-            let PositionInTriangulation::OnFace(face) = mesh.cdt.locate(place) else {
+            let Some(t) = mesh.cdt.containing(centre.to_array()) else {
                 continue;
             };
-            let face = mesh.cdt.face(face);
-            let around = face.adjacent_edges().map(|e| e.rev().face().fix().index());
-            let index = face.fix().index();
-            if !mesh.inside[index] || taken[index] || around.iter().any(|&f| taken[f]) {
+            let across = mesh.cdt.across[t as usize];
+            let around = across.into_iter().filter(|&f| f != NONE);
+            let mut near = around.clone().chain([t]);
+            if !mesh.inside[t as usize] || near.any(|f| taken[f as usize]) {
                 continue;
             }
-            taken[index] = true;
-            // The outer face has the index 0 and is next to many.
-            around
-                .iter()
-                .filter(|&&f| f != 0)
-                .for_each(|&f| taken[f] = true);
+            around.chain([t]).for_each(|f| taken[f as usize] = true);
             added.push((key, centre));
         }
         added
     }
 }
 
-type Edge<'a> = spade::handles::DirectedEdgeHandle<'a, Site, (), spade::CdtEdge<()>, ()>;
-type Face<'a> =
-    spade::handles::FaceHandle<'a, spade::handles::InnerTag, Site, (), spade::CdtEdge<()>, ()>;
+/// Where a triangulation of these points fails.
+fn broken(error: &CdtError, points: &[u32]) -> Broken {
+    let near = match *error {
+        CdtError::Coincident(_, p) | CdtError::Crossing(p, _) => p,
+        CdtError::Ambiguous { near, .. } => near,
+        CdtError::Coordinate => 0,
+    };
+    Broken(points[near as usize])
+}
 
 impl Mesh {
-    fn key(&self, edge: Edge<'_>) -> [u32; 2] {
-        [edge.from(), edge.to()].map(|v| self.points[v.fix().index()])
-    }
-
-    fn corners(&self, face: Face<'_>) -> [u32; 3] {
-        face.vertices().map(|v| self.points[v.fix().index()])
-    }
-
+    /// The triangles of the facet, by points of the patch.
     fn triangles(&self) -> Vec<[u32; 3]> {
-        self.cdt
-            .inner_faces()
-            .filter(|f| self.inside[f.fix().index()])
-            .map(|f| self.corners(f))
+        let triangles = self.cdt.triangles.iter().zip(&self.inside);
+        triangles
+            .filter(|(_, inside)| **inside)
+            .map(|(t, _)| t.map(|v| self.points[v as usize]))
             .collect()
-    }
-
-    /// Spreads from the left sides of the edges until the next edge.
-    fn label(&mut self, edges: &FxHashSet<[u32; 2]>) -> Result<(), Broken> {
-        let mut inside = vec![false; self.inside.len()];
-        let mut open = Vec::new();
-        for face in self.cdt.inner_faces() {
-            if face
-                .adjacent_edges()
-                .iter()
-                .any(|e| edges.contains(&self.key(*e)))
-            {
-                inside[face.fix().index()] = true;
-                open.push(face);
-            }
-        }
-        while let Some(face) = open.pop() {
-            for edge in face.adjacent_edges() {
-                let [a, b] = self.key(edge);
-                if edges.contains(&[a, b]) {
-                    continue;
-                }
-                // Out through the wrong side of an edge, or of all.
-                let next = edge.rev().face().as_inner();
-                let (false, Some(next)) = (edges.contains(&[b, a]), next) else {
-                    return Err(Broken(a));
-                };
-                let slot = &mut inside[next.fix().index()];
-                if !*slot {
-                    *slot = true;
-                    open.push(next);
-                }
-            }
-        }
-        self.inside = inside;
-        Ok(())
     }
 }
 

@@ -1,0 +1,7 @@
+//! The command line of each tool: options, exit codes, messages, reports, what happens to files.
+
+mod meshqual;
+mod messages;
+mod rotassemble;
+mod symdetect;
+mod tetwedge;

@@ -1,0 +1,63 @@
+//! Measures of single elements and of closed surfaces.
+
+use glam::DVec3;
+
+/// Twice the area of a triangle as a vector along its normal (right-hand rule).
+#[inline]
+pub fn double_area_vector(a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
+/// Area of a triangle, model units squared.
+#[inline]
+pub fn triangle_area(a: DVec3, b: DVec3, c: DVec3) -> f64 {
+    0.5 * double_area_vector(a, b, c).length()
+}
+
+/// Signed volume of a tetrahedron, positive when `(b - a) x (c - a) . (d - a) > 0`.
+#[inline]
+pub fn tet_volume(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
+    double_area_vector(a, b, c).dot(d - a) / 6.0
+}
+
+/// Corner positions of a triangle or a tetrahedron.
+#[inline]
+pub fn corners<const N: usize>(vertices: &[DVec3], ids: impl Into<[u32; N]>) -> [DVec3; N] {
+    ids.into().map(|v| vertices[v as usize])
+}
+
+/// Volume enclosed by the triangles that bound `region`, by the divergence theorem; model units
+/// cubed. `faces`: vertex ids of each triangle, and the regions on its front and on its back side.
+/// Positive for a closed surface whose triangles name the region on the right sides.
+pub fn volume_of_region(
+    vertices: &[DVec3],
+    faces: impl Iterator<Item = ([u32; 3], [u32; 2])>,
+    region: u32,
+) -> f64 {
+    let origin = vertices.first().copied().unwrap_or_default();
+    let mut volume = 0.0;
+    for (ids, [front, back]) in faces {
+        let sign = f64::from(i8::from(back == region) - i8::from(front == region));
+        if sign != 0.0 {
+            let [a, b, c] = corners(vertices, ids);
+            volume += sign * tet_volume(origin, a, b, c);
+        }
+    }
+    volume
+}
+
+/// Area of all triangles that have `region` on exactly one side, model units squared; `faces` as in
+/// [`volume_of_region`].
+pub fn area_of_region(
+    vertices: &[DVec3],
+    faces: impl Iterator<Item = ([u32; 3], [u32; 2])>,
+    region: u32,
+) -> f64 {
+    faces
+        .filter(|(_, [front, back])| (*front == region) != (*back == region))
+        .map(|(ids, _)| {
+            let [a, b, c] = corners(vertices, ids);
+            triangle_area(a, b, c)
+        })
+        .sum()
+}
