@@ -17,7 +17,7 @@ FUZZ := tests/fuzz
 # Cargo's own tools, where make installs them when they are missing.
 TOOLBOX := $(TARGET)/tools/bin
 
-.PHONY: help setup build demo test check fmt lint fuzz fuzz-tool audit soak faults bench bench-quick bench-publish bench-programs manual install dist clean
+.PHONY: help setup calibrate build demo test check fmt lint fuzz fuzz-tool audit soak faults bench bench-quick bench-publish bench-programs manual install dist clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -96,6 +96,10 @@ bench: bench-programs ## measure pipe against direct mesh, every cell: hours; go
 
 bench-quick: bench-programs ## the same with two sets of parameters, within ten minutes
 	$(BENCH) run --quick --binaries $(TARGET)/release --out $(TARGET)/bench/quick $(BENCH_OPTIONS)
+
+calibrate: setup ## measure the coefficients that order and hub are chosen by; print them
+	$(BUILD) -p body
+	$(CARGO) run --release --package estimate --example calibrate -- $(TARGET)/release
 
 bench-publish: ## copy the report of the full benchmark to examples/benchmark/results
 	$(BENCH) report --out $(TARGET)/bench/full

@@ -18,6 +18,7 @@ use tmesh::OUTSIDE;
 const LEAST_GAP: f64 = 0.01;
 
 /// Body volume by radius and element size.
+#[derive(Clone)]
 pub struct Estimate {
     /// The coefficients.
     pub model: CostModel,
@@ -109,6 +110,17 @@ impl Estimate {
         };
         estimate.skin = estimate.boundary(wedge);
         estimate
+    }
+
+    /// The same with other coefficients, but for the growth of sizes.
+    pub fn with_model(&self, model: CostModel) -> Self {
+        Self {
+            model: CostModel {
+                growth: self.model.growth,
+                ..model
+            },
+            ..self.clone()
+        }
     }
 
     /// Area of the body's boundary over the square of the size of elements, as far as their size is one

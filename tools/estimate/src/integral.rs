@@ -35,6 +35,7 @@ pub struct Part {
 }
 
 /// What is summed over the section.
+#[derive(Clone)]
 pub struct Integral {
     /// Body volume of each class of radius and size.
     pub volume: Vec<[f64; SIZES]>,

@@ -25,15 +25,12 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let max_volume = |region| body.max_volume(region);
     let model = CostModel::CALIBRATED;
     let estimate = Estimate::new(model, &wedge, needles, max_volume, body.params.threads);
-    // Half turns and rotary reflections are used wherever they can be, unless a hub may be better.
+    // Half turns and rotary reflections are used wherever they can be; only a narrow wedge may do better with a hub.
+    let may_choose = body.params.order.is_none() || body.params.hub != Hub::Auto;
     let wanted = |g: &Group| {
         let is_last = groups.at(g.order).last() == Some(g);
-        let hub = may_have_hub(*g) && estimate.is_narrow(angle(*g));
-        is_last
-            || groups
-                .over
-                .is_some_and(|over| over == Kind::Ch || over == Kind::Dh)
-            || hub
+        let hub = may_choose && may_have_hub(*g) && estimate.is_narrow(angle(*g));
+        is_last || !groups.has_half_turns_or_rotary_reflections() || hub
     };
     let kinds = orders.iter().flat_map(|&n| groups.at(n));
     let kinds: Vec<Group> = kinds.filter(wanted).collect();

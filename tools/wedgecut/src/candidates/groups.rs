@@ -63,7 +63,20 @@ impl Groups {
             Some(order) => vec![order],
             None => divisors.into_iter().filter(|&n| n >= least).collect(),
         };
+        // Of some divisors there are no rotary reflections: these would give up half of the elements found.
+        if params.order.is_none() && groups.has_half_turns_or_rotary_reflections() {
+            let has_over = |n: &u32| groups.at(*n).len() > 1;
+            let with_over: Vec<u32> = groups.orders.iter().copied().filter(has_over).collect();
+            if !with_over.is_empty() {
+                groups.orders = with_over;
+            }
+        }
         Ok(groups)
+    }
+
+    /// Whether what turns the axis over is no mirror plane.
+    pub fn has_half_turns_or_rotary_reflections(&self) -> bool {
+        matches!(self.over, Some(Kind::S | Kind::D | Kind::Dd))
     }
 
     /// The subgroups of an order.
