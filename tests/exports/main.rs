@@ -66,6 +66,7 @@ fn every_reader_finds_the_same_mesh_in_every_format() {
         ("e.mesh", &[], "gmsh mesh, meshio mesh"),
         ("f.inp", &[], "manual inp, meshio inp"),
         ("g.node", &[], "meshio node"),
+        ("m.bdf", &[], "meshio bdf"),
         ("h.vtk", boundary, "vtk vtk, meshio vtk"),
         ("i.vtu", boundary, "vtk vtu, meshio vtu"),
         (

@@ -95,7 +95,8 @@ def with_gmsh(path, kind):
 
 def with_meshio(path, kind):
     import meshio
-    form = {'msh2': 'gmsh', 'msh': 'gmsh', 'mesh': 'medit', 'inp': 'abaqus', 'node': 'tetgen'}.get(kind, kind)
+    form = {'msh2': 'gmsh', 'msh': 'gmsh', 'mesh': 'medit', 'inp': 'abaqus', 'bdf': 'nastran',
+            'node': 'tetgen'}.get(kind, kind)
     mesh = meshio.read(path, file_format=form)
     p = mesh.points
     def of(types):
@@ -130,6 +131,11 @@ def with_meshio(path, kind):
     if kind in ('vtu', 'vtk'):
         markers = data('marker', fb) if fb else np.zeros(0, int)
         return result(p, tets, data('region', tb), None, tris, markers, None)
+    if kind == 'bdf':
+        comments = [line.split(' ', 3)[1:] for line in open(path) if line.startswith(('$ PSOLID ', '$ PSHELL '))]
+        names = {k: {int(n): name.strip() for card, n, name in comments if card == k} for k in ('PSOLID', 'PSHELL')}
+        key = 'nastran:ref'
+        return result(p, tets, data(key, tb), names['PSOLID'], tris, data(key, fb), names['PSHELL'])
     key = {'mesh': 'medit:ref', 'node': 'tetgen:ref'}[kind]
     return result(p, tets, data(key, tb), None, tris, data(key, fb), None)
 

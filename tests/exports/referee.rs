@@ -21,7 +21,9 @@ impl Job {
     /// The reader is `gmsh`, `meshio`, `vtk`, `ranks` (several processes), or `manual`.
     pub fn new(reader: &str, kind: &str, path: &str) -> Self {
         let known = ["gmsh", "meshio", "vtk", "ranks", "manual"];
-        let kinds = ["msh", "msh2", "mesh", "inp", "node", "vtk", "vtu", "pvtu"];
+        let kinds = [
+            "msh", "msh2", "mesh", "inp", "bdf", "node", "vtk", "vtu", "pvtu",
+        ];
         let find = |list: &[&'static str], word: &str| {
             let found = list.iter().find(|w| **w == word);
             *found.unwrap_or_else(|| panic!("no {word}"))

@@ -5,6 +5,7 @@ mod determinism;
 mod elements;
 mod exchanged;
 mod failures;
+mod groups;
 mod hubs;
 mod makefiles;
 mod pipe;

@@ -2,6 +2,7 @@
 //!
 //! A new format is a folder with its reader and writer, an entry here, and tests.
 
+mod bdf;
 mod inp;
 mod listing;
 mod medit;
@@ -217,6 +218,15 @@ table! {
         by_region: true,
         first_id: 1,
     }
+    /// Nastran bulk data.
+    Bdf {
+        name: "bdf",
+        also: &["nas"],
+        sniff: Sniff::Likeness(bdf::looks_like),
+        read: Some(bdf::read),
+        writer: Writer::Mesh(bdf::write, bdf::size_estimate),
+        first_id: 1,
+    }
     /// TetGen mesh: files for nodes, elements and faces.
     Node {
         name: "node",
@@ -404,6 +414,7 @@ mod tests {
                 | Format::Msh
                 | Format::Msh2
                 | Format::Medit
+                | Format::Bdf
                 | Format::Inp => {
                     result.unwrap();
                     assert!(!bytes.is_empty());

@@ -86,12 +86,11 @@ impl Star<'_, '_> {
         }
     }
 
-    /// Gradient of the quality of one tetrahedron, in the directions that are free.
+    /// Gradient of the quality of one tetrahedron, which it is now, in the directions that are free.
     fn gradient(
         &self,
-        tet: Corners,
+        (tet, quality): (Corners, f64),
         p: DVec3,
-        quality: f64,
         directions: &[DVec3],
         step: f64,
     ) -> DVec3 {
@@ -239,7 +238,7 @@ fn climb(
             .iter()
             .zip(&qualities)
             .filter(|&(_, &q)| q <= least + ACTIVE * least.abs())
-            .map(|(&t, &q)| star.gradient(t, p, q, directions, difference))
+            .map(|(&t, &q)| star.gradient((t, q), p, directions, difference))
             .collect();
         let Some(up) = shortest_in_hull(&gradients).and_then(DVec3::try_normalize) else {
             break;

@@ -12,6 +12,8 @@ use std::ops::Range;
 pub const GLANCE: usize = 24;
 /// Tests of one of hundreds of orders or angles in a scan: flaws of 5 % of the surface.
 pub const SCAN: usize = 96;
+/// Tests of one of hundreds of angles, whose deviations are added up: flaws of 8 % of the surface.
+pub const SCORE: usize = 64;
 /// Tests for a residual that is only reported: of an order that does not hold, or of one in a plot.
 pub const REPORTED: usize = 600;
 /// Tests of one operation, or spread over all of a family, in a quick verification: flaws of 0.3 % of the surface.
@@ -19,14 +21,16 @@ pub const QUICK: usize = 1_500;
 /// Equations of a least-squares adjustment from which a verification goes on; the error of a fit to facets, which
 /// deviate by the tolerance at most, is that over the root of the number of facets, far below the tolerance.
 pub const FIT: usize = 4_000;
-/// Tests of everything but the first operation of a full verification, at least and at most, and what statistics over
-/// neighbourhoods of the surface are taken from, which must suffice for each of some hundred neighbourhoods.
+/// Tests of everything but the first operation of a full verification, at least and at most: flaws of 0.06 % of a small
+/// surface, and half a second's work on a large one.
 pub const FULL: Range<usize> = 8_000..60_000;
 /// Tests, equations or places for each triangle in a full verification and in the last adjustment, within the bounds
 /// above: every triangle is looked at from all powers of a rotation together.
 pub const PER_TRIANGLE: usize = 8;
-/// Places that statistics over neighbourhoods are taken from: enough for each of some hundred of them.
-pub const NEIGHBOURHOODS: usize = 16_000;
+/// Places that means over neighbourhoods are taken from: a hundred for each of some hundred of them.
+pub const NEIGHBOURHOODS: usize = 12_000;
+/// Places at which deviations are looked for all around the axis: several for each of some hundred sectors of each shell.
+pub const ALL_AROUND: usize = 16_000;
 /// Tests of an order that is listed as not holding, and corners that powers of an operation proved from faces are
 /// measured in: a maximum over so many places is the largest but for a hundredth of the surface.
 pub const LISTED: usize = 128;

@@ -625,3 +625,16 @@ fn confusion() {
         );
     }
 }
+
+#[test]
+fn tight_tolerances_leave_room_for_an_adjustment() {
+    let mut random = Random(24);
+    let body = bodies::place(&Kind::Cnv.body(5, 6, 0.1), &mut random, 1.0, 2e-6);
+    for tolerance in [1e-4, 2e-5, 1e-5] {
+        let params = Params {
+            tolerance,
+            ..Params::default()
+        };
+        assert_eq!(find_with(&body, &params).unwrap().group, "C5v");
+    }
+}

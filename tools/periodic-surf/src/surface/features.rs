@@ -48,6 +48,67 @@ impl Features {
             .map(|(i, &e)| (e, i as u32))
             .collect();
 
+        let fine = Fine::new(guide);
+        let mut points: Vec<Option<Vec<Along>>> = vec![None; ends.len()];
+        for start in 0..fine.kept {
+            for &[_, first] in fine.around(start) {
+                let (end, walked) = fine
+                    .walk(start, first)
+                    .map_err(|place| odd(index, "a new vertex where edges fork", place))?;
+                let [a, b] = [start, end].map(|v| guide.vertex_of_point[v as usize]);
+                if a > b {
+                    continue;
+                }
+                let place = guide.vertices[start as usize];
+                let Some(&edge) = of_ends.get(&[a, b]) else {
+                    return Err(odd(index, "an edge that was not there", place));
+                };
+                let between = [a, b].map(|v| template.vertices[v as usize]);
+                let Some(along) = fine.along(between, &walked) else {
+                    return Err(odd(index, "an edge whose points are not in order", place));
+                };
+                points[edge as usize] = Some(along);
+            }
+        }
+        let lost = points.iter().position(Option::is_none);
+        if let Some(edge) = lost {
+            let place = template.vertices[ends[edge][0] as usize];
+            return Err(odd(index, "a lost edge", place));
+        }
+        Ok(Self {
+            ends,
+            points: points.into_iter().flatten().collect(),
+            on: fine.on(),
+            of_ends,
+        })
+    }
+
+    /// The edge between two template vertices, and whether they are its ends in reverse.
+    pub fn find(&self, a: u32, b: u32) -> Option<(usize, bool)> {
+        let edge = self.of_ends.get(&[a.min(b), a.max(b)])?;
+        Some((*edge as usize, a > b))
+    }
+}
+
+fn odd(template: usize, what: &'static str, place: DVec3) -> SurfaceError {
+    SurfaceError::Guide {
+        template,
+        what,
+        place,
+    }
+}
+
+/// The feature edges of the guide.
+struct Fine<'a> {
+    guide: &'a Refined,
+    /// The first vertices are those of the template.
+    kept: u32,
+    /// Both directions of each edge, in order.
+    next: Vec<[u32; 2]>,
+}
+
+impl<'a> Fine<'a> {
+    fn new(guide: &'a Refined) -> Self {
         let fine = Edges::new(&guide.triangles);
         let mut next: Vec<[u32; 2]> = (0..fine.len())
             .filter(|&e| is_feature(fine.around(e), &guide.facet))
@@ -57,77 +118,57 @@ impl Features {
             })
             .collect();
         next.sort_unstable();
-        let mut on = vec![false; guide.vertices.len()];
-        next.iter().for_each(|e| on[e[0] as usize] = true);
-        let around = |v: u32| {
-            let first = next.partition_point(|e| e[0] < v);
-            let last = next.partition_point(|e| e[0] <= v);
-            &next[first..last]
-        };
-
-        let odd = |what: &'static str, place: DVec3| SurfaceError::Guide {
-            template: index,
-            what,
-            place,
-        };
-        let kept = guide.vertex_of_point.len() as u32;
-        let mut points: Vec<Option<Vec<Along>>> = vec![None; ends.len()];
-        for start in 0..kept {
-            for &[_, first] in around(start) {
-                let (mut before, mut here) = (start, first);
-                let mut walked = Vec::new();
-                while here >= kept {
-                    walked.push(here);
-                    let ways = around(here);
-                    let onward = ways.iter().find(|e| e[1] != before);
-                    let (2, Some(onward)) = (ways.len(), onward) else {
-                        let place = guide.vertices[here as usize];
-                        return Err(odd("a new vertex where edges fork", place));
-                    };
-                    (before, here) = (here, onward[1]);
-                }
-                let [a, b] = [start, here].map(|v| guide.vertex_of_point[v as usize]);
-                if a > b {
-                    continue;
-                }
-                let place = guide.vertices[start as usize];
-                let Some(&edge) = of_ends.get(&[a, b]) else {
-                    return Err(odd("an edge that was not there", place));
-                };
-                let [p, q] = [a, b].map(|v| template.vertices[v as usize]);
-                let along: Vec<Along> = walked
-                    .iter()
-                    .map(|&vertex| {
-                        let d = guide.vertices[vertex as usize] - p;
-                        let t = d.dot(q - p) / (q - p).length_squared();
-                        Along { t, vertex }
-                    })
-                    .collect();
-                let ordered = along.windows(2).all(|w| w[0].t < w[1].t);
-                let inside = along.iter().all(|x| x.t > 0.0 && x.t < 1.0);
-                if !(ordered && inside) {
-                    return Err(odd("an edge whose points are not in order", place));
-                }
-                points[edge as usize] = Some(along);
-            }
+        Self {
+            guide,
+            kept: guide.vertex_of_point.len() as u32,
+            next,
         }
-        let lost = points.iter().position(Option::is_none);
-        if let Some(edge) = lost {
-            let place = template.vertices[ends[edge][0] as usize];
-            return Err(odd("a lost edge", place));
-        }
-        Ok(Self {
-            ends,
-            points: points.into_iter().flatten().collect(),
-            on,
-            of_ends,
-        })
     }
 
-    /// The edge between two template vertices, and whether they are its ends in reverse.
-    pub fn find(&self, a: u32, b: u32) -> Option<(usize, bool)> {
-        let edge = self.of_ends.get(&[a.min(b), a.max(b)])?;
-        Some((*edge as usize, a > b))
+    /// Of each vertex, whether it is on a feature edge.
+    fn on(&self) -> Vec<bool> {
+        let mut on = vec![false; self.guide.vertices.len()];
+        self.next.iter().for_each(|e| on[e[0] as usize] = true);
+        on
+    }
+
+    /// The edges from a vertex.
+    fn around(&self, v: u32) -> &[[u32; 2]] {
+        let first = self.next.partition_point(|e| e[0] < v);
+        let last = self.next.partition_point(|e| e[0] <= v);
+        &self.next[first..last]
+    }
+
+    /// Walks along new vertices to the next one of the template; gives that, and those on the way. The error is the place
+    /// of a fork.
+    fn walk(&self, start: u32, first: u32) -> Result<(u32, Vec<u32>), DVec3> {
+        let (mut before, mut here) = (start, first);
+        let mut walked = Vec::new();
+        while here >= self.kept {
+            walked.push(here);
+            let ways = self.around(here);
+            let onward = ways.iter().find(|e| e[1] != before);
+            let (2, Some(onward)) = (ways.len(), onward) else {
+                return Err(self.guide.vertices[here as usize]);
+            };
+            (before, here) = (here, onward[1]);
+        }
+        Ok((here, walked))
+    }
+
+    /// How vertices divide the way between two points, if they do so in order.
+    fn along(&self, [p, q]: [DVec3; 2], walked: &[u32]) -> Option<Vec<Along>> {
+        let along: Vec<Along> = walked
+            .iter()
+            .map(|&vertex| {
+                let d = self.guide.vertices[vertex as usize] - p;
+                let t = d.dot(q - p) / (q - p).length_squared();
+                Along { t, vertex }
+            })
+            .collect();
+        let ordered = along.windows(2).all(|w| w[0].t < w[1].t);
+        let inside = along.iter().all(|x| x.t > 0.0 && x.t < 1.0);
+        (ordered && inside).then_some(along)
     }
 }
 

@@ -4,7 +4,7 @@ use super::filled::{Filled, NONE};
 use super::preserved::restore_preserved;
 use super::walls::{on_shifted_facets, restore_walls};
 use glam::DVec3;
-use mesher::{Answer, Cells, Elements, Error, Place, Surface, face_key, label};
+use mesher::{Answer, Cells, Elements, Error, Place, Plc, Surface, face_key, label};
 use tmesh::{Document, OUTSIDE, Template, Tet, Triangle};
 
 /// What is known of a filled template that is not finished.
@@ -41,15 +41,6 @@ pub fn fill(document: &Document, index: usize, answer: &Answer) -> Result<(Fille
     })?;
 
     let numbering = Numbering::new(mesh, &region, &surface, &plc.vertex_of_point);
-    let mut vertices = vec![DVec3::ZERO; numbering.count];
-    for (i, p) in mesh.points().iter().enumerate() {
-        if numbering.new_id[i] != NONE {
-            vertices[numbering.new_id[i] as usize] = match plc.vertex_of_point.get(i) {
-                Some(&v) => input.vertices[v as usize],
-                None => plc.to_model(*p),
-            };
-        }
-    }
     let renumber = |v: u32| numbering.new_id[v as usize];
     let triangles: Vec<Triangle> = surface
         .iter()
@@ -73,20 +64,16 @@ pub fn fill(document: &Document, index: usize, answer: &Answer) -> Result<(Fille
             region,
         })
         .collect();
-    let mut of_vertex = vec![NONE; input.vertices.len()];
-    for (point, &v) in plc.vertex_of_point.iter().enumerate() {
-        of_vertex[v as usize] = numbering.new_id[point];
-    }
     let dropped = mesh.tetrahedra().len() - tets.len();
     let mut filled = Filled {
         template: Template {
-            vertices,
+            vertices: numbering.positions(input, answer),
             triangles,
             tets,
             gluings: Vec::new(),
             axis: Vec::new(),
         },
-        vertices: of_vertex,
+        vertices: numbering.of_input(input, plc),
         triangles: vec![NONE; input.triangles.len()],
         shared: {
             let others = face_key(input.gluings.len(), false);
@@ -144,5 +131,29 @@ impl Numbering {
             }
         }
         Self { new_id, count }
+    }
+
+    /// Positions by number: those of the template where they are known, exactly.
+    fn positions(&self, input: &Template, answer: &Answer) -> Vec<DVec3> {
+        let plc = &answer.plc;
+        let mut positions = vec![DVec3::ZERO; self.count];
+        for (i, p) in answer.mesh.points().iter().enumerate() {
+            if self.new_id[i] != NONE {
+                positions[self.new_id[i] as usize] = match plc.vertex_of_point.get(i) {
+                    Some(&v) => input.vertices[v as usize],
+                    None => plc.to_model(*p),
+                };
+            }
+        }
+        positions
+    }
+
+    /// The number of each of the template's own vertices, or [`NONE`].
+    fn of_input(&self, input: &Template, plc: &Plc) -> Vec<u32> {
+        let mut of_vertex = vec![NONE; input.vertices.len()];
+        for (point, &v) in plc.vertex_of_point.iter().enumerate() {
+            of_vertex[v as usize] = self.new_id[point];
+        }
+        of_vertex
     }
 }
