@@ -38,7 +38,7 @@ const BODIES: &[(&str, bool, &[u32], Option<f64>)] = &[
     ),
     ("gear --order 12", true, &[2, 3, 6, 12], None),
     ("ratchet --order 12", false, &[2, 3, 4, 6], None),
-    ("ratchet --order 12 --bore 0", false, &[2, 3, 4], Some(0.4)),
+    ("ratchet --order 12 --bore 0", false, &[2, 3, 4], None),
     ("ratchet --order 8 --coating 0.02", false, &[2, 4, 8], None),
     ("impeller --order 6", false, &[2, 3, 6], None),
     ("impeller --order 5 --twist 60", false, &[5], None),
@@ -92,9 +92,10 @@ impl Tools {
 
     /// The mesh of a wedge, and the seconds it took; seams get their surface mesh before.
     fn mesh(&self, wedge: &[u8], volume: f64, seam: bool) -> Result<(Document, f64), String> {
-        let options = format!("--threads 1 --max-volume {volume}");
+        let volume = format!("--max-volume {volume}");
+        let options = format!("--threads 1 {volume}");
         let surface = match seam {
-            true => self.run("periodic-surf", &options, wedge)?,
+            true => self.run("periodic-surf", &volume, wedge)?,
             false => wedge.to_vec(),
         };
         let mut best = Duration::MAX;

@@ -10,7 +10,7 @@ use tmesh::OUTSIDE;
 
 /// Cosine above which two triangles are one flat face: that of an angle of 3e-3 degrees, which single precision
 /// gives triangles of a plane and no shape means.
-const FLAT: f64 = 1.0 - 1e-9;
+pub const FLAT: f64 = 1.0 - 1e-9;
 /// Most pairs of a sample and an edge that are looked at: some hundredths of a second.
 const PAIRS: usize = 20_000_000;
 /// Samples of the thickness along the section's extent, and along one edge at most: sizes differ little between

@@ -3,17 +3,14 @@
 //! A facet is meshed by triangles of good shape, so a thin one, if nothing in its plane continues it, gets
 //! elements as small as it is wide all along. Blades and other curved faces are often drawn so.
 
+use crate::features::FLAT;
 use geom::edges::Edges;
 use geom::measure::{corners, double_area_vector};
 use glam::DVec3;
 use tmesh::{Template, Triangle};
 
-/// Two triangles whose normals differ by less than this (one minus their product) are one facet.
-const FLAT: f64 = 1e-9;
-
 /// Sum, over the triangles that are narrower than elements beside them, `size` in model units, and not part
-/// of a larger facet, of length over width less one. The mesh of the body has about 17 tetrahedra
-/// for each unit; measured on wheels of twisted blades, orders 5 to 12.
+/// of a larger facet, of length over width less one: elements of the estimate.
 pub fn needles(body: &Template, size: impl Fn(&Triangle) -> f64) -> f64 {
     let points = |t: usize| corners(&body.vertices, &body.triangles[t]);
     let normals: Vec<DVec3> = (0..body.triangles.len())
@@ -32,7 +29,7 @@ pub fn needles(body: &Template, size: impl Fn(&Triangle) -> f64) -> f64 {
         let [a, b] = ends.map(|v| body.vertices[v as usize]);
         let is_flat = matches!(around, [u, v] if {
             let [m, n] = [u, v].map(|u| normals[u.triangle as usize].normalize_or_zero());
-            m.dot(n).abs() > 1.0 - FLAT
+            m.dot(n).abs() > FLAT
         });
         for u in around {
             let t = u.triangle as usize;

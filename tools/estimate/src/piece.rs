@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-/// What is so many times longer than wide is narrow.
+/// What is so many times longer than wide is narrow: halves across it are then nearer to squares than halves along it.
 const NARROW: f64 = 3.0;
 
 /// A piece of the section, by radius and height.

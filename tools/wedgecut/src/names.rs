@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use tmesh::{Document, Template};
 
 /// Distance of the centre of a boundary piece from the mirror plane across the axis up to which the piece counts
-/// as its own image, relative to the body's size.
+/// as its own image, relative to the body's size: several times the
+/// tolerance of the symmetry, up to which facets may be off, and far below the size of a piece that has a name.
 const CENTRED: f64 = 5e-3;
 
 /// Whether the mirror plane across the axis maps every boundary piece onto itself, as far as their centres

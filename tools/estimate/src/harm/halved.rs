@@ -8,7 +8,7 @@ use geom::measure::double_area_vector;
 use glam::DVec3;
 use tmesh::{OUTSIDE, Triangle};
 
-/// Angles of the wedge from here on do no harm, degrees.
+/// Angles of the wedge from here on do no harm, degrees: an element with equal sides fits in.
 const HARMLESS: f64 = 60.0;
 
 /// Sum, over the edges of the body's boundary in the plane through the axis at `angle` (radians), of the

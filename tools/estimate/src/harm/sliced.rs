@@ -4,22 +4,24 @@
 //! off a face, a short one. Elements there are as small as that, in every copy of the wedge. Nothing of
 //! the kind happens at a plane that passes between the blades of a wheel.
 
+use crate::model::CostModel;
 use geom::measure::double_area_vector;
 use glam::DVec3;
 use tmesh::Triangle;
 
-/// A segment shorter than this part of the size of elements is rounding, or will be collapsed.
+/// A segment shorter than this part of the size of elements is rounding, or will be collapsed: the default of
+/// `wedgecut --clean`.
 const SHORTEST: f64 = 1e-6;
-/// What a unit of [`crate::needles::needles`] is in units of harm.
-const NEEDLE: f64 = 0.17;
-/// Smallest sine that counts: faces in the plane make no angle with it.
+/// What a unit of [`crate::needles`], one element of the estimate, is in units of harm.
+const NEEDLE: f64 = 1.0 / CostModel::CALIBRATED.sliced;
+/// Smallest sine that counts, that of the angle below which facets are bent by their drawing and not by their shape:
+/// faces in the plane make no angle with it.
 const FLATTEST: f64 = 1e-3;
 
 /// How much a cut harms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Harm {
-    /// By what it slices: a unit costs about a hundred elements, measured on wheels of twisted blades (orders 5
-    /// to 12, start angles all around).
+    /// By what it slices: a unit costs [`CostModel::sliced`] elements of the estimate in each copy.
     pub sliced: f64,
     /// By what it passes closely, in the same unit, less certain; good enough to choose among places.
     pub near: f64,

@@ -26,7 +26,11 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let model = CostModel::CALIBRATED;
     let estimate = Estimate::new(model, &wedge, needles, max_volume, body.params.threads);
     // Half turns and rotary reflections are used wherever they can be; only a narrow wedge may do better with a hub.
-    let may_choose = body.params.order.is_none() || body.params.hub != Hub::Auto;
+    let may_choose = match body.params.hub {
+        Hub::Auto => body.params.order.is_none(),
+        Hub::None => false,
+        Hub::Radius(_) => true,
+    };
     let wanted = |g: &Group| {
         let is_last = groups.at(g.order).last() == Some(g);
         let hub = may_choose && may_have_hub(*g) && estimate.is_narrow(angle(*g));

@@ -6,9 +6,11 @@
 use crate::section::{Chain, Place, project};
 use glam::DVec2;
 
-/// Cosine of the turn from which a point counts as a corner of the curve: 20 degrees.
+/// Cosine of the turn from which a point counts as a corner of the curve, 20 degrees: twice the turn between the
+/// chords of a circle drawn with 36 edges, so that drawings of arcs have no corners.
 const CORNER: f64 = 0.94;
-/// Share of the tolerance within which points that are no corners are taken for the same.
+/// Share of the tolerance within which points that are no corners are taken for the same: each may be off by half of
+/// what partners may be apart.
 const SAME: f64 = 0.5;
 /// Least distance of an inserted point from the ends of its edge and from others, relative to the
 /// edge over the number of points it gets.

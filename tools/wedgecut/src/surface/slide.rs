@@ -8,7 +8,8 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::Triangle;
 
-/// How much of a triangle's area has to be left.
+/// How much of a triangle's area has to be left: of a triangle across which a point slides to the middle half is,
+/// and rounding and a slight turn of the triangle take some of that.
 const LEFT: f64 = 0.4;
 
 /// A half plane that begins at the axis, or a plane across it.
