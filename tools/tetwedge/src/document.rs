@@ -1,7 +1,7 @@
 //! The whole document: every template meshed, walls between templates renumbered.
 
 use crate::fill::{Filled, NONE};
-use crate::follow::{Followed, follower};
+use crate::follow::{Follow, Followed, Led, follower};
 use crate::leads::leader;
 use crate::template::{Done, Job, template};
 use mesher::{Deadline, Error, LADDER, Log, Params, Sizes};
@@ -74,16 +74,14 @@ fn templates(
             let each = followers.iter();
             each.map(|&i| (i, follower(&job, i, lead))).collect()
         };
-        let beside: Option<&(dyn Fn(&Filled) -> Vec<Followed> + Sync)> = match followers.is_empty()
-        {
+        let beside: Option<Follow<'_>> = match followers.is_empty() {
             true => None,
             false => Some(&follow),
         };
         let deadline = Deadline::start(params.timeout);
         template(&job.climb(index, &LADDER, deadline), beside)
     };
-    let meshed: Vec<Result<(Done, Option<Vec<Followed>>), Error>> =
-        first.par_iter().map(mesh).collect();
+    let meshed: Vec<Led> = first.par_iter().map(mesh).collect();
     let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
     let mut followed: Vec<Followed> = Vec::new();
     for (&index, done) in first.iter().zip(meshed) {

@@ -10,6 +10,12 @@ use tmesh::Template;
 /// A follower, its surface, and what became of it.
 pub type Followed = (usize, Result<(Template, Done), Error>);
 
+/// Meshes all followers of a template whose shared surface is settled.
+pub type Follow<'a> = &'a (dyn Fn(&Filled) -> Vec<Followed> + Sync);
+
+/// A leading template, and its followers if they were meshed beside it.
+pub type Led = Result<(Done, Option<Vec<Followed>>), Error>;
+
 /// Rungs for a mesh that is only to be better than one that is there.
 const BETTER: &[Rung] = &[LADDER[0]];
 

@@ -99,7 +99,7 @@ impl Query<'_> {
             return true;
         }
         let mirror = group.has_vertical_mirrors();
-        let mirror = mirror.then(|| (Isometry::MIRROR, &found.mirror));
+        let mirror = mirror.then_some((Isometry::MIRROR, &found.mirror));
         let turning = group.turning_over().map(|o| (o, &found.turning));
         (group.order < 2 || is_of_facets(shape, frame, group.order, value, limit))
             && mirror

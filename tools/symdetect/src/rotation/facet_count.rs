@@ -48,12 +48,12 @@ impl Look<'_> {
             })
             .collect();
         let apart = |n: u32, inside: f64| {
-            let mut others = (2..=most).filter(|m| n % m != 0);
+            let mut others = (2..=most).filter(|m| !n.is_multiple_of(*m));
             inside <= limit.min(self.reach / SEPARATION)
                 && others.all(|m| worst[m as usize] >= SEPARATION * inside)
         };
         let largest = |n: u32, of: &dyn Fn(u32) -> f64| {
-            let divisors = (2..=n).filter(|d| n % d == 0);
+            let divisors = (2..=n).filter(|d| n.is_multiple_of(*d));
             divisors.map(of).fold(0.0, f64::max)
         };
         wanted.find(|&n| {

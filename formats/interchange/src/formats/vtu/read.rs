@@ -66,7 +66,7 @@ fn take(
     let ids = |values: &[f64]| values.iter().map(|&x| id(x)).collect();
     match (array.section.as_str(), array.name.as_str()) {
         ("Points", _) => {
-            if values.len() % 3 != 0 {
+            if !values.len().is_multiple_of(3) {
                 return Err(malformed("the points do not have three coordinates"));
             }
             let single = array.scalar == Some(Scalar::Float);
