@@ -12,7 +12,7 @@ use tmesh::{Template, Triangle};
 /// Sum, over the triangles that are narrower than elements beside them, `size` in model units, and not part
 /// of a larger facet, of length over width less one: elements of the estimate.
 pub fn needles(body: &Template, size: impl Fn(&Triangle) -> f64) -> f64 {
-    let points = |t: usize| corners(&body.vertices, &body.triangles[t]);
+    let points = |t: usize| corners(&body.vertices, body.triangles[t]);
     let normals: Vec<DVec3> = (0..body.triangles.len())
         .map(|t| {
             let [a, b, c] = points(t);

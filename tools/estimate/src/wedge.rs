@@ -68,7 +68,7 @@ impl<'a> Wedge<'a> {
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
         geom::measure::corners(
             &self.template.vertices,
-            &self.template.triangles[triangle as usize],
+            self.template.triangles[triangle as usize],
         )
     }
 

@@ -91,10 +91,7 @@ fn first_of(
     refusals: &mut Refusals,
 ) -> Result<Option<(Cut, Option<String>)>, CutError> {
     for candidate in list {
-        let places = match Places::new(body, candidate.group) {
-            Ok(places) => places,
-            Err(error) => return Err(error),
-        };
+        let places = Places::new(body, candidate.group)?;
         if let Some(known) = known.take_if(|known| known.candidate == candidate) {
             return Ok(Some((known, places.warning)));
         }

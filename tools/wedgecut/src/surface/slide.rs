@@ -58,7 +58,7 @@ pub fn slide(
         let from = points[v as usize];
         let to = from - planes[k].normal * from.dot(planes[k].normal);
         let area = |t: u32, points: &[DVec3]| {
-            let [a, b, c] = geom::measure::corners(points, &triangles[t as usize]);
+            let [a, b, c] = geom::measure::corners(points, triangles[t as usize]);
             geom::measure::double_area_vector(a, b, c)
         };
         let before: Vec<DVec3> = around.iter().map(|&t| area(t, points)).collect();
