@@ -94,3 +94,34 @@ fn regions_that_are_not_what_the_document_says_are_told() {
     ];
     run("wedgecut", &["--order", "6"], &wrong).fails(1, &told);
 }
+
+#[test]
+fn nastran_meshes_come_back_through_the_tools() {
+    let body = encode(&blocks(3, 0.0), EXACT_STL);
+    let stages: [&[&str]; 4] = [
+        &["symdetect"],
+        &["wedgecut"],
+        &["tetwedge"],
+        &["rotassemble", "--to", "bdf"],
+    ];
+    let deck = pipe(&stages, &body).pop().expect("a stage").success();
+    let regions = |mesh: &[u8]| {
+        let report = run("meshqual", &["--json", "-"], mesh).success();
+        let report: Value = serde_json::from_slice(&report).expect("JSON");
+        report["regions"].as_array().expect("regions").clone()
+    };
+    // From standard input, where the content alone shows the format.
+    let again = run("rotassemble", &["--to", "bdf"], &deck).success();
+    let [first, second] = [&deck, &again].map(|mesh| regions(mesh));
+    assert_eq!(first, second);
+    let names: Vec<&Value> = first.iter().map(|r| &r["name"]).collect();
+    assert_eq!(names, ["copper", "steel"]);
+    let text = String::from_utf8(deck).expect("text");
+    let at = text
+        .lines()
+        .position(|l| l.starts_with("CTETRA"))
+        .expect("an element");
+    let damaged = text.replacen("CTETRA  ", "CPENTA  ", 1);
+    let line = format!("line {}", at + 1);
+    run("meshqual", &[], damaged.as_bytes()).fails(3, &["bdf", &line, "tetrahedra"]);
+}

@@ -91,14 +91,12 @@ fn alternating_wheel(order: u32, bore: f64) -> Body {
 }
 
 #[test]
-#[ignore = "of what turns the axis over, the pipe uses only the horizontal mirror"]
 fn a_helical_gear_has_half_turns_across_the_axis() {
     is_meshed_in_copies(helical_gear(16, 0.3), 32);
     is_meshed_in_copies(helical_gear(16, 0.0), 32);
 }
 
 #[test]
-#[ignore = "of what turns the axis over, the pipe uses only the horizontal mirror"]
 fn a_twisted_bar_has_half_turns_across_the_axis() {
     for bore in [0.0, 0.2] {
         is_meshed_in_copies(twisted_bar(2.0, bore), 4);
@@ -107,7 +105,6 @@ fn a_twisted_bar_has_half_turns_across_the_axis() {
 }
 
 #[test]
-#[ignore = "of what turns the axis over, the pipe uses only the horizontal mirror"]
 fn an_antiprism_has_mirror_planes_between_its_half_turns() {
     is_meshed_in_copies(antiprism(7, 0.4), 28);
     is_meshed_in_copies(antiprism(7, 0.0), 28);
@@ -115,7 +112,6 @@ fn an_antiprism_has_mirror_planes_between_its_half_turns() {
 }
 
 #[test]
-#[ignore = "of what turns the axis over, the pipe uses only the horizontal mirror"]
 fn a_rotary_reflection_meshes_an_alternating_wheel() {
     is_meshed_in_copies(alternating_wheel(4, 0.3), 8);
     is_meshed_in_copies(alternating_wheel(4, 0.0), 8);

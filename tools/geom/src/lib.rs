@@ -9,11 +9,13 @@
 //! | constrained Delaunay triangulation with regions | [`cdt`] |
 //! | disjoint sets, eigenvectors | [`sets`], [`eigen`] |
 //! | what counts as equal | [`tolerance`] |
+//! | numbers and points as people read them | [`number`] |
 
 pub mod cdt;
 mod complex;
 pub mod eigen;
 mod element;
+pub mod number;
 mod points;
 pub mod sets;
 pub mod tolerance;

@@ -119,6 +119,10 @@ pub fn largest_coordinate(points: &[DVec3]) -> f64 {
         .fold(0.0_f64, |m, p| m.max(p.abs().max_element()))
 }
 
+/// Largest coordinates of models that can be computed with: products of four of them, which the exact
+/// predicate of five points has, stay within the range of numbers, 1e-308 to 1e308, beside its rounding.
+const SCALES: std::ops::Range<f64> = 1e-80..1e80;
+
 /// Refuses models so large or small that volumes, or the exact predicates, leave the range of
 /// numbers.
 ///
@@ -126,7 +130,7 @@ pub fn largest_coordinate(points: &[DVec3]) -> f64 {
 /// Says the largest coordinate.
 pub fn check_scale(points: &[DVec3]) -> Result<(), HealError> {
     let largest = largest_coordinate(points);
-    if largest == 0.0 || (1e-80..1e80).contains(&largest) {
+    if largest == 0.0 || SCALES.contains(&largest) {
         return Ok(());
     }
     let size = if largest < 1.0 { "small" } else { "large" };

@@ -1,5 +1,6 @@
 //! Points and counts as they appear in messages, and names.
 
+use geom::number::significant;
 use glam::DVec3;
 use interchange::text::{counted, plain};
 use rustc_hash::FxHashMap;
@@ -10,27 +11,13 @@ pub fn place(p: DVec3) -> String {
     format!("({x}, {y}, {z})")
 }
 
+/// Digits of places in messages: they tell coordinates of single precision apart, so that the place
+/// can be found in the file.
+const DIGITS: usize = 7;
+
 /// A number with seven significant digits, without trailing zeros.
 pub fn short(x: f64) -> String {
-    let size = x.abs();
-    if size == 0.0 || !x.is_finite() {
-        return format!("{x}").replace("-0", "0");
-    }
-    if (1e-4..1e7).contains(&size) {
-        let decimals = (6 - size.log10().floor() as i32).max(0) as usize;
-        return trimmed(&format!("{x:.decimals$}")).to_owned();
-    }
-    let text = format!("{x:.6e}");
-    let at = text.find('e').unwrap_or(text.len());
-    format!("{}{}", trimmed(&text[..at]), &text[at..])
-}
-
-fn trimmed(number: &str) -> &str {
-    if number.contains('.') {
-        number.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        number
-    }
+    significant(x, DIGITS)
 }
 
 /// A notice about something dropped.

@@ -11,11 +11,6 @@ use crate::smooth::{self, Move};
 use rayon::prelude::*;
 use std::iter::repeat_with;
 
-/// Tetrahedra looked at together, as a part of the vertices, so that few of them have corners in common with what is
-/// changed before them; and at most, so that what was looked at is at hand when it is done.
-const PART: usize = 200;
-const MOST: usize = 256;
-
 /// A bad tetrahedron: its quality, and its number.
 pub type Bad = (f64, u32);
 
@@ -53,11 +48,11 @@ pub fn work(
     failed: &mut Failed,
 ) -> Count {
     let mut count = Count::default();
-    let at_once = (mesh.positions.len() / PART).min(MOST);
-    // With fewer at a time, further threads take longer to start than they save.
-    let worth = at_once >= MOST / 4 && rayon::current_num_threads() > 1;
-    let ahead = look == Look::Ahead && worth;
-    for some in bad.chunks(if ahead { at_once } else { bad.len().max(1) }) {
+    let ahead = look == Look::Ahead && rayon::current_num_threads() > 1;
+    // Of so many tetrahedra looked at together, the same few have corners in common with what is changed before them,
+    // however large the mesh is.
+    let at_once = mesh.positions.len().isqrt();
+    for some in bad.chunks(if ahead { at_once } else { bad.len() }.max(1)) {
         failed.resize(failed.len().max(mesh.len()), None);
         let now = mesh.now();
         let found = match ahead {

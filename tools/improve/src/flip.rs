@@ -12,7 +12,8 @@ use geom::tet::{EDGES, FACES};
 
 /// Tetrahedra around an edge that is removed, at most. Larger rings hardly ever give better ones.
 const RING: usize = 7;
-/// The smallest quality has to grow by this part.
+/// The smallest quality has to grow by this part: more than by a step of [`crate::smooth`], since what is replaced is
+/// looked at anew by everything around it.
 const GAIN: f64 = 1e-2;
 
 /// Most tetrahedra in the place of those around an edge.

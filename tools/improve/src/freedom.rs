@@ -61,7 +61,8 @@ pub struct Freedoms {
     image_of: FxHashMap<u32, (u32, Isometry)>,
 }
 
-/// Of a plane and a line in it, the sine of the angle between them is below this.
+/// Of a plane and a line in it, the sine of the angle between them is below this: normals are those of the largest triangle of
+/// a facet and good to more digits, and real edges are at an angle of degrees.
 const ALONG: f64 = 1e-6;
 
 impl Freedoms {

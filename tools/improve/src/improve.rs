@@ -9,29 +9,38 @@ use geom::tet::TetMeasures;
 use rustc_hash::FxHashMap;
 use tmesh::Template;
 
-/// Rounds over the worst tetrahedra, and how many more while there are [`MANY`].
+/// Rounds over the worst tetrahedra. Most of what can be done is done in the first three or four; each further one costs as
+/// much as the first and finds what others have made possible.
 const ROUNDS: usize = 6;
+
+/// Further rounds at most, while more than the part [`MANY`] of all tetrahedra is bad, so that each of them still
+/// finds something.
 const MORE_ROUNDS: usize = 14;
 
-/// Part of the tetrahedra that is many to be bad.
+/// The part of all tetrahedra that is worth further rounds.
 const MANY: f64 = 0.01;
 
-/// So many are worked on in any case.
+/// Further rounds end when one leaves more than this part of the bad tetrahedra as they are.
+const STUCK: f64 = 0.98;
+
+/// Tetrahedra that are worked on in each round in any case, whatever part of all they are: small meshes cost nothing.
 const AT_LEAST: usize = 1000;
 
-/// So many are few, and this part of all: they are given new vertices, which takes a hundred times as long as to
-/// replace a face.
+/// Tetrahedra that get new vertices, at most: looking for the place of a vertex takes a hundred times as long as replacing a
+/// face. In small meshes this many, which take some milliseconds ...
 const FEW: usize = 128;
+
+/// ... and in large ones this part of all, so that new vertices take no longer than the rounds.
 const FEW_PART: f64 = 1.0 / 400.0;
 
-/// Angles below this times the smallest one asked for get new vertices, too.
+/// In the end, tetrahedra whose smallest angle is below this times the one asked for get new vertices, too, so that the
+/// smallest angles of a mesh are not just those asked for. A larger value adds vertices for little.
 const MARGIN: f64 = 1.5;
 
-/// Times that all this is done, with new vertices in between for what is left.
+/// Times that rounds follow each other, with new vertices in between for what is left; and that what is not as asked for is
+/// worked on alone. What the second pass leaves is mostly the shape's fault; a third one costs little, since what was
+/// tried in vain is not tried again.
 const PASSES: usize = 3;
-
-/// Part of the bad tetrahedra of the last round that are left where further rounds are no use.
-const STUCK: f64 = 0.98;
 
 /// What is asked of the elements.
 pub struct Wish<'a> {

@@ -12,13 +12,14 @@ use crate::smooth::settle;
 use geom::tet::{EDGES, FACES};
 use glam::DVec3;
 
-/// The smallest quality has to grow by this part for a new vertex.
+/// The smallest quality has to grow by this part for a new vertex: more than for a replacement, since elements are added.
 const GAIN: f64 = 5e-2;
 
-/// Places that are tried in earnest, the best of all.
+/// Places from which the vertex is moved to where it is best: the best of the thirteen, beyond which the result is hardly ever
+/// better.
 const TRIED: usize = 4;
 
-/// Tetrahedra that make room for a vertex, at most.
+/// Tetrahedra that make room for a vertex, at most: about twice as many as there are at an inner vertex.
 const ROOM: usize = 40;
 
 /// A new vertex, and the tetrahedra at it in the place of others.

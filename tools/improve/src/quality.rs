@@ -6,12 +6,17 @@ use glam::DVec3;
 /// touched.
 pub const LEAST: f64 = 1e-4;
 
-/// Quality of an element just past the radius-edge bound, and the power by which it falls from there on. With none
-/// of a step, elements would be traded for some past the bound too readily.
+/// Quality of an element just past the radius-edge bound. Without a step at the bound, elements would be traded for some past
+/// it too readily; the step is to what an element with two thirds of the angle asked for is worth, the part
+/// of the angle that the mesher is asked for.
 const PAST: f64 = 0.62;
+
+/// The power by which the quality falls from there on: that of a volume, so that an element twice past the bound is worth
+/// an eighth.
 const FALL: i32 = 3;
 
-/// Part by which the smallest angle asked for must be exceeded where it is worth more than the bound.
+/// How much the smallest angle asked for must be exceeded where it is worth more than the bound, as a factor: little, so
+/// that an angle just as asked for is not given up for the bound by rounding.
 const ABOVE: f64 = 1.02;
 
 /// What every tetrahedron should reach.

@@ -11,21 +11,25 @@ use crate::mesh::{Corners, Mesh};
 use crate::quality::{Grade, LEAST};
 use glam::DVec3;
 
-/// Steps up, at most.
+/// Steps up, at most. The smallest quality is the minimum of several functions, and its peak is reached by ever smaller
+/// steps; the next round continues where this one ends.
 const STEPS: usize = 6;
-/// Halvings of a step, at most.
+/// Halvings of a step, at most: down to about a hundredth of the distance to the other corners, beyond which nothing is
+/// won.
 const HALVINGS: usize = 5;
-/// First step, as a part of the distance to the other corners of the star.
+/// First step, as a part of the distance to the other corners of the star: a longer one mostly turns a tetrahedron over.
 const FIRST: f64 = 0.25;
-/// Within this part of the smallest quality above it, others count as active.
+/// Within this part of the smallest quality above it, others count as active: about as far as a step changes them.
 const ACTIVE: f64 = 0.1;
-/// The smallest quality has to grow by this part.
+/// The smallest quality has to grow by this part for a step. A smaller one is not worth the work.
 const GAIN: f64 = 1e-3;
 /// With a smaller quality, small steps lead nowhere, since what comes out has to be at least [`LEAST`].
 const FLAT: f64 = 10.0 * LEAST;
-/// There is no way up when the shortest vector is less than this part of the longest gradient.
+/// There is no way up when the shortest vector is less than this part of the longest gradient: steps along it gain less
+/// than [`GAIN`].
 const NO_WAY: f64 = 1e-2;
-/// Difference for gradients, as a part of the distance to the other corners.
+/// Difference for gradients, as a part of the distance to the other corners: between the square root of the rounding, where
+/// half of the digits are left for nearly flat tetrahedra too, and where the functions are not straight.
 const DIFFERENCE: f64 = 1e-6;
 
 /// A vertex, with its partner on a seam, and all tetrahedra that move with it.

@@ -6,7 +6,6 @@ mod args;
 mod failure;
 mod input;
 mod messages;
-mod number;
 mod output;
 mod run;
 mod session;
@@ -16,8 +15,8 @@ mod wishes;
 
 pub use args::CommonArgs;
 pub use failure::Failure;
+pub use geom::number::{grouped, number, point};
 pub use messages::MessageFormat;
-pub use number::{grouped, number, point};
 pub use output::{Closed, Output};
 pub use run::{Command, main};
 pub use session::{Progress, Session};

@@ -1,6 +1,6 @@
 //! Why a document could not be filled with tetrahedra.
 
-use crate::{Failure, FailureKind};
+use crate::failure::{Failure, FailureKind};
 use glam::DVec3;
 use std::fmt;
 use thiserror::Error;

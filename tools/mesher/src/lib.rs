@@ -9,6 +9,7 @@ mod complex;
 mod deadline;
 mod error;
 mod faces;
+mod failure;
 mod ladder;
 mod mesher;
 mod params;
@@ -21,7 +22,8 @@ pub use complex::{
 pub use deadline::Deadline;
 pub use error::{Error, Fault, Place, RegionName};
 pub use faces::{Faces, NO_FACE, Upright, face_key, leads};
+pub use failure::{Failure, FailureKind};
 pub use ladder::{Answer, Asks, Attempt, Change, Climb, Ending, Judged, LADDER, Rung};
-pub use mesher::{Elements, Failure, FailureKind, Limits, Log, Mesh, Mesher, Task};
+pub use mesher::{Elements, Limits, Log, Mesh, Mesher, Task};
 pub use params::{Params, Sizes};
 pub use tetgen::TetGen;

@@ -1,6 +1,6 @@
 //! The whole document: every template meshed, walls between templates renumbered.
 
-use crate::fill::NONE;
+use crate::fill::{Filled, NONE};
 use crate::follow::{Followed, follower};
 use crate::leads::leader;
 use crate::template::{Done, Job, template};
@@ -70,15 +70,25 @@ fn templates(
     let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
     let mesh = |&index: &usize| {
         let followers: Vec<usize> = (0..count).filter(|&i| leaders[i] == Some(index)).collect();
+        let follow = |lead: &Filled| -> Vec<Followed> {
+            let each = followers.iter();
+            each.map(|&i| (i, follower(&job, i, lead))).collect()
+        };
+        let beside: Option<&(dyn Fn(&Filled) -> Vec<Followed> + Sync)> = match followers.is_empty()
+        {
+            true => None,
+            false => Some(&follow),
+        };
         let deadline = Deadline::start(params.timeout);
-        template(&job.climb(index, &LADDER, deadline), &followers)
+        template(&job.climb(index, &LADDER, deadline), beside)
     };
-    let meshed: Vec<Result<Done, Error>> = first.par_iter().map(mesh).collect();
+    let meshed: Vec<Result<(Done, Option<Vec<Followed>>), Error>> =
+        first.par_iter().map(mesh).collect();
     let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
     let mut followed: Vec<Followed> = Vec::new();
     for (&index, done) in first.iter().zip(meshed) {
-        let mut done = done?;
-        followed.append(&mut done.followed);
+        let (done, beside) = done?;
+        followed.extend(beside.into_iter().flatten());
         slots[index] = Some(done);
     }
     for (index, lead) in leaders.iter().enumerate() {

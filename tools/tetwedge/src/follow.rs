@@ -31,7 +31,8 @@ pub fn follower(job: &Job<'_>, index: usize, lead: &Filled) -> Result<(Template,
             document: &document,
             ..*job
         };
-        let done = template(&on_document.climb(index, rungs, deadline), &[])?;
+        let climb = on_document.climb(index, rungs, deadline);
+        let (done, _) = template::<()>(&climb, None)?;
         Ok((document.templates.swap_remove(index), done))
     };
     // The guide has an easing of its own for the radius-edge bound.

@@ -15,25 +15,28 @@ const EASED_ANGLE: f64 = 2.0 / 3.0;
 /// What the bounds are multiplied by for the mesher: the radius-edge ratio, and the smallest dihedral angle.
 pub const EASING: [f64; 2] = [EASED, EASED_ANGLE];
 
-/// Fewer elements left past the bound are not worth another mesh.
+/// Fewer elements that are not as asked for are not put down to the easing, whatever part of all they are.
 const SOME: usize = 3;
 
-/// With more than this part of the elements left past the bound, it was eased for too many ...
+/// The part of the elements past the radius-edge bound up to which a mesh is good: half of what it may be (2 %, the budget of
+/// the whole pipe). With more of them it was eased for too many ...
 const TOO_MANY: f64 = 0.01;
 
-/// ... unless it is the shape: elements past the eased bound, of which each spoils about so many.
+/// ... unless it is the shape: the mesher's own elements past its bounds, each of which spoils about so many.
 const SPOILED: f64 = 2.0;
 
 /// Elements that are not as asked for, as a part of all, up to which they are chance and not the shape: another mesh
 /// may be without them. With more than this part that have a smaller angle than was asked for, it was eased for too many.
 const FEW: f64 = 1e-3;
 
-/// Larger meshes are not made again for single elements with a small angle, and for single ones past the radius-edge
-/// bound.
+/// Larger meshes are not made again for single elements with a small angle: it takes seconds ...
 const SMALL: usize = 50_000;
+
+/// ... nor those above this size for single elements past the radius-edge bound, which do less harm.
 const VERY_SMALL: usize = 10_000;
 
-/// So many elements that fail are not the shape's fault in any case, where the surface may be at fault.
+/// So many elements that fail are not the shape's fault in any case, where the surface may be at fault: those around one
+/// unlucky edge of it.
 const SINGLE: usize = 8;
 
 /// Whether elements are improved after the mesher.

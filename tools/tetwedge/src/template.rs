@@ -1,7 +1,6 @@
 //! One template: filled, improved, checked, and those that follow it.
 
 use crate::fill::{Filled, fill, finish};
-use crate::follow::{Followed, follower};
 use crate::judge::{EASING, Verdict, improves};
 use mesher::{Answer, Asks, Climb, Deadline, Error, Judged, Log, Params, Rung, Sizes, TetGen};
 use tmesh::Document;
@@ -50,57 +49,61 @@ pub struct Done {
     pub failed: usize,
     /// How far the elements are from what was asked for.
     pub verdict: Verdict,
-    /// Templates that share faces with this one, if they were meshed while it was finished.
-    pub followed: Vec<Followed>,
 }
 
-/// Meshes a template, at first with the bounds eased if improvement can mend that; followers, too, if it is done at the
-/// first attempt and there are threads for it.
+/// Meshes a template, at first with the bounds eased if improvement can mend that. What it shares with others is settled
+/// before it is improved: where there are threads, `beside` works on that at the same time, and what it makes of
+/// the first attempt that is taken is returned.
 ///
 /// # Errors
 /// See [`Error`].
-pub fn template(climb: &Climb<'_>, followers: &[usize]) -> Result<Done, Error> {
+pub fn template<B: Send>(
+    climb: &Climb<'_>,
+    beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
+) -> Result<(Done, Option<B>), Error> {
     let asks = match improves(climb.params) {
         true => Asks::Eased(EASING),
         false => Asks::AsWished,
     };
-    let take = |answer| {
-        let done = done(climb, followers, answer)?;
+    let take = |answer: Answer| {
+        let beside = beside.filter(|_| !answer.again && rayon::current_num_threads() > 1);
+        let (done, made) = done(climb, answer, beside)?;
         let short = match done.advice {
             Some(_) => None,
             None => done.verdict.short_of(climb.params),
         };
-        Ok(Judged { made: done, short })
+        Ok(Judged {
+            made: (done, made),
+            short,
+        })
     };
-    let better = |eased: &Done, tight: &Done| tight.verdict.is_worth_it(&eased.verdict);
-    climb.climb(asks, take, better)
+    climb.climb(asks, take, |(eased, _), (tight, _)| {
+        tight.verdict.is_worth_it(&eased.verdict)
+    })
 }
 
-/// Makes a filled template of the mesher's answer. What it shares with followers is settled before it is improved:
-/// where there are threads, they are meshed at the same time.
-fn done(climb: &Climb<'_>, followers: &[usize], answer: Answer) -> Result<Done, Error> {
+/// Makes a filled template of the mesher's answer.
+fn done<B: Send>(
+    climb: &Climb<'_>,
+    answer: Answer,
+    beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
+) -> Result<(Done, Option<B>), Error> {
     let say = |text: &str| (climb.log)(&format!("template {}: {text}", climb.template));
     let (mut filled, origin) = fill(climb.document, climb.template, &answer)?;
-    let parallel = rayon::current_num_threads() > 1 && !followers.is_empty() && !answer.again;
-    let followed = if parallel {
-        let surface = filled.shared_surface();
-        let job = Job {
-            document: climb.document,
-            params: climb.params,
-            sizes: climb.sizes,
-            log: climb.log,
-        };
-        let follow = || {
-            let each = followers.iter();
-            each.map(|&i| (i, follower(&job, i, &surface))).collect()
-        };
-        let (followed, finished) =
-            rayon::join(follow, || finish(climb, &answer.plc, &mut filled, &origin));
-        finished?;
-        followed
-    } else {
-        finish(climb, &answer.plc, &mut filled, &origin)?;
-        Vec::new()
+    let made = match beside {
+        Some(beside) => {
+            let surface = filled.shared_surface();
+            let (made, finished) = rayon::join(
+                || beside(&surface),
+                || finish(climb, &answer.plc, &mut filled, &origin),
+            );
+            finished?;
+            Some(made)
+        }
+        None => {
+            finish(climb, &answer.plc, &mut filled, &origin)?;
+            None
+        }
     };
     if let Some(done) = filled.improved {
         say(&format!(
@@ -120,13 +123,13 @@ fn done(climb: &Climb<'_>, followers: &[usize], answer: Answer) -> Result<Done, 
             filled.dropped
         ));
     }
-    Ok(Done {
+    let done = Done {
         verdict: Verdict::new(filled.improved, filled.template.tets.len(), &answer),
         filled,
         switches: answer.mesh.told().to_owned(),
         preserved: answer.plc.faces.preserve(),
         failed: answer.failed,
         advice: answer.advice,
-        followed,
-    })
+    };
+    Ok((done, made))
 }

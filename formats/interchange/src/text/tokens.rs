@@ -6,7 +6,8 @@ use crate::ReadError;
 use glam::DVec3;
 use std::io::BufRead;
 
-/// Bytes that a short line has at most.
+/// Bytes that a short line has at most: three numbers of 24 characters and blanks, with room. Longer
+/// lines are read all the same, each time anew.
 const SHORT: usize = 256;
 
 /// Words of a text, separated by white space.

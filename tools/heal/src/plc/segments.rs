@@ -4,6 +4,12 @@ use geom::tree::pairs;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+/// Pairs of a segment and a node with meeting boxes that are compared at most: so many for each segment and
+/// node, and [`PAIRS`]. Sound files have a few each; without a limit, a damaged one takes quadratic time.
+const PAIRS_EACH: u64 = 1000;
+/// Pairs that are always compared: a second's work.
+const PAIRS: u64 = 10_000_000;
+
 /// For segments on which other segments' nodes lie, to within `tolerance`: the chain of nodes they
 /// become, from the lower to the higher node id. `None` when far too many segments and nodes are
 /// close to each other.
@@ -30,7 +36,7 @@ pub fn split_segments(
     let count = all.len() as u32;
     let group = |t: u32| u32::from(t < count);
     let mut on: FxHashMap<u32, Vec<(f64, u32)>> = FxHashMap::default();
-    let mut left = 1000 * (all.len() + nodes.len()) as u64 + 10_000_000;
+    let mut left = PAIRS_EACH * (all.len() + nodes.len()) as u64 + PAIRS;
     pairs(of_segments.chain(of_nodes), group, |s, t| {
         let (segment, node) = (s.min(t), nodes[(s.max(t) - count) as usize]);
         let [a, b] = all[segment as usize];

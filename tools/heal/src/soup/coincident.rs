@@ -90,7 +90,8 @@ struct Candidate {
     triangle: u32,
 }
 
-/// Around edges with more triangles than this, all count as candidates.
+/// Around edges with more triangles than this, all count as candidates: comparing them in pairs would
+/// take quadratic time, and candidates are compared once more anyway.
 const CROWD: usize = 16;
 
 /// Triangles with an edge that has another triangle with the same apex, of the same solid unless

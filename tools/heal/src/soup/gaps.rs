@@ -10,8 +10,12 @@ use glam::DVec3;
 use interchange::text::counted;
 
 /// Points that differ by this many roundings of the largest coordinate are joined where the surface
-/// would stay open otherwise.
+/// would stay open otherwise: each of the two was rounded when it was computed and when it was written.
 const ROUNDINGS: f64 = 4.0;
+
+/// Gaps are no longer than this share of the shortest edge along them. A larger share would let the
+/// closing of a gap fold triangles over.
+const SMALL: f64 = 0.1;
 
 /// Gaps that are closed where that closes the whole surface, as shares of its size.
 const GAPS: [f64; 4] = [1e-7, 1e-6, 1e-5, 1e-4];
@@ -44,7 +48,7 @@ pub fn close_gaps(
         let shortest = lengths.first().copied().unwrap_or(0.0);
         for share in GAPS {
             let gap = share * size;
-            if gap <= rounding || gap > 0.1 * shortest {
+            if gap <= rounding || gap > SMALL * shortest {
                 continue;
             }
             if let Some((count, triangles)) = joined(surface, &ends, gap)

@@ -4,7 +4,8 @@ use super::surface::Surface;
 use geom::edges::Edges;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Rounds of flips at most; caps that lean on each other take one each.
+/// Rounds of flips at most: caps that lean on each other take one each, and stacks of more than a few
+/// are not seen. Those left are kept as they are.
 const ROUNDS: usize = 8;
 
 /// Removes triangles that are no higher than `rounding` above their longest edge. Returns how many

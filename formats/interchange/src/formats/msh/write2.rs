@@ -43,26 +43,7 @@ pub fn write(
     write_comments(mesh, &mut sink)?;
     write_names(mesh, &tags, &mut sink)?;
 
-    sink.text(&format!("$Nodes\n{}\n", mesh.point_count()))?;
-    let mut next = 1_u32;
-    mesh.points(&mut |points| {
-        for p in points {
-            if ascii {
-                sink.write_fmt(format_args!("{next} {:?} {:?} {:?}\n", p.x, p.y, p.z))?;
-            } else {
-                sink.bytes(&next.to_le_bytes())?;
-                sink.points(Order::Little, std::slice::from_ref(p))?;
-            }
-            next += 1;
-        }
-        Ok(())
-    })?;
-    sink.text(if ascii {
-        "$EndNodes\n"
-    } else {
-        "\n$EndNodes\n"
-    })?;
-
+    write_nodes(mesh, ascii, &mut sink)?;
     sink.text(&format!("$Elements\n{elements}\n"))?;
     let mut elements = Elements {
         sink: &mut sink,
@@ -103,6 +84,28 @@ pub fn write(
     })?;
     write_periodic(mesh, &tags, &mut sink)?;
     Ok(sink.finish()?)
+}
+
+fn write_nodes(mesh: &dyn MeshStream, ascii: bool, sink: &mut ByteSink<'_>) -> io::Result<()> {
+    sink.text(&format!("$Nodes\n{}\n", mesh.point_count()))?;
+    let mut next = 1_u32;
+    mesh.points(&mut |points| {
+        for p in points {
+            if ascii {
+                sink.write_fmt(format_args!("{next} {:?} {:?} {:?}\n", p.x, p.y, p.z))?;
+            } else {
+                sink.bytes(&next.to_le_bytes())?;
+                sink.points(Order::Little, std::slice::from_ref(p))?;
+            }
+            next += 1;
+        }
+        Ok(())
+    })?;
+    sink.text(if ascii {
+        "$EndNodes\n"
+    } else {
+        "\n$EndNodes\n"
+    })
 }
 
 pub fn size_estimate(mesh: &dyn MeshStream, options: &WriteOptions) -> u64 {

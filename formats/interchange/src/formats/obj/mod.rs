@@ -8,11 +8,15 @@ use rustc_hash::FxHashMap;
 use std::io::{self, BufRead, Read};
 use tobj::{LoadError, LoadOptions};
 
+/// Lines that sniffing looks at: a vertex comes behind comments and names of materials, of which files have
+/// a few dozen at most. Without a limit, a long text would be searched to its end.
+const LOOKED_AT: usize = 200;
+
 /// Whether the bytes begin like a file of this format: no magic word exists, so this looks for
 /// its statements.
 pub fn looks_like(head: &[u8]) -> bool {
     let mut vertices = 0;
-    for line in head.split(|&b| b == b'\n').take(200) {
+    for line in head.split(|&b| b == b'\n').take(LOOKED_AT) {
         let mut words = line
             .split(u8::is_ascii_whitespace)
             .filter(|w| !w.is_empty());

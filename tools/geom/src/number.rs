@@ -1,7 +1,7 @@
 //! Numbers as people read them, in messages, tables and pictures. Files get all digits, from their writers.
 
 /// Significant digits: what distinguishes two meshes of a million elements, and what a person compares at a glance.
-const DIGITS: i32 = 6;
+const DIGITS: usize = 6;
 
 /// Powers of ten of the leading digit for which plain notation is used: a choice. Within it either notation takes at
 /// most eleven characters, which is what the columns of tables are made for, and beyond it the padding zeros of plain
@@ -11,21 +11,26 @@ const PLAIN: std::ops::Range<i32> = -4..7;
 /// A number with six significant digits and without trailing zeros, in plain notation from 1e-4 to below 1e7 (there
 /// with its whole part), else in scientific notation.
 pub fn number(x: f64) -> String {
+    significant(x, DIGITS)
+}
+
+/// The same with so many significant digits, at least one.
+pub fn significant(x: f64, digits: usize) -> String {
     if x == 0.0 || !x.is_finite() {
         // No minus before zero.
         return format!("{}", x + 0.0).to_lowercase();
     }
-    let scientific = format!("{x:.*e}", DIGITS as usize - 1);
-    let Some((digits, exponent)) = scientific.split_once('e') else {
+    let scientific = format!("{x:.*e}", digits - 1);
+    let Some((mantissa, exponent)) = scientific.split_once('e') else {
         return scientific;
     };
     // The exponent after rounding: 999999.7 has seven digits.
     match exponent.parse::<i32>() {
         Ok(power) if PLAIN.contains(&power) => {
-            let decimals = (DIGITS - 1 - power).max(0) as usize;
+            let decimals = (digits as i32 - 1 - power).max(0) as usize;
             trimmed(&format!("{x:.decimals$}")).to_owned()
         }
-        _ => format!("{}e{exponent}", trimmed(digits)),
+        _ => format!("{}e{exponent}", trimmed(mantissa)),
     }
 }
 
