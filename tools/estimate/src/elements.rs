@@ -7,7 +7,7 @@ use crate::model::CostModel;
 use crate::samples::thinned;
 use crate::section::{SectionTriangle, sections};
 use crate::steep::steep;
-use crate::ways::{Cut, Way};
+use crate::way::{Cut, Way};
 use crate::wedge::{Wedge, edge_of_volume};
 use glam::DVec2;
 use std::f64::consts::TAU;

@@ -19,11 +19,13 @@ mod piece;
 mod samples;
 mod section;
 mod steep;
+mod way;
 mod ways;
 mod wedge;
 
 pub use elements::{Estimate, Terms};
 pub use model::{Accepted, CostModel};
 pub use needles::needles;
-pub use ways::{Bounds, Cut, Hubs, Way, Ways};
+pub use way::{Cut, Way};
+pub use ways::{Bounds, Hubs, Ways};
 pub use wedge::{Wedge, edge_of_volume};

@@ -717,3 +717,18 @@ fn antiprisms_and_rotary_reflections_get_all_copies() {
     check(&body, &of_order(2), 8);
     check(&body, &of_order(3), 6);
 }
+
+#[test]
+fn a_start_angle_that_no_half_turn_has_gives_a_seam() {
+    let mut body = Body::regular(4, &[1.0]);
+    body.heights = vec![0.0; 9];
+    body.twist = 0.8;
+    let body = turned_over(body, Kind::D, 4, None);
+    for (degrees, copies) in [(45.0_f64, 8), (33.3, 4)] {
+        let params = Params {
+            start_angle: Some(degrees.to_radians()),
+            ..of_order(4)
+        };
+        check(&body, &params, copies);
+    }
+}

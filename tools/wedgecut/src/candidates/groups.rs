@@ -1,5 +1,6 @@
 //! The subgroups that are wanted.
 
+use super::places::Places;
 use crate::body::Body;
 use crate::cell::{HUB_LEAST_ORDER, may_have_hub};
 use crate::cutting::Candidate;
@@ -45,7 +46,9 @@ impl Groups {
         }
         let mut groups = Self {
             plain: if mirrors { Kind::Cv } else { Kind::C },
-            over: over(found.kind, mirrors, params.domain).filter(|_| keeps_names(body)),
+            over: over(found.kind, mirrors, params.domain)
+                .filter(|kind| *kind != Kind::D || Places::has_half_turn(body))
+                .filter(|_| keeps_names(body)),
             orders: Vec::new(),
             found,
         };

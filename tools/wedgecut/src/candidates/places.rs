@@ -76,6 +76,11 @@ impl Places {
         Ok(Some(steps as i64))
     }
 
+    /// Whether the angle asked for, if one is, is that of a half turn's axis: seams may be anywhere.
+    pub fn has_half_turn(body: &Body<'_>) -> bool {
+        Self::asked(body).is_ok()
+    }
+
     /// Whether planes at odd multiples of half a step are others than those at even ones, and may be chosen.
     fn has_choice(body: &Body<'_>, group: Group) -> bool {
         let found = body.symmetry.group.order;
