@@ -1,6 +1,6 @@
 //! The document model.
 
-use crate::{Frame, Gluing, Isometry, Promise, Search, Symmetry, Wishes};
+use crate::{Frame, Gluing, Isometry, Promise, RegionMap, Search, Symmetry, Wishes};
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -64,24 +64,6 @@ pub struct Instance {
     pub isometry: Isometry,
     /// Index into [`Document::region_maps`] plus one; 0 leaves region ids as they are.
     pub region_map: u32,
-}
-
-/// A renaming of regions that an instance applies to its template: (from, to) pairs, increasing in
-/// `from`; regions not listed keep their id.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct RegionMap {
-    /// The pairs.
-    pub pairs: Vec<[u32; 2]>,
-}
-
-impl RegionMap {
-    /// Where a region goes.
-    pub fn get(&self, region: u32) -> u32 {
-        match self.pairs.binary_search_by_key(&region, |p| p[0]) {
-            Ok(i) => self.pairs[i][1],
-            Err(_) => region,
-        }
-    }
 }
 
 /// A material.

@@ -9,11 +9,9 @@ mod codec;
 mod document;
 mod error;
 mod faces;
-mod fixed;
-mod frame;
 mod gluing;
-mod group;
-mod isometry;
+mod isometries;
+mod region_map;
 mod symmetry;
 mod validate;
 mod violation;
@@ -24,15 +22,14 @@ pub use codec::{
     read_with_chunks, write, write_instances, write_metadata,
 };
 pub use document::{
-    Document, HistoryEntry, Instance, Marker, OUTSIDE, Region, RegionMap, Source, Template, Tet,
-    Triangle,
+    Document, HistoryEntry, Instance, Marker, OUTSIDE, Region, Source, Template, Tet, Triangle,
 };
 pub use error::DecodeError;
-pub use fixed::FixedSet;
-pub use frame::Frame;
 pub use gluing::{Gluing, Plane};
-pub use group::{Group, Kind, NotAGroup};
-pub use isometry::{Isometry, MAX_TURN_DENOMINATOR, Placed};
+pub use isometries::{
+    FixedSet, Frame, Group, Isometry, Kind, MAX_TURN_DENOMINATOR, NotAGroup, Placed,
+};
+pub use region_map::RegionMap;
 pub use symmetry::{Axis, OtherAxis, Outside, Promise, RejectedOrder, Search, Symmetry};
 pub use validate::validate;
 pub use violation::Violation;

@@ -1,6 +1,6 @@
 //! Invariants of a document, in one place for decoder, tests and `meshqual --check`.
 
-use crate::isometry::lcm;
+use crate::isometries::lcm;
 use crate::{
     Document, Gluing, Instance, Isometry, MAX_TURN_DENOMINATOR, OUTSIDE, Plane, Promise, Symmetry,
     Template, Violation,

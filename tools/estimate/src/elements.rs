@@ -1,12 +1,12 @@
 //! The number of elements of a body and of the ways to cut it.
 
-use crate::classes::Classes;
 use crate::features::{Outline, edge_samples};
-use crate::integral::{FINEST, Integral, Part};
 use crate::model::CostModel;
-use crate::samples::thinned;
-use crate::section::{SectionTriangle, sections};
 use crate::steep::steep;
+use crate::sum::classes::Classes;
+use crate::sum::integral::{FINEST, Integral, Part};
+use crate::sum::samples::thinned;
+use crate::sum::section::{SectionTriangle, sections};
 use crate::way::{Cut, Way};
 use crate::wedge::{Wedge, edge_of_volume};
 use glam::DVec2;

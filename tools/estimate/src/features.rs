@@ -1,7 +1,7 @@
 //! Sizes that the edges of the body and the thickness of its parts ask for.
 
-use crate::samples::Sample;
-use crate::section::{SectionTriangle, flat};
+use crate::sum::samples::Sample;
+use crate::sum::section::{SectionTriangle, flat};
 use crate::wedge::Wedge;
 use geom::edges::Edges;
 use glam::DVec2;

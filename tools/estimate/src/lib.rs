@@ -8,17 +8,13 @@
 //!
 //! Every coefficient is a field of [`CostModel`]; `make calibrate` measures them.
 
-mod classes;
 mod elements;
 mod features;
 pub mod harm;
-mod integral;
 mod model;
 mod needles;
-mod piece;
-mod samples;
-mod section;
 mod steep;
+mod sum;
 mod way;
 mod ways;
 mod wedge;

@@ -134,15 +134,14 @@ impl Shape {
         target: &Target,
         within: f64,
     ) -> Option<Nearest> {
-        self.near_enough(image, triangle, target, within, 0.0)
+        self.near_enough((image, triangle), target, within, 0.0)
     }
 
     /// The same, content with any point no farther than `enough`.
     #[inline]
     pub fn near_enough(
         &self,
-        image: DVec3,
-        triangle: u32,
+        (image, triangle): (DVec3, u32),
         target: &Target,
         within: f64,
         enough: f64,

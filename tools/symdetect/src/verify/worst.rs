@@ -19,7 +19,7 @@ impl Shape {
         let image = operation.motion.apply(sample.point);
         let enough = ARITHMETIC.min(0.1 * bound.limit);
         let find =
-            |within| self.near_enough(image, sample.triangle, &operation.target, within, enough);
+            |within| self.near_enough((image, sample.triangle), &operation.target, within, enough);
         // A little beyond the bound, so that what is found within it is found exactly.
         if let Some(n) = find(1.01 * bound.most()) {
             let passes = n.distance <= bound.limit

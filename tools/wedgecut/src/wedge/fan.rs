@@ -84,7 +84,7 @@ pub struct Joint {
 impl Joint {
     /// Names the vertex `v` of image `j` as `id` if it has no name yet; gives its name, and whether
     /// it is the new one.
-    pub fn name(&mut self, fan: &Fan, lies: Lies, v: u32, j: u32, id: u32) -> (u32, bool) {
+    pub fn name(&mut self, fan: &Fan, lies: Lies, [v, j]: [u32; 2], id: u32) -> (u32, bool) {
         let slot = match lies {
             Lies::Axis => 0,
             Lies::Between => j,
@@ -120,7 +120,7 @@ mod tests {
                 let high_name = u32::from(mirror);
                 for (lies, v, p) in [(Lies::Low, 0, low), (Lies::High, high_name, high)] {
                     let image = fan.image(j).apply(p);
-                    let (id, new) = joint.name(&fan, lies, v, j, at.len() as u32);
+                    let (id, new) = joint.name(&fan, lies, [v, j], at.len() as u32);
                     if new {
                         at.push(image);
                     }

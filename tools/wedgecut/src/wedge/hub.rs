@@ -95,7 +95,7 @@ impl Maker<'_> {
             _ => (Lies::Between, v, p),
         };
         let next = self.template.vertices.len() as u32;
-        let (id, new) = self.joint.name(&self.fan, lies, v, j, next);
+        let (id, new) = self.joint.name(&self.fan, lies, [v, j], next);
         if new {
             let image = self.position(p, lies, j);
             if lies == Lies::Axis {

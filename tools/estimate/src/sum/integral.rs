@@ -3,9 +3,9 @@
 //! The section's triangles are halved until they are no larger than the elements wanted there, each piece
 //! with the samples of sizes that matter in it.
 
-use crate::classes::{Classes, RADII, SIZES};
-use crate::piece::Piece;
-use crate::samples::{Sample, useful};
+use crate::sum::classes::{Classes, RADII, SIZES};
+use crate::sum::piece::Piece;
+use crate::sum::samples::{Sample, useful};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
