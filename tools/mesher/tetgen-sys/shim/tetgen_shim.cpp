@@ -23,7 +23,8 @@ namespace {
 // Exit status of a child that could not even begin.
 const int CANNOT_BEGIN = 125;
 
-// Exit status of a child that did not survive that its memory is limited.
+// Exit status of a child that did not survive that its memory is limited, or that has no room left to
+// say how it ended.
 const int OUT_OF_MEMORY = 124;
 
 // Copies the input into the structures TetGen frees with delete[].
@@ -65,7 +66,7 @@ const int RESULT = 3;
   fflush(stdout);
   const bool written = write_result(RESULT, code, output) ||
                        write_result(RESULT, TETGEN_SHIM_NO_SPACE, nullptr);
-  _exit(written ? 0 : CANNOT_BEGIN);
+  _exit(written ? 0 : OUT_OF_MEMORY);
 }
 
 // Runs when an exception finds no handler, before any destructor.

@@ -149,8 +149,9 @@ impl Child {
                 error: ErrorKind::Other.into(),
             });
         }
-        if let (ffi::OUT_OF_MEMORY, Some(limit)) = (exit, self.memory) {
-            return Err(Error::MemoryLimit(limit));
+        if exit == ffi::OUT_OF_MEMORY {
+            let failed = Error::Failed(Failure::OutOfMemory);
+            return Err(self.memory.map_or(failed, Error::MemoryLimit));
         }
         match Mesh::new(&self.result)? {
             Some((mesh, 0)) if exit == 0 => Ok(mesh),
