@@ -38,6 +38,9 @@ pub struct Faces {
     pub planes: Vec<Upright>,
     /// Of each wall, whether the template meets its own images there.
     own: Vec<bool>,
+    /// Whether the surface has edges that copies share by a step that moves them. Where the body only touches a wall,
+    /// there is no triangle of the wall to tell, and edges that were divided would have no partner.
+    shares_edges: bool,
 }
 
 impl Faces {
@@ -82,12 +85,13 @@ impl Faces {
             own: (template.gluings.iter())
                 .map(|gluing| gluing.other_than(index).is_none())
                 .collect(),
+            shares_edges: shares_edges(template, index),
         }
     }
 
     /// Whether anything must be preserved.
     pub fn preserve(&self) -> bool {
-        self.preserved.contains(&true)
+        self.shares_edges || self.preserved.contains(&true)
     }
 
     /// Whether a face, by its key, is one where the template meets its own images.
@@ -95,6 +99,24 @@ impl Faces {
         let wall = face.checked_sub(1).map(|k| k as usize / 2);
         wall.is_some_and(|w| self.own.get(w) == Some(&true))
     }
+}
+
+/// Whether the surface has an edge on a face that is glued to another one of the template. Edges on the axis count
+/// only if the step does not leave them in place: those that it does may be divided, each point being its own partner.
+fn shares_edges(template: &Template, own: usize) -> bool {
+    let mut gluings = template.gluings.iter().filter(|gluing| gluing.is_seam(own));
+    gluings.any(|gluing| {
+        let mut on = vec![false; template.vertices.len()];
+        gluing.vertices_of(own).for_each(|v| on[v as usize] = true);
+        if FixedSet::of(gluing.step) == FixedSet::Axis {
+            template.axis.iter().for_each(|&v| on[v as usize] = false);
+        }
+        let mut triangles = template.triangles.iter();
+        triangles.any(|t| {
+            let shared = t.vertices.iter().filter(|&&v| on[v as usize]);
+            shared.count() > 1
+        })
+    })
 }
 
 /// Planes through the axis that contain faces of a template's walls, each with its vertices: a mirror's own, that of both
@@ -115,4 +137,47 @@ fn planes(template: &Template, own: usize) -> Vec<Upright> {
             FixedSet::Horizontal | FixedSet::All => None,
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use tmesh::{Gluing, Isometry, OUTSIDE, Triangle};
+
+    /// A tetrahedron of which an edge, between its first two vertices, lies on a wall.
+    fn touching(edge: [DVec3; 2], gluing: Gluing, axis: &[u32]) -> Document {
+        let apexes = [0.2, -0.2].map(|z| 0.5 * (edge[0] + edge[1]) + DVec3::new(0.4, 0.3, z));
+        let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+        Document::single(Template {
+            vertices: edge.into_iter().chain(apexes).collect(),
+            triangles: faces
+                .map(|vertices| Triangle {
+                    vertices,
+                    marker: 0,
+                    front: OUTSIDE,
+                    back: 1,
+                })
+                .to_vec(),
+            gluings: vec![gluing],
+            axis: axis.to_vec(),
+            ..Template::default()
+        })
+    }
+
+    #[test]
+    fn edges_that_only_touch_a_half_turn_wall_are_not_divided() {
+        let itself = [[0, 0], [1, 1]];
+        let radial = [DVec3::X, 2.0 * DVec3::X];
+        let turn = Gluing::seam("turn-a", 0, Isometry::half_turn(0, 1), itself, []);
+        let mirror = Gluing::mirror("wall-a", 0, Isometry::MIRROR, [0, 1], []);
+        assert!(Faces::new(&touching(radial, turn, &[]), 0).preserve());
+        assert!(!Faces::new(&touching(radial, mirror, &[]), 0).preserve());
+        // Points of the axis stay in place under a rotation, but not under what turns the axis over.
+        let along = [-DVec3::Z, DVec3::Z];
+        let seam = Gluing::seam("seam", 0, Isometry::rotation(1, 3), itself, []);
+        assert!(!Faces::new(&touching(along, seam, &[0, 1]), 0).preserve());
+        let turn = Gluing::seam("turn-a", 0, Isometry::half_turn(0, 1), [[0, 1], [1, 0]], []);
+        assert!(Faces::new(&touching(along, turn, &[0, 1]), 0).preserve());
+    }
 }
