@@ -130,3 +130,36 @@ fn a_wheel_without_mirror_planes_through_the_axis_is_halved() {
         is_meshed_in_copies(wheel.build(), 24);
     }
 }
+
+/// The wedge of a random body, at a size of elements.
+fn wedge_of(seed: u64, options: &[&str]) -> Vec<u8> {
+    let solid = bodies::random_solid::solid(seed);
+    let found = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    run("wedgecut", &[&["-q"], options].concat(), &found).success()
+}
+
+/// Walls on the half turns' axes cut slivers off this body of D7, which cost hundreds of times its elements.
+#[test]
+fn half_turns_whose_walls_cut_slivers_are_given_up() {
+    let wedge = wedge_of(1861, &["--order", "7", "--max-volume", "7.484e8"]);
+    let document = tmesh::read(wedge.as_slice()).expect("it is sound");
+    assert_eq!(document.instances.len(), 7);
+}
+
+/// This body of D4 meets two half-turn walls in edges only, which the mesher divided, and copies were not welded there.
+#[test]
+fn bodies_that_touch_a_half_turn_wall_are_welded_there() {
+    let wedge = wedge_of(1939, &["--max-volume", "3.076e-12"]);
+    let document = tmesh::read(wedge.as_slice()).expect("it is sound");
+    let gluings = &document.templates[0].gluings;
+    assert!(
+        gluings
+            .iter()
+            .all(|gluing| gluing.triangle_pairs.is_empty())
+    );
+    let surface = run("periodic-surf", &["-q"], &wedge).success();
+    let meshed = run("tetwedge", &["-q"], &surface).success();
+    run("meshqual", &["-q", "--check"], &meshed).success();
+    let whole = run("rotassemble", &["-q", "--to", "tmesh"], &meshed).success();
+    run("meshqual", &["-q", "--check"], &whole).success();
+}

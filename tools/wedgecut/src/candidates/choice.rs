@@ -1,7 +1,7 @@
 //! The order in which candidates are tried: what is cheapest to mesh first.
 
 use super::groups::Groups;
-use super::places::Places;
+use super::places::{Places, UNASKED};
 use crate::body::Body;
 use crate::cell::{hub_order, may_have_hub, opening};
 use crate::cutting::{Candidate, Cut};
@@ -25,19 +25,20 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let max_volume = |region| body.max_volume(region);
     let model = CostModel::CALIBRATED;
     let estimate = Estimate::new(model, &wedge, needles, max_volume, body.params.threads);
-    // Half turns and rotary reflections are used wherever they can be; only a narrow wedge may do better with a hub.
-    let may_choose = match body.params.hub {
-        Hub::Auto => body.params.order.is_none(),
-        Hub::None => false,
-        Hub::Radius(_) => true,
+    // Half turns and rotary reflections are used wherever they can be without slicing the surface to slivers; only a
+    // narrow wedge may do better with a hub.
+    let may_choose = body.params.order.is_none() || body.params.hub != Hub::Auto;
+    let kinds_of = |order: u32| {
+        let clean = |g: &Group| g.kind == groups.plain || harm(body, *g, first) <= UNASKED;
+        let kinds: Vec<Group> = groups.at(order).into_iter().filter(clean).collect();
+        let last = kinds.last().copied();
+        let wanted = |g: &Group| {
+            let hub = may_choose && may_have_hub(*g) && estimate.is_narrow(angle(*g));
+            Some(*g) == last || !groups.has_half_turns_or_rotary_reflections() || hub
+        };
+        kinds.into_iter().filter(wanted).collect::<Vec<Group>>()
     };
-    let wanted = |g: &Group| {
-        let is_last = groups.at(g.order).last() == Some(g);
-        let hub = may_choose && may_have_hub(*g) && estimate.is_narrow(angle(*g));
-        is_last || !groups.has_half_turns_or_rotary_reflections() || hub
-    };
-    let kinds = orders.iter().flat_map(|&n| groups.at(n));
-    let kinds: Vec<Group> = kinds.filter(wanted).collect();
+    let kinds: Vec<Group> = orders.iter().flat_map(|&n| kinds_of(n)).collect();
     let cuts: Vec<estimate::Cut> = kinds.iter().map(|&g| describe(body, g, first)).collect();
     let bounds = Bounds {
         radius_edge: body.document.wishes.radius_edge(),
@@ -111,20 +112,28 @@ fn angle(group: Group) -> f64 {
     }
 }
 
+/// What the faces of a group's wedge do to the surface that they slice, for each copy. A seam costs at any order what it
+/// costs at the order of the first wedge.
+fn harm(body: &Body<'_>, group: Group, first: &Cut) -> f64 {
+    let least = || {
+        Places::new(body, group)
+            .ok()?
+            .list
+            .first()
+            .map(|place| place.harm)
+    };
+    match group.kind {
+        Kind::C | Kind::Ch => first.place.harm,
+        Kind::Cv | Kind::Dh => 0.0,
+        Kind::S | Kind::D | Kind::Dd => least().unwrap_or(0.0),
+    }
+}
+
 /// A group's wedge, as the estimate sees it.
 fn describe(body: &Body<'_>, group: Group, first: &Cut) -> estimate::Cut {
     let angle = angle(group);
     let mirrors = group.has_vertical_mirrors();
     let copies = f64::from(group.size());
-    // A seam costs at any order what it costs at the order of the first wedge.
-    let harm = match group.kind {
-        Kind::C | Kind::Ch => first.place.harm,
-        Kind::Cv | Kind::Dh => 0.0,
-        Kind::S | Kind::D | Kind::Dd => Places::new(body, group)
-            .ok()
-            .and_then(|places| Some(places.list.first()?.harm))
-            .unwrap_or(0.0),
-    };
     estimate::Cut {
         order: group.order,
         angle,
@@ -138,7 +147,7 @@ fn describe(body: &Body<'_>, group: Group, first: &Cut) -> estimate::Cut {
             },
         free: matches!(group.kind, Kind::Cv | Kind::Dh),
         across: group.has_horizontal_mirror(),
-        harm: harm * f64::from(group.order),
+        harm: harm(body, group, first) * f64::from(group.order),
         hub: may_have_hub(group),
     }
 }

@@ -21,6 +21,9 @@ const HARMFUL: f64 = 20.0;
 const LESS: f64 = 4.0;
 /// Harm from which it is refused: each copy would get as many elements as a whole body usually has.
 const USELESS: f64 = 2000.0;
+/// Harm from which walls on half turns' axes, which nobody asked for and which cannot be elsewhere, are given up: a tenth
+/// of what is refused where it was asked for.
+pub const UNASKED: f64 = 0.1 * USELESS;
 
 /// Places to try for the wedge of a group, best first.
 pub struct Places {
