@@ -163,3 +163,21 @@ fn bodies_that_touch_a_half_turn_wall_are_welded_there() {
     let whole = run("rotassemble", &["-q", "--to", "tmesh"], &meshed).success();
     run("meshqual", &["-q", "--check"], &whole).success();
 }
+
+/// A cyclic symmetry model would couple the sector with one that is not turned over.
+#[test]
+fn sectors_that_their_neighbours_turn_over_have_no_deck() {
+    for body in [helical_gear(6, 0.3), alternating_wheel(4, 0.3)] {
+        let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();
+        let wedge = run(
+            "wedgecut",
+            &["-q", "--order", &body.order.to_string()],
+            &found,
+        )
+        .success();
+        let meshed = run("tetwedge", &["-q"], &wedge).success();
+        let told = ["is turned over", "wedgecut --domain rotation"];
+        run("rotassemble", &["--sector", "--to", "inp"], &meshed).fails(1, &told);
+        run("rotassemble", &["-q", "--sector", "--to", "msh"], &meshed).success();
+    }
+}

@@ -26,7 +26,8 @@ pub struct Wishes {
     /// Time limit of the mesher for each template, seconds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
-    /// Whether the surface is settled, and the mesher has to keep every triangle of it.
+    /// Whether the faces that copies share have been divided as the elements need, so that their triangles are to
+    /// stay. Mirror walls may be refined all the same.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keep_surface: Option<bool>,
 }
@@ -114,7 +115,7 @@ impl Wishes {
         Duration::try_from_secs_f64(self.timeout?).ok()
     }
 
-    /// Whether the surface has to be kept as it is.
+    /// Whether the faces that copies share have been settled.
     pub fn keep_surface(&self) -> bool {
         self.keep_surface.unwrap_or(false)
     }

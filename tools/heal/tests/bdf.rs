@@ -9,54 +9,27 @@ use glam::DVec3;
 use interchange::Format::Bdf;
 use interchange::{Plain, WriteOptions, second_order, sniff};
 use std::path::Path;
-use tmesh::{Document, Marker, OUTSIDE, Region, Template, Tet, Triangle};
+use tmesh::{Document, OUTSIDE};
 
 /// Two tetrahedra of different regions; a marker has the number of a region.
 fn two_tets() -> Document {
-    let triangle = |vertices, marker, front, back| Triangle {
-        vertices,
-        marker,
-        front,
-        back,
-    };
-    let mut document = Document::single(Template {
-        vertices: vec![
-            DVec3::ZERO,
-            DVec3::X,
-            DVec3::Y,
-            DVec3::Z,
-            DVec3::new(0.1, 1.0 / 3.0, -7e-5 / 3.0),
+    common::two_tets(
+        DVec3::new(0.1, 1.0 / 3.0, -7e-5 / 3.0),
+        [
+            ([0, 1, 3], 2, OUTSIDE, 3),
+            ([1, 2, 3], 2, OUTSIDE, 3),
+            ([0, 3, 2], 2, OUTSIDE, 3),
+            ([0, 2, 1], 3, 7, 3),
+            ([0, 4, 1], 2, OUTSIDE, 7),
+            ([1, 4, 2], 2, OUTSIDE, 7),
+            ([2, 4, 0], 2, OUTSIDE, 7),
         ],
-        triangles: vec![
-            triangle([0, 1, 3], 2, OUTSIDE, 3),
-            triangle([1, 2, 3], 2, OUTSIDE, 3),
-            triangle([0, 3, 2], 2, OUTSIDE, 3),
-            triangle([0, 2, 1], 3, 7, 3),
-            triangle([0, 4, 1], 2, OUTSIDE, 7),
-            triangle([1, 4, 2], 2, OUTSIDE, 7),
-            triangle([2, 4, 0], 2, OUTSIDE, 7),
+        [([0, 1, 2, 3], 3), ([0, 2, 1, 4], 7)],
+        [
+            [(3, "silicon"), (7, "copper alloy")],
+            [(2, "outer"), (3, "bond")],
         ],
-        tets: [([0, 1, 2, 3], 3), ([0, 2, 1, 4], 7)]
-            .map(|(vertices, region)| Tet { vertices, region })
-            .to_vec(),
-        ..Template::default()
-    });
-    document.regions = [(3, "silicon"), (7, "copper alloy")]
-        .map(|(id, name)| Region {
-            id,
-            name: name.to_owned(),
-            max_volume: None,
-            volume: None,
-        })
-        .to_vec();
-    document.markers = [(2, "outer"), (3, "bond")]
-        .map(|(id, name)| Marker {
-            id,
-            name: name.to_owned(),
-            area: None,
-        })
-        .to_vec();
-    document
+    )
 }
 
 fn written(document: &Document) -> Vec<u8> {

@@ -6,63 +6,27 @@ use common::*;
 use glam::DVec3;
 use interchange::Format::{self, Vtk, Vtu};
 use interchange::{promise_title, sniff, write_document};
-use tmesh::{
-    Document, Group, Kind, Marker, OUTSIDE, Outside, Promise, Region, Template, Tet, Triangle,
-};
+use tmesh::{Document, Group, Kind, OUTSIDE, Outside, Promise};
 
 /// Two tetrahedra of different regions, with surface and interface.
 fn two_tets() -> Document {
-    let triangle = |vertices, marker, front, back| Triangle {
-        vertices,
-        marker,
-        front,
-        back,
-    };
-    let mut document = Document::single(Template {
-        vertices: vec![
-            DVec3::ZERO,
-            DVec3::X,
-            DVec3::Y,
-            DVec3::Z,
-            DVec3::new(0.1, 0.2, -0.7),
+    common::two_tets(
+        DVec3::new(0.1, 0.2, -0.7),
+        [
+            ([0, 1, 3], 2, OUTSIDE, 0),
+            ([1, 2, 3], 2, OUTSIDE, 0),
+            ([0, 3, 2], 2, OUTSIDE, 0),
+            ([0, 1, 2], 5, 0, 7),
+            ([0, 4, 1], 2, OUTSIDE, 7),
+            ([1, 4, 2], 2, OUTSIDE, 7),
+            ([2, 4, 0], 2, OUTSIDE, 7),
         ],
-        triangles: vec![
-            triangle([0, 1, 3], 2, OUTSIDE, 0),
-            triangle([1, 2, 3], 2, OUTSIDE, 0),
-            triangle([0, 3, 2], 2, OUTSIDE, 0),
-            triangle([0, 1, 2], 5, 0, 7),
-            triangle([0, 4, 1], 2, OUTSIDE, 7),
-            triangle([1, 4, 2], 2, OUTSIDE, 7),
-            triangle([2, 4, 0], 2, OUTSIDE, 7),
+        [([0, 1, 2, 3], 0), ([0, 2, 1, 4], 7)],
+        [
+            [(0, "silicon"), (7, "copper alloy")],
+            [(2, "outer"), (5, "bond")],
         ],
-        tets: vec![
-            Tet {
-                vertices: [0, 1, 2, 3],
-                region: 0,
-            },
-            Tet {
-                vertices: [0, 2, 1, 4],
-                region: 7,
-            },
-        ],
-        ..Template::default()
-    });
-    document.regions = [(0, "silicon"), (7, "copper alloy")]
-        .map(|(id, name)| Region {
-            id,
-            name: name.to_owned(),
-            max_volume: None,
-            volume: None,
-        })
-        .to_vec();
-    document.markers = [(2, "outer"), (5, "bond")]
-        .map(|(id, name)| Marker {
-            id,
-            name: name.to_owned(),
-            area: None,
-        })
-        .to_vec();
-    document
+    )
 }
 
 fn written(document: &Document, format: Format) -> Vec<u8> {

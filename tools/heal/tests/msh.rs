@@ -1,59 +1,34 @@
 //! Gmsh's files: those written here, those of other programs, and damaged ones.
 
+mod common;
+
 use bodies::Dice;
 use bodies::files::damaged;
 use glam::DVec3;
 use heal::read;
 use interchange::{Format, Plain, WriteOptions, sniff};
 use std::collections::BTreeMap;
-use tmesh::{Document, Marker, OUTSIDE, Region, Template, Tet, Triangle};
+use tmesh::{Document, OUTSIDE};
 
 /// Two tetrahedra of different regions, with surface and interface, part of it without a marker.
 fn two_tets() -> Document {
-    let triangle = |vertices, marker, front, back| Triangle {
-        vertices,
-        marker,
-        front,
-        back,
-    };
-    let mut document = Document::single(Template {
-        vertices: vec![
-            DVec3::ZERO,
-            DVec3::X,
-            DVec3::Y,
-            DVec3::Z,
-            DVec3::new(0.1, 0.2, -0.7),
+    common::two_tets(
+        DVec3::new(0.1, 0.2, -0.7),
+        [
+            ([0, 1, 3], 2, OUTSIDE, 3),
+            ([1, 2, 3], 2, OUTSIDE, 3),
+            ([0, 3, 2], 2, OUTSIDE, 3),
+            ([0, 2, 1], 5, 7, 3),
+            ([0, 4, 1], 2, OUTSIDE, 7),
+            ([1, 4, 2], OUTSIDE, OUTSIDE, 7),
+            ([2, 4, 0], 2, OUTSIDE, 7),
         ],
-        triangles: vec![
-            triangle([0, 1, 3], 2, OUTSIDE, 3),
-            triangle([1, 2, 3], 2, OUTSIDE, 3),
-            triangle([0, 3, 2], 2, OUTSIDE, 3),
-            triangle([0, 2, 1], 5, 7, 3),
-            triangle([0, 4, 1], 2, OUTSIDE, 7),
-            triangle([1, 4, 2], OUTSIDE, OUTSIDE, 7),
-            triangle([2, 4, 0], 2, OUTSIDE, 7),
+        [([0, 1, 2, 3], 3), ([0, 2, 1, 4], 7)],
+        [
+            [(3, "silicon"), (7, "copper alloy")],
+            [(2, "outer"), (5, "bond")],
         ],
-        tets: [([0, 1, 2, 3], 3), ([0, 2, 1, 4], 7)]
-            .map(|(vertices, region)| Tet { vertices, region })
-            .to_vec(),
-        ..Template::default()
-    });
-    document.regions = [(3, "silicon"), (7, "copper alloy")]
-        .map(|(id, name)| Region {
-            id,
-            name: name.to_owned(),
-            max_volume: None,
-            volume: None,
-        })
-        .to_vec();
-    document.markers = [(2, "outer"), (5, "bond")]
-        .map(|(id, name)| Marker {
-            id,
-            name: name.to_owned(),
-            area: None,
-        })
-        .to_vec();
-    document
+    )
 }
 
 fn written(document: &Document, format: Format, ascii: bool) -> Vec<u8> {

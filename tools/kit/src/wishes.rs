@@ -1,6 +1,7 @@
 //! What is asked of the elements on the command line, by every tool that meshes or prepares for it.
 
 use crate::Failure;
+use geom::tet::REGULAR_RADIUS_EDGE;
 use tmesh::{Document, Size, Wishes};
 
 /// Bounds and sizes of elements. What is not given is inherited from the tools before.
@@ -55,9 +56,6 @@ struct RegionSize {
 /// Dihedral angle of the regular tetrahedron, degrees, arccos(1/3): no tetrahedron's smallest one is
 /// larger, nor its largest one smaller.
 const REGULAR_DIHEDRAL: f64 = 70.528_779_365_509_31;
-
-/// Ratio of circumradius to edge of the regular tetrahedron, sqrt(6)/4: no tetrahedron's is smaller.
-const REGULAR_RADIUS_EDGE: f64 = 0.612_372_435_695_794_5;
 
 impl WishArgs {
     /// The wishes of the command line alone.

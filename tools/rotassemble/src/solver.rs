@@ -46,7 +46,8 @@ pub struct Conditions {
 ///
 /// # Errors
 /// Sectors whose deck would be that of another body: with a column around the axis that has a symmetry
-/// of its own, coupled by operations that turn the axis over, or halved at a mirror plane with nothing wished for it. Wishes for walls that there are not.
+/// of its own, coupled by operations that turn the axis over, or halved at a mirror plane with nothing
+/// wished for it. Wishes for walls that there are not.
 pub fn conditions(mesh: &dyn MeshStream, wishes: &[MirrorWish]) -> Result<Conditions, Failure> {
     let names = mesh.wall_names();
     let mirrors: Vec<usize> = (0..names.len())

@@ -343,7 +343,7 @@ fn list_wishes(wishes: &Wishes, text: &mut String) {
         }),
     );
     add(
-        "surface kept",
+        "shared faces settled",
         wishes.keep_surface.map(|k| yes(k).to_owned()),
     );
     if !lines.is_empty() {

@@ -4,8 +4,49 @@
 
 pub mod samples;
 
+use glam::DVec3;
 use heal::{Imported, read};
 use interchange::Format;
+use tmesh::{Document, Marker, Region, Template, Tet, Triangle};
+
+/// Two tetrahedra of different regions, on either side of the triangle 0 1 2, the second one with its apex at `tip`: the
+/// triangles as vertices, marker, front and back, then the names of regions and markers.
+pub fn two_tets(
+    tip: DVec3,
+    triangles: [([u32; 3], u32, u32, u32); 7],
+    tets: [([u32; 4], u32); 2],
+    [regions, markers]: [[(u32, &str); 2]; 2],
+) -> Document {
+    let mut document = Document::single(Template {
+        vertices: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, tip],
+        triangles: triangles
+            .map(|(vertices, marker, front, back)| Triangle {
+                vertices,
+                marker,
+                front,
+                back,
+            })
+            .to_vec(),
+        tets: tets
+            .map(|(vertices, region)| Tet { vertices, region })
+            .to_vec(),
+        ..Template::default()
+    });
+    let region = |(id, name): (u32, &str)| Region {
+        id,
+        name: name.to_owned(),
+        max_volume: None,
+        volume: None,
+    };
+    let marker = |(id, name): (u32, &str)| Marker {
+        id,
+        name: name.to_owned(),
+        area: None,
+    };
+    document.regions = regions.map(region).to_vec();
+    document.markers = markers.map(marker).to_vec();
+    document
+}
 
 /// Reads a file that must be sound, and checks the document's invariants.
 pub fn good(bytes: &[u8], format: Format) -> Imported {
