@@ -37,14 +37,8 @@ pub struct Cli {
     threads: ThreadArgs,
 }
 
-/// Appended switches may be this long; TetGen keeps them in a small buffer.
-const LONGEST_SWITCHES: usize = 200;
-
 fn switches(text: &str) -> Result<String, String> {
     let text = text.trim().trim_start_matches('-');
-    if text.len() > LONGEST_SWITCHES {
-        return Err(format!("longer than {LONGEST_SWITCHES} characters"));
-    }
     if let Some(odd) = text.chars().find(|c| !c.is_ascii_graphic()) {
         return Err(format!("{odd:?} is not part of a TetGen switch"));
     }

@@ -4,7 +4,7 @@ use crate::fill::{Filled, NONE};
 use crate::follow::{Follow, Followed, Led, follower};
 use crate::leads::leader;
 use crate::template::{Done, Job, template};
-use mesher::{Deadline, Error, LADDER, Log, Params, Sizes};
+use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
 use rayon::prelude::*;
 use tmesh::{Document, Template};
 
@@ -79,7 +79,7 @@ fn templates(
             false => Some(&follow),
         };
         let deadline = Deadline::start(params.timeout);
-        template(&job.climb(index, &LADDER, deadline), beside)
+        template(&job.climb(Piece::of(document, index), deadline), beside)
     };
     let meshed: Vec<Led> = first.par_iter().map(mesh).collect();
     let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();

@@ -9,7 +9,6 @@ mod cli;
 mod document;
 mod fill;
 mod follow;
-mod judge;
 mod leads;
 mod template;
 

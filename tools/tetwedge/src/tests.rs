@@ -5,8 +5,8 @@ use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
 use kit::Failure;
 use mesher::{
-    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, Judged, LADDER, Params,
-    Rung, Sizes, TetGen,
+    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, LADDER, Params, Piece, Rung,
+    Sizes, TetGen,
 };
 use periodic_surf::failure;
 use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
@@ -466,8 +466,7 @@ fn described(document: &Document, description: Description, take: impl Fn(&Climb
         change: Change::Describe(description),
     }];
     let climb = Climb {
-        document,
-        template: 0,
+        piece: Piece::of(document, 0),
         params: &params,
         sizes: &sizes,
         preserve: true,
@@ -476,24 +475,17 @@ fn described(document: &Document, description: Description, take: impl Fn(&Climb
         mesher: &TetGen,
         log: &|_| (),
     };
-    let taken = climb.climb(
-        Asks::AsWished,
-        |answer| {
-            if answer.failed == 0 {
-                // The rung has the description that is wanted.
-                return Err(Error::Unusable {
-                    template: 0,
-                    what: "once more".to_owned(),
-                });
-            }
-            take(&climb, answer);
-            Ok(Judged {
-                made: (),
-                short: None,
-            })
-        },
-        |_, _| true,
-    );
+    let taken = climb.climb(Asks::AsWished, |answer| {
+        if answer.failed == 0 {
+            // The rung has the description that is wanted.
+            return Err(Error::Unusable {
+                template: 0,
+                what: "once more".to_owned(),
+            });
+        }
+        take(&climb, answer);
+        Ok(())
+    });
     taken.unwrap();
 }
 
@@ -512,7 +504,7 @@ fn equivalent_descriptions_give_equivalent_meshes() {
         for &description in &descriptions {
             described(&document, description, |climb, answer| {
                 assert_eq!(answer.plc.shift > 0.0, description.flat);
-                let (mut filled, origin) = fill(&document, 0, &answer).unwrap();
+                let (mut filled, origin) = fill(Piece::of(&document, 0), &answer).unwrap();
                 finish(climb, &answer.plc, &mut filled, &origin).unwrap();
                 let mut done = document.clone();
                 done.templates[0] = filled.template;
