@@ -8,8 +8,9 @@ use tmesh::Wishes;
 
 /// Fills a wedge, or any closed surface, with tetrahedra
 ///
-/// The mesher is TetGen. Mirror walls may be refined; seams and walls shared with other templates
-/// are kept as they are. Regions come from the surface's triangles.
+/// The mesher is TetGen. Mirror walls may be refined. Faces that copies share by a rotation or a half turn get the surface mesh
+/// that the elements need, as periodic-surf makes it, unless that was there before. Regions come from the surface's
+/// triangles.
 #[derive(clap::Parser, Debug)]
 #[command(
     name = "tetwedge",
@@ -28,6 +29,11 @@ pub struct Cli {
 
     #[command(flatten)]
     memory: MemoryArgs,
+
+    /// Keep the faces that copies share by a rotation or a half turn as they are, and the surface beside them; without
+    /// this they are remeshed, unless periodic-surf has done so
+    #[arg(long)]
+    keep_surface: bool,
 
     /// TetGen switches to append to ours
     #[arg(long, value_name = "STR", default_value = "", value_parser = switches, allow_hyphen_values = true, hide_default_value = true)]
@@ -63,6 +69,9 @@ impl Command for Cli {
         session.check_output()?;
         let mut document = session.read()?;
         self.wishes.apply(&mut document)?;
+        if self.keep_surface {
+            document.wishes.keep_surface = Some(true);
+        }
         let params = self.params(&document.wishes);
         let log = |text: &str| session.info(text);
         let meshed = on_threads(self.threads.count(), || {

@@ -46,8 +46,6 @@ pub struct Done {
     pub switches: String,
     /// What the user should know or do otherwise.
     pub advice: Option<String>,
-    /// Whether faces were preserved.
-    pub preserved: bool,
     /// Descriptions that failed before.
     pub failed: usize,
 }
@@ -114,7 +112,6 @@ fn done<B: Send>(
     let done = Done {
         filled,
         switches: answer.mesh.told().to_owned(),
-        preserved: answer.plc.faces.preserve(),
         failed: answer.failed,
         advice: answer.advice,
     };
