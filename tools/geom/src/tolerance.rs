@@ -15,7 +15,7 @@ use glam::DVec3;
 /// distance of 1e-10 has a few correct digits left and a smaller one may have none. A smaller value lets noise
 /// through as detail (slivers that the mesher aborts on); a larger one reaches the layers of 1e-4 that have
 /// details of 1e-4 themselves.
-pub(crate) const ROUNDING: f64 = 1e-10;
+pub const ROUNDING: f64 = 1e-10;
 
 /// Multiple of a coordinate's precision within which values count as equal. Two points, each off by up to `sqrt(3)`
 /// times the precision through its three coordinates, and by as much again through the axis' place and once more

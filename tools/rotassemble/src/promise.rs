@@ -1,6 +1,6 @@
 //! The symmetry that a mesh has by the way it is made of instances.
 
-use geom::rounding;
+use geom::tolerance::ROUNDING;
 use std::collections::BTreeSet;
 use tmesh::{Document, Group, Isometry, Outside, Promise, Template};
 
@@ -83,9 +83,8 @@ fn outside(document: &Document, places: &[Places]) -> Option<Outside> {
     (radius < reach[farthest]).then_some(Outside { group, radius })
 }
 
-/// A radius in six digits, not below `x` but by what the reach of a template, the root of a sum of two squares, is rounded
-/// by: short enough for titles, and what holds outside of `x` holds outside of more. Vertices so near to the radius
-/// count as within it whoever checks.
+/// A radius in six digits, not below `x` but by what computing may have lost of it: short enough for titles, and what holds
+/// outside of `x` holds outside of more. Vertices so near to the radius count as within it whoever checks.
 fn rounded_up(x: f64) -> f64 {
     let nearest = format!("{x:.5e}");
     let parts = nearest.split_once('e');
@@ -96,7 +95,7 @@ fn rounded_up(x: f64) -> f64 {
     };
     let value = |digits: u32| format!("{digits}e{}", exponent - 5).parse().unwrap_or(x);
     let below = value(digits);
-    if below >= x * (1.0 - rounding::double(3)) {
+    if below >= x * (1.0 - ROUNDING) {
         below
     } else {
         value(digits + 1)
