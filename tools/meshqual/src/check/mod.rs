@@ -16,7 +16,6 @@ mod findings;
 mod symmetry;
 #[cfg(test)]
 mod tests;
-mod tolerances;
 mod volume;
 mod walls;
 

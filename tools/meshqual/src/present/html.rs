@@ -1,7 +1,6 @@
 //! The report as a page: tables, histograms and pictures in one file that needs no other.
 
-use super::palette::{quality_colour, quality_legend, region_colour};
-use super::picture;
+use super::drawing::{self, quality_colour, quality_legend, region_colour};
 use super::svg::{escaped, svg};
 use super::words::{STATISTICS, beyond, check_table, symmetry_words};
 use crate::error::Error;
@@ -26,8 +25,8 @@ impl Pictures {
     /// Pictures that cannot be encoded.
     pub fn of(document: &Document) -> Result<Self, Error> {
         Ok(Self {
-            outside: picture::outside(document)?,
-            inside: picture::inside(document)?,
+            outside: drawing::outside(document)?,
+            inside: drawing::inside(document)?,
         })
     }
 }

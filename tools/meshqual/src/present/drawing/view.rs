@@ -1,12 +1,9 @@
 //! How a mesh is looked at in pictures.
 
 use super::layout::LAYOUT;
+use crate::tolerances::PROMISE;
 use glam::{DMat3, DVec3};
 use tmesh::Document;
-
-/// Distance from the cutting plane up to which a vertex counts as on it, samples of the picture:
-/// above the rounding of coordinates placed by an isometry, and far too little to be seen.
-const ON_PLANE: f64 = 1e-9;
 
 /// How the mesh is looked at: from above, with the axis upright.
 pub struct View {
@@ -18,6 +15,8 @@ pub struct View {
     /// Towards the eye, along the ground.
     towards: DVec3,
     centre: DVec3,
+    /// Up to this a vertex beyond the cutting plane counts as on it, model units.
+    on_plane: f64,
 }
 
 impl View {
@@ -45,6 +44,7 @@ impl View {
             scale: 1.0,
             towards: DVec3::new(ca, sa, 0.0),
             centre: origin,
+            on_plane: PROMISE * document.diagonal(),
         };
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for instance in &document.instances {
@@ -79,6 +79,6 @@ impl View {
 
     /// Whether a point lies behind the plane through the axis that faces the eye, or on it.
     pub fn is_behind(&self, p: DVec3) -> bool {
-        (self.upright * (p - self.centre)).dot(self.towards) <= ON_PLANE / self.scale
+        (self.upright * (p - self.centre)).dot(self.towards) <= self.on_plane
     }
 }

@@ -1,7 +1,7 @@
 //! Pictures of a mesh as PNG files: what is drawn, and in which colours.
 
 use super::canvas::Canvas;
-use super::palette::{quality_colour, region_colour};
+use super::colours::{quality_colour, region_colour};
 use super::view::View;
 use crate::instances::wall_triangles;
 use geom::tet::{FACES, TetMeasures};
