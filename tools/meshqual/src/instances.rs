@@ -81,6 +81,11 @@ impl Links {
         Self(links(document))
     }
 
+    /// The placed vertices that the walls make one with a placed vertex, across one wall each.
+    pub fn from(&self, place: Place) -> impl Iterator<Item = Place> {
+        neighbours(place, &self.0)
+    }
+
     /// Whether the walls make two placed vertices one, given that all neighbours exist.
     pub fn join(&self, a: Place, b: Place) -> bool {
         let mut seen = FxHashSet::from_iter([a]);
@@ -98,7 +103,7 @@ impl Links {
 fn neighbours(
     (t, isometry, v): Place,
     links: &[FxHashMap<u32, Vec<Link>>],
-) -> impl Iterator<Item = Place> {
+) -> impl Iterator<Item = Place> + use<'_> {
     let own = links[t as usize].get(&v).into_iter().flatten();
     own.map(move |l| (l.template, isometry.compose(l.step), l.vertex))
 }

@@ -1,12 +1,13 @@
 //! All checks of a document.
 
+use super::copies;
 use super::faces::{Skin, closedness, coincident_vertices, conformity, inverted};
 use super::findings::{Broken, Findings, Kind};
 use super::symmetry::{instanced, plain};
 use super::volume::volume_errors;
 use super::walls::{self, Mesh, gluing_residual, hub_coverage};
 use crate::error::Error;
-use crate::instances::{is_sector, wall_triangles};
+use crate::instances::{Copies, is_sector, wall_triangles};
 use crate::measure::Measured;
 use serde::Serialize;
 use tmesh::{Document, Violation};
@@ -48,10 +49,16 @@ pub fn check(
     for violation in violations {
         findings.add(Kind::Document, || violation.to_string());
     }
+    for (index, copies) in Copies::of(document).of_template.iter().enumerate() {
+        if *copies == 0 {
+            findings.add(Kind::Unplaced, || format!("template {index}"));
+        }
+    }
     let mut checks = Checks::default();
     let has_tets = document.templates.iter().any(|t| !t.tets.is_empty());
     let sector = is_sector(document);
-    let (skins, inverted) = check_templates(document, &mut findings)?;
+    let on_wall = wall_triangles(document);
+    let (skins, inverted) = check_templates(document, &on_wall, &mut findings)?;
     let mesh = Mesh {
         document,
         size: document.diagonal(),
@@ -62,6 +69,11 @@ pub fn check(
         hub_coverage(document, &mut findings);
     }
     coincident_vertices(document, mesh.size, &mut findings);
+    // Vertices of one template that coincide do so in all copies, and are reported already.
+    let reported = [Kind::Coincident, Kind::NearWall, Kind::UnpairedVertex];
+    if !sector && document.instances.len() > 1 && !findings.has(&reported) {
+        copies::check(&mesh, &on_wall, &mut findings);
+    }
     if has_tets && !sector {
         checks.check_symmetry(&mesh, violations, &mut findings);
     }
@@ -79,9 +91,9 @@ pub fn check(
 /// Checks the templates one by one; returns their outer faces and the number of inverted tetrahedra.
 fn check_templates(
     document: &Document,
+    on_wall: &[Vec<bool>],
     findings: &mut Findings,
 ) -> Result<(Vec<Skin>, u64), Error> {
-    let on_wall = wall_triangles(document);
     let mut skins = Vec::new();
     let mut count = 0;
     for (index, template) in document.templates.iter().enumerate() {
