@@ -35,6 +35,8 @@ pub struct Checks {
     pub boundary_area_error: Option<f64>,
     /// Whether no promise is broken.
     pub passed: bool,
+    /// What there is nothing to check against, a few words each.
+    pub unchecked: Vec<&'static str>,
     /// The broken promises.
     pub violations: Vec<Broken>,
 }
@@ -53,6 +55,12 @@ pub fn check(
         if *copies == 0 {
             findings.add(Kind::Unplaced, || format!("template {index}"));
         }
+    }
+    let sector_of = document.source.as_ref().and_then(|s| s.sector_of);
+    if let Some(instances) = sector_of {
+        findings.add(Kind::Sector, || {
+            format!("the input was one sector of a mesh of {instances} instances")
+        });
     }
     let mut checks = Checks::default();
     let has_tets = document.templates.iter().any(|t| !t.tets.is_empty());
@@ -83,9 +91,28 @@ pub fn check(
         checks.region_volume_error = errors.region_volume;
         checks.boundary_area_error = errors.boundary_area;
     }
+    checks.unchecked = unchecked(document, has_tets, sector);
     checks.inverted = has_tets.then_some(inverted);
     checks.settle(&findings);
     Ok(checks)
+}
+
+/// What promises a document leaves nothing to be checked against.
+fn unchecked(document: &Document, has_tets: bool, sector: bool) -> Vec<&'static str> {
+    let mut unchecked = Vec::new();
+    if sector {
+        unchecked.push("the whole, as this is one sector of it");
+    }
+    if !has_tets {
+        unchecked.push("elements, as there are none");
+    }
+    if document.source.is_none() {
+        unchecked.push("volume and boundary, as those of the input are not in the file");
+    }
+    if document.is_plain() && document.promise.is_none() {
+        unchecked.push("symmetry, as none is promised");
+    }
+    unchecked
 }
 
 /// Checks the templates one by one; returns their outer faces and the number of inverted tetrahedra.

@@ -35,6 +35,7 @@ macro_rules! kinds {
 kinds! {
     Document, "document", "inconsistencies of the document";
     Unplaced, "document", "templates that are placed nowhere, so that nothing of them is in the mesh";
+    Sector, "document", "pieces that were taken for the whole body";
     OverfullFace, "conforming", "faces with more than two tetrahedra";
     SameSide, "conforming", "faces with two tetrahedra on the same side";
     MissingTriangle, "conforming", "open faces inside (one tetrahedron, and no surface triangle): cracks";

@@ -2,7 +2,7 @@
 
 use super::drawing::{self, quality_colour, quality_legend, region_colour};
 use super::svg::{escaped, svg};
-use super::words::{STATISTICS, beyond, check_table, symmetry_words};
+use super::words::{STATISTICS, beyond, check_table, symmetry_words, verdict};
 use crate::error::Error;
 use crate::measure::{Metric, Statistic, Summary};
 use crate::report::Report;
@@ -217,7 +217,8 @@ fn checks(out: &mut String, report: &Report) {
         let _ = writeln!(out, "<p class=\"broken\">{}</p>", escaped(failure));
     }
     if failures.is_empty() {
-        out.push_str("<p>All promises and limits hold.</p>\n");
+        let verdict = verdict(&report.checks);
+        let _ = writeln!(out, "<p>No limit is broken; {}.</p>", escaped(&verdict));
     }
     out.push_str("<table>\n");
     for (name, value) in check_table(&report.checks) {

@@ -1,7 +1,9 @@
 //! The vertices of outer faces, placed by all instances, and which of them gluings make one.
 
 use crate::check::faces::Skin;
+use crate::check::walls::Mesh;
 use crate::instances::Links;
+use crate::tolerances::PROMISE;
 use geom::grid::coincident;
 use geom::sets::DisjointSets;
 use glam::DVec3;
@@ -36,11 +38,11 @@ pub struct Rim {
     first: Vec<FxHashMap<u32, u32>>,
     /// Per vertex and instance of its template, the assembled vertex.
     ids: Vec<u32>,
-    /// Place of each instance among those of its template.
-    rank: Vec<u32>,
+    /// Place of each instance among those of its template that are compared.
+    rank: FxHashMap<usize, u32>,
 }
 
-/// The instances of a document, sorted by template.
+/// The instances that are compared, by template.
 struct Instances<'a> {
     document: &'a Document,
     links: Links,
@@ -52,10 +54,11 @@ struct Instances<'a> {
 }
 
 impl<'a> Instances<'a> {
-    fn of(document: &'a Document) -> Self {
+    fn of(document: &'a Document, compared: &[usize]) -> Self {
         let mut of_template = vec![Vec::new(); document.templates.len()];
         let mut rank = FxHashMap::default();
-        for (number, i) in document.instances.iter().enumerate() {
+        for &number in compared {
+            let i = &document.instances[number];
             let own: &mut Vec<usize> = &mut of_template[i.template as usize];
             rank.insert((i.template, i.isometry), own.len() as u32);
             own.push(number);
@@ -72,32 +75,31 @@ impl<'a> Instances<'a> {
 }
 
 impl Rim {
-    /// Places the vertices of outer faces and calls `found` for those that coincide within `reach` (model
-    /// units) and are not joined. Vertices that may coincide are as far from the axis, and from the plane
-    /// across it, so that few are placed at a time. O(n log n) in the placed vertices.
-    pub fn new(
-        document: &Document,
-        skins: &[Skin],
-        reach: f64,
-        mut found: impl FnMut(Meeting),
-    ) -> Self {
-        let instances = Instances::of(document);
+    /// Places the vertices of outer faces by the instances to be compared, and calls `found` for those that coincide and
+    /// are not joined. Vertices that may coincide are as far from the axis, and from the plane across it, so
+    /// that few are placed at a time. O(n log n) in the placed vertices.
+    pub fn new(mesh: &Mesh<'_>, compared: &[usize], mut found: impl FnMut(Meeting)) -> Self {
+        let instances = Instances::of(mesh.document, compared);
+        let reach = PROMISE * mesh.size;
+        let mut members = members(mesh.document, mesh.skins);
         let mut rim = Self {
             points: Vec::new(),
-            first: vec![FxHashMap::default(); document.templates.len()],
+            first: vec![FxHashMap::default(); mesh.document.templates.len()],
             ids: Vec::new(),
-            rank: ranks(&instances),
+            rank: FxHashMap::default(),
         };
-        let mut members = members(document, skins);
         for class in classes(&mut members, reach) {
             rim.place(&instances, class, reach, &mut found);
+        }
+        for own in instances.of_template {
+            rim.rank.extend(own.into_iter().zip(0..));
         }
         rim
     }
 
     /// The assembled vertex that a vertex of an instance is.
     pub fn id(&self, template: usize, instance: usize, vertex: u32) -> u32 {
-        self.ids[(self.first[template][&vertex] + self.rank[instance]) as usize]
+        self.ids[(self.first[template][&vertex] + self.rank[&instance]) as usize]
     }
 
     /// Numbers the vertices of a class.
@@ -169,12 +171,6 @@ fn joined(
         }
     }
     sets
-}
-
-fn ranks(instances: &Instances<'_>) -> Vec<u32> {
-    let all = instances.document.instances.iter();
-    all.map(|i| instances.rank[&(i.template, i.isometry)])
-        .collect()
 }
 
 /// The vertices of the outer faces of templates that are placed.

@@ -1,10 +1,10 @@
 //! The boundary of the assembled mesh: the outer faces that no gluing pairs.
 
 use super::rim::Rim;
-use crate::check::faces::{Skin, sorted};
-use tmesh::Document;
+use crate::check::faces::sorted;
+use crate::check::walls::Mesh;
 
-/// Boundary faces of all instances.
+/// Boundary faces of the instances to be compared.
 pub struct Surface {
     /// Assembled vertices of each face, increasing.
     pub faces: Vec<[u32; 3]>,
@@ -14,14 +14,14 @@ pub struct Surface {
 
 impl Surface {
     /// Collects the boundary; `on_wall` tells of each triangle of each template whether a gluing lists it.
-    pub fn of(document: &Document, skins: &[Skin], on_wall: &[Vec<bool>], rim: &Rim) -> Self {
+    pub fn of(mesh: &Mesh<'_>, on_wall: &[Vec<bool>], compared: &[usize], rim: &Rim) -> Self {
         let mut surface = Self {
             faces: Vec::new(),
             instances: Vec::new(),
         };
-        for (number, instance) in document.instances.iter().enumerate() {
-            let t = instance.template as usize;
-            let skin = &skins[t];
+        for &number in compared {
+            let t = mesh.document.instances[number].template as usize;
+            let skin = &mesh.skins[t];
             for (face, &triangle) in skin.faces.iter().zip(&skin.triangles) {
                 if triangle == u32::MAX || !on_wall[t][triangle as usize] {
                     surface

@@ -1,10 +1,10 @@
 //! Looks for vertices and faces of different copies that meet and are not glued.
 
+use super::near;
 use super::rim::Rim;
 use super::surface::Surface;
 use crate::check::findings::{Findings, Kind, place};
 use crate::check::walls::Mesh;
-use crate::tolerances::PROMISE;
 use geom::contacts::{Search, contacts};
 
 /// Checks that copies meet only where they are glued; `on_wall` tells of each triangle of each template whether a gluing
@@ -12,7 +12,8 @@ use geom::contacts::{Search, contacts};
 pub fn check(mesh: &Mesh<'_>, on_wall: &[Vec<bool>], findings: &mut Findings) {
     let document = mesh.document;
     let mut apart = true;
-    let rim = Rim::new(document, mesh.skins, PROMISE * mesh.size, |meeting| {
+    let compared = near::instances(mesh);
+    let rim = Rim::new(mesh, &compared, |meeting| {
         apart = false;
         findings.add(Kind::Unglued, || {
             let [(a, v), (b, w)] = meeting.vertices;
@@ -27,7 +28,7 @@ pub fn check(mesh: &Mesh<'_>, on_wall: &[Vec<bool>], findings: &mut Findings) {
     if !apart {
         return;
     }
-    let surface = Surface::of(document, mesh.skins, on_wall, &rim);
+    let surface = Surface::of(mesh, on_wall, &compared, &rim);
     let instances = |faces: [u32; 2]| faces.map(|f| surface.instances[f as usize]);
     for pair in surface.repeated() {
         findings.add(Kind::UngluedFace, || {
