@@ -34,8 +34,8 @@ pub struct Meeting {
 pub struct Rim {
     /// Positions, in the frame of the document.
     pub points: Vec<DVec3>,
-    /// First number in `ids` of each vertex of each template.
-    first: Vec<FxHashMap<u32, u32>>,
+    /// First number in `ids` of each vertex of each template that is on an outer face.
+    first: Vec<Vec<u32>>,
     /// Per vertex and instance of its template, the assembled vertex.
     ids: Vec<u32>,
     /// Place of each instance among those of its template that are compared.
@@ -84,7 +84,9 @@ impl Rim {
         let mut members = members(mesh.document, mesh.skins);
         let mut rim = Self {
             points: Vec::new(),
-            first: vec![FxHashMap::default(); mesh.document.templates.len()],
+            first: (mesh.document.templates.iter())
+                .map(|t| vec![u32::MAX; t.vertices.len()])
+                .collect(),
             ids: Vec::new(),
             rank: FxHashMap::default(),
         };
@@ -99,7 +101,7 @@ impl Rim {
 
     /// The assembled vertex that a vertex of an instance is.
     pub fn id(&self, template: usize, instance: usize, vertex: u32) -> u32 {
-        self.ids[(self.first[template][&vertex] + self.rank[&instance]) as usize]
+        self.ids[(self.first[template][vertex as usize] + self.rank[&instance]) as usize]
     }
 
     /// Numbers the vertices of a class.
@@ -137,7 +139,7 @@ impl Rim {
         });
         let offset = self.ids.len() as u32;
         for (m, start) in class.iter().zip(starts) {
-            self.first[m.template as usize].insert(m.vertex, offset + start);
+            self.first[m.template as usize][m.vertex as usize] = offset + start;
         }
         let base = self.points.len() as u32;
         let (numbers, count) = sets.numbered();
