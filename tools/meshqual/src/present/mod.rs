@@ -4,6 +4,7 @@ mod drawing;
 mod html;
 mod svg;
 mod text;
+mod ticks;
 mod words;
 
 pub use html::{Pictures, html};

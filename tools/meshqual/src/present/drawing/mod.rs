@@ -7,4 +7,4 @@ mod picture;
 mod view;
 
 pub use colours::{quality_colour, quality_legend, region_colour};
-pub use picture::{inside, outside};
+pub use picture::{Colour, inside, outside};

@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3};
 use tmesh::Document;
 
 /// How the mesh is looked at: from above, with the axis upright.
+#[derive(Clone, Copy)]
 pub struct View {
     rotation: DMat3,
     /// From the frame of the document to that of the axis.
@@ -46,28 +47,44 @@ impl View {
             centre: origin,
             on_plane: PROMISE * document.diagonal(),
         };
+        view.fit(document, |_| true);
+        if promise.is_none() && document.is_plain() {
+            // Nothing is known of an axis: cut through the middle.
+            view.centre = rotation.transpose() * view.middle;
+        }
+        view
+    }
+
+    /// The view that shows what is behind the plane through the axis, or all if there is nothing.
+    pub fn behind(document: &Document) -> Self {
+        let mut view = Self::of(document);
+        let all = view;
+        view.fit(document, |p| all.is_behind(p));
+        view
+    }
+
+    /// Makes the placed vertices that are shown fill the picture.
+    fn fit(&mut self, document: &Document, shown: impl Fn(DVec3) -> bool) {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for instance in &document.instances {
             let placed = instance.isometry.placed();
-            for &p in &document.templates[instance.template as usize].vertices {
-                let q = rotation * placed.apply(p);
+            let vertices = document.templates[instance.template as usize]
+                .vertices
+                .iter();
+            for p in vertices.map(|&p| placed.apply(p)).filter(|&p| shown(p)) {
+                let q = self.rotation * p;
                 low = low.min(q);
                 high = high.max(q);
             }
         }
         if low.x <= high.x {
             let size = high - low;
-            view.middle = 0.5 * (low + high);
+            self.middle = 0.5 * (low + high);
             let fit = |pixels: usize, extent: f64| {
                 LAYOUT.fill * (pixels * LAYOUT.samples) as f64 / extent.max(f64::MIN_POSITIVE)
             };
-            view.scale = fit(LAYOUT.width, size.x).min(fit(LAYOUT.height, size.y));
-            if promise.is_none() && document.is_plain() {
-                // Nothing is known of an axis: cut through the middle.
-                view.centre = rotation.transpose() * view.middle;
-            }
+            self.scale = fit(LAYOUT.width, size.x).min(fit(LAYOUT.height, size.y));
         }
-        view
     }
 
     /// Samples to the right, samples down, and depth towards the eye.
