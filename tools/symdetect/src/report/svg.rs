@@ -305,3 +305,28 @@ fn escaped(text: &str) -> String {
         .replace('>', "&gt;")
         .replace('"', "&quot;")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_axes_that_are_counted_are_listed_or_said_to_be_left_out() {
+        let axis = |order, x| OtherAxis {
+            direction: [x, -1e-17, 1.0],
+            order,
+            residual: 0.0,
+        };
+        let mut axes = vec![axis(4, 0.0)];
+        axes.extend((0..6).map(|i| axis(2, f64::from(i))));
+        let all = other_axes(&axes, 6);
+        assert_eq!(all[..2], ["1 other axis of order 4:", "(0, 0, 1)"]);
+        assert_eq!(
+            all[2..4],
+            ["6 other axes of order 2:", "(0, 0, 1)  (1, 0, 1)"]
+        );
+        assert_eq!(all.len(), 6);
+        assert_eq!(other_axes(&axes, 5)[4], "and 4 more");
+        assert_eq!(other_axes(&axes, 1), ["and 7 more"]);
+    }
+}
