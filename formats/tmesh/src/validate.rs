@@ -395,6 +395,12 @@ fn check_elements(
 }
 
 fn check_axis(index: usize, template: &Template, found: &mut Collector) {
+    if let Some(at) = first_unordered(template.axis.iter().copied()) {
+        found.add(Violation::AxisUnordered {
+            template: index,
+            index: at,
+        });
+    }
     for &vertex in &template.axis {
         let p = template.vertices[vertex as usize];
         if p.x != 0.0 || p.y != 0.0 {
