@@ -2,7 +2,7 @@
 
 use crate::text::MAX_TITLE;
 use glam::DVec3;
-use tmesh::{Document, Group, Outside, Promise};
+use tmesh::{Document, Group, Outside, Promise, ROUNDING};
 
 /// The title of a mesh that promises a symmetry:
 ///
@@ -62,7 +62,7 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
     let z = DVec3::new(n[3], n[4], n[5]);
     let x = DVec3::new(n[6], n[7], n[8]);
     let y = z.cross(x);
-    let is_unit = |v: DVec3| (v.length() - 1.0).abs() < 1e-9;
+    let is_unit = |v: DVec3| (v.length() - 1.0).abs() < ROUNDING;
     // Two unit vectors whose product is one too are orthogonal.
     let orthonormal = [x, y, z].into_iter().all(is_unit);
     let outside = outside.filter(|o: &Outside| o.group.order.is_multiple_of(group.order));
