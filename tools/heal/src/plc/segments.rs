@@ -4,11 +4,10 @@ use geom::tree::pairs;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// Pairs of a segment and a node with meeting boxes that are compared at most: so many for each segment and
-/// node, and [`PAIRS`]. Sound files have a few each; without a limit, a damaged one takes quadratic time.
+/// Pairs of a segment and a node with meeting boxes that are compared at most, per segment and node: a choice.
+/// Sound files have a few each, and oblique segments about a common node hundreds; without a limit, a damaged
+/// file takes quadratic time.
 const PAIRS_EACH: u64 = 1000;
-/// Pairs that are always compared: a second's work.
-const PAIRS: u64 = 10_000_000;
 
 /// For segments on which other segments' nodes lie, to within `tolerance`: the chain of nodes they
 /// become, from the lower to the higher node id. `None` when far too many segments and nodes are
@@ -36,7 +35,8 @@ pub fn split_segments(
     let count = all.len() as u32;
     let group = |t: u32| u32::from(t < count);
     let mut on: FxHashMap<u32, Vec<(f64, u32)>> = FxHashMap::default();
-    let mut left = PAIRS_EACH * (all.len() + nodes.len()) as u64 + PAIRS;
+    let most = PAIRS_EACH * (all.len() + nodes.len()) as u64;
+    let mut compared = 0;
     pairs(of_segments.chain(of_nodes), group, |s, t| {
         let (segment, node) = (s.min(t), nodes[(s.max(t) - count) as usize]);
         let [a, b] = all[segment as usize];
@@ -48,10 +48,10 @@ pub fn split_segments(
                 on.entry(segment).or_default().push((f, node));
             }
         }
-        left -= 1;
-        left > 0
+        compared += 1;
+        compared <= most
     });
-    if left == 0 {
+    if compared > most {
         return None;
     }
     let chains = on.into_iter().map(|(segment, mut inner)| {

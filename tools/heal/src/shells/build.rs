@@ -7,7 +7,7 @@
 use crate::HealError;
 use crate::document::{Imported, Labelled, check_scale, document};
 use crate::leak::leak;
-use crate::meeting::lowest_contact;
+use crate::meeting::meetings;
 use crate::sides::sided;
 use crate::soup;
 use crate::welded::welded;
@@ -177,7 +177,7 @@ fn contents(shells: &Shells, cells: &Cells<'_>, pieces: &[i64]) -> Contents {
 }
 
 fn check_crossing(points: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), HealError> {
-    match lowest_contact(points, triangles, |t| t, |_| true).0 {
+    match meetings(points, triangles, |t| t, |_| true).lowest {
         None => Ok(()),
         Some(contact) => Err(HealError::BadSurface(format!(
             "two triangles cross or touch at {}, away from common points and edges",

@@ -2,16 +2,12 @@
 
 use super::closure::odd_edges;
 use super::surface::Surface;
-use crate::document::largest_coordinate;
+use crate::document::tolerance;
 use crate::near::near_points;
 use crate::words::short;
 use geom::edges::Edges;
 use glam::DVec3;
 use interchange::text::counted;
-
-/// Points that differ by this many roundings of the largest coordinate are joined where the surface
-/// would stay open otherwise: each of the two was rounded when it was computed and when it was written.
-const ROUNDINGS: f64 = 4.0;
 
 /// Gaps are no longer than this share of the shortest edge along them. A larger share would let the
 /// closing of a gap fold triangles over.
@@ -31,7 +27,7 @@ pub fn close_gaps(
     let mut ends: Vec<u32> = odd.iter().flat_map(|&e| edges.ends[e]).collect();
     ends.sort_unstable();
     ends.dedup();
-    let rounding = ROUNDINGS * relative_precision * largest_coordinate(&surface.points);
+    let rounding = tolerance(&surface.points, relative_precision).equal();
     let by_rounding = joined(surface, &ends, rounding);
     let is_closed = |triangles: &[[u32; 3]]| odd_edges(&Edges::new(triangles)).is_empty();
     let rounded = by_rounding.as_ref().map(|(_, triangles)| triangles);

@@ -4,10 +4,6 @@ use super::surface::Surface;
 use geom::edges::Edges;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Rounds of flips at most: caps that lean on each other take one each, and stacks of more than a few
-/// are not seen. Those left are kept as they are.
-const ROUNDS: usize = 8;
-
 /// Removes triangles that are no higher than `rounding` above their longest edge. Returns how many
 /// there were and are no more; `None` when the surface is as it was.
 ///
@@ -20,14 +16,17 @@ pub fn remove(surface: &mut Surface, rounding: f64) -> Option<usize> {
         return None;
     }
     let mut changed = contract_needles(surface, rounding);
-    for _ in 0..ROUNDS {
-        if turn_caps(surface, rounding) == 0 {
+    let mut left = flat_ones(surface, rounding).len();
+    // Caps that lean on each other take a round each. Where coordinates are hardly known, turning may leave
+    // as many as it removes.
+    while left > 0 && turn_caps(surface, rounding) > 0 {
+        changed = true;
+        let now = flat_ones(surface, rounding).len();
+        if now >= left {
             break;
         }
-        changed = true;
+        left = now;
     }
-    // Where coordinates are hardly known, contracting may leave more than it removes.
-    let left = flat_ones(surface, rounding).len();
     changed.then(|| before.saturating_sub(left))
 }
 
