@@ -1,6 +1,7 @@
 //! The tables of a document: regions with volumes, markers with areas, the source.
 
 use crate::HealError;
+use crate::repair::Repair;
 use crate::words::short;
 use geom::measure::{area_of_region, corners, tet_volume, triangle_area};
 use geom::tolerance::{Extent, Tolerance};
@@ -15,6 +16,8 @@ pub struct Imported {
     pub document: Document,
     /// What the user should know about the file, a sentence each.
     pub notices: Vec<String>,
+    /// What was repaired.
+    pub repairs: Vec<Repair>,
 }
 
 /// A surface with its labels, before volumes and areas are known.
@@ -29,6 +32,8 @@ pub struct Labelled {
     pub relative_precision: f64,
     /// What the user should know about the file.
     pub notices: Vec<String>,
+    /// What was repaired.
+    pub repairs: Vec<Repair>,
 }
 
 /// Completes the tables.
@@ -42,6 +47,7 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, He
         markers,
         relative_precision,
         notices,
+        repairs,
     } = labelled;
     drop_unused_vertices(&mut template);
     let precision = relative_precision * largest_coordinate(&template.vertices);
@@ -81,7 +87,11 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, He
         })
         .collect();
     document.source = Some(source);
-    Ok(Imported { document, notices })
+    Ok(Imported {
+        document,
+        notices,
+        repairs,
+    })
 }
 
 type Measures = FxHashMap<u32, f64>;
@@ -137,7 +147,8 @@ pub fn tolerance(points: &[DVec3], relative_precision: f64) -> Tolerance {
         height: radius,
     };
     let precision = relative_precision * largest_coordinate(points);
-    Tolerance::new(extent, precision, 0.0)
+    // Nothing is known of the symmetry yet.
+    Tolerance::new(extent, precision, 1.0)
 }
 
 /// Refuses models so large or small that volumes, or the exact predicates, leave the range of

@@ -4,12 +4,15 @@ use super::surface::Surface;
 use crate::HealError;
 use crate::words::place;
 use geom::edges::{Edges, apex_of};
+use glam::DVec3;
 
 /// What [`merge`] did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Merged {
     /// Triangles dropped because the same solid has them more than once.
     pub dropped: usize,
+    /// A corner of one of them.
+    pub first: Option<DVec3>,
     /// Triangles that now lie between two solids.
     pub interfaces: usize,
 }
@@ -49,7 +52,11 @@ pub fn merge(surface: &mut Surface, edges: &Edges, across: bool) -> Result<Merge
                 drop[keep as usize] = false;
                 kept.push(keep);
             }
-            merged.dropped += same.len() - usize::from(balance != 0);
+            let dropped = same.len() - usize::from(balance != 0);
+            if dropped > 0 && merged.first.is_none() {
+                merged.first = Some(surface.points[run[0].corners[0] as usize]);
+            }
+            merged.dropped += dropped;
         }
         match kept.as_slice() {
             _ if !across => {}

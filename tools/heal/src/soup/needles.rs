@@ -2,19 +2,19 @@
 
 use super::surface::Surface;
 use geom::edges::Edges;
+use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Removes triangles that are no higher than `rounding` above their longest edge. Returns how many
-/// there were and are no more; `None` when the surface is as it was.
+/// there were and are no more, and a corner of the first; `None` when the surface is as it was.
 ///
 /// A needle's short edge is contracted. A cap's longest edge, which its apex lies on, is turned: the
 /// triangle beyond the edge is divided at the apex. Nothing moves by more than `rounding`. Those
 /// that cannot be removed without spoiling the surface are left. Linear.
-pub fn remove(surface: &mut Surface, rounding: f64) -> Option<usize> {
-    let before = flat_ones(surface, rounding).len();
-    if before == 0 {
-        return None;
-    }
+pub fn remove(surface: &mut Surface, rounding: f64) -> Option<(usize, DVec3)> {
+    let flat = flat_ones(surface, rounding);
+    let first = surface.corners(flat.first()?.0)[0];
+    let before = flat.len();
     let mut changed = contract_needles(surface, rounding);
     let mut left = flat_ones(surface, rounding).len();
     // Caps that lean on each other take a round each. Where coordinates are hardly known, turning may leave
@@ -27,7 +27,7 @@ pub fn remove(surface: &mut Surface, rounding: f64) -> Option<usize> {
         }
         left = now;
     }
-    changed.then(|| before.saturating_sub(left))
+    changed.then(|| (before.saturating_sub(left), first))
 }
 
 /// Triangles lower than `rounding`, each with its corner opposite to the longest edge.
@@ -68,7 +68,7 @@ fn contract_needles(surface: &mut Surface, rounding: f64) -> bool {
     for t in &mut surface.triangles {
         *t = t.map(|v| new_id.get(&v).copied().unwrap_or(v));
     }
-    surface.drop_degenerate();
+    surface.drop_collapsed();
     true
 }
 
