@@ -2,7 +2,7 @@
 
 use crate::messages::{self, Level};
 use crate::{CommonArgs, MessageFormat};
-use heal::OddEdges;
+use heal::{OddEdges, Repair};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ffi::OsString;
 use std::io::IsTerminal;
@@ -20,6 +20,8 @@ pub struct Session {
     pub(crate) read: OnceLock<Vec<ChunkInfo>>,
     /// What was said of the input when it was read.
     pub(crate) notices: OnceLock<Vec<String>>,
+    /// What was repaired of the input.
+    pub(crate) repairs: OnceLock<Vec<Repair>>,
     /// Why the input could not be read, when its surface is not closed.
     pub(crate) odd_edges: OnceLock<OddEdges>,
 }
@@ -38,6 +40,7 @@ impl Session {
             begun: Instant::now(),
             read: OnceLock::new(),
             notices: OnceLock::new(),
+            repairs: OnceLock::new(),
             odd_edges: OnceLock::new(),
         }
     }
@@ -50,6 +53,11 @@ impl Session {
     /// What the user was told about the input when it was read, a sentence each.
     pub fn notices(&self) -> &[String] {
         self.notices.get().map_or(&[], Vec::as_slice)
+    }
+
+    /// What was repaired of the input when it was read.
+    pub fn repairs(&self) -> &[Repair] {
+        self.repairs.get().map_or(&[], Vec::as_slice)
     }
 
     /// The edges that kept the input from being read, when its surface is not closed.

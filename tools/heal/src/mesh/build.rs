@@ -55,6 +55,7 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
             template,
             relative_precision: mesh.relative_precision,
             notices,
+            repairs: Vec::new(),
         };
         document(labelled, format)?
     } else {
@@ -66,7 +67,11 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
             area: None,
         });
         document.markers = markers.collect();
-        Imported { document, notices }
+        Imported {
+            document,
+            notices,
+            repairs: Vec::new(),
+        }
     };
     imported.document.promise = mesh.promise;
     if let Some(instances) = mesh.sector_of {
