@@ -121,8 +121,6 @@ pub struct Answer {
     pub plc: Plc,
     /// Its tetrahedra.
     pub mesh: Mesh,
-    /// The bounds that the mesher was given: largest radius-edge ratio, smallest dihedral angle in degrees.
-    pub bounds: [f64; 2],
     /// What became of the bounds, if they could not be met.
     pub advice: Option<String>,
     /// When the mesher was done.
