@@ -46,33 +46,29 @@ fn end(torn: &Torn) -> Result<End, String> {
     }
 }
 
+/// Reads many of them: how many were repaired and refused.
+fn count(seeds: std::ops::Range<u64>) -> (usize, usize) {
+    let (mut repaired, mut refused) = (0, 0);
+    for seed in seeds {
+        let torn = torn(seed);
+        match end(&torn) {
+            Ok(End::Repaired) => repaired += 1,
+            Ok(End::Refused) => refused += 1,
+            Err(text) => panic!("seed {seed}, {}: {text}", torn.name),
+        }
+    }
+    (repaired, refused)
+}
+
 #[test]
 fn torn_exports_are_repaired_or_refused() {
-    let mut ends = Vec::new();
-    let only: Option<u64> = std::env::var("SEED").ok().and_then(|s| s.parse().ok());
-    for seed in 0..500 {
-        if only.is_some_and(|s| s != seed) {
-            continue;
-        }
-        let torn = torn(seed);
-        let end = end(&torn);
-        if std::env::var_os("TORN").is_some() {
-            let text = read(&binary_stl(b"", &torn.facets), Stl)
-                .err()
-                .map(|e| e.to_string());
-            println!(
-                "{seed} {end:?} {} moved {:.1e} dropped {} doubled {} junctions {} of {}: {}",
-                torn.name,
-                torn.moved,
-                torn.dropped,
-                torn.doubled,
-                torn.junctions,
-                torn.facets.len(),
-                text.unwrap_or_default()
-            );
-        }
-        ends.push((seed, end));
-    }
-    let wrong: Vec<_> = ends.iter().filter(|e| e.1.is_err()).collect();
-    assert!(wrong.is_empty(), "{wrong:#?}");
+    let (repaired, refused) = count(0..100);
+    assert!(repaired > refused, "{repaired} repaired, {refused} refused");
+}
+
+#[test]
+#[ignore = "takes a minute: run with --ignored --nocapture for the figures"]
+fn five_hundred_torn_exports_are_repaired_or_refused() {
+    let (repaired, refused) = count(0..500);
+    println!("{repaired} repaired, {refused} refused, none wrongly");
 }

@@ -94,9 +94,9 @@ impl Rim {
     }
 
     /// Whether two corners at some distance may be joined, now or when the reach has grown.
-    pub fn may_join(&self, [v, w]: [u32; 2], apart: f64) -> bool {
-        let [a, b] = [v, w].map(|v| self.allowed[v as usize]);
-        apart <= a.max(b) && apart <= self.clear[v as usize].min(self.clear[w as usize])
+    pub fn may_join(&self, corners: [u32; 2], apart: f64) -> bool {
+        let [a, b] = corners.map(|v| self.clear[v as usize]);
+        apart <= a.min(b) && self.may_close(&corners, apart)
     }
 }
 
