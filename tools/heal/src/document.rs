@@ -67,6 +67,7 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, He
         region.volume = Some(volume);
     }
     let source = Source {
+        sector_of: None,
         format: format.to_owned(),
         triangles: template.triangles.len() as u64,
         volume: regions.iter().filter_map(|r| r.volume).sum(),

@@ -8,13 +8,6 @@ use std::io::{BufReader, IsTerminal, Read};
 use std::path::Path;
 use tmesh::{DecodeError, Document};
 
-/// Bytes looked at to tell the format: a page, which is more than the comments that precede the first telling line of
-/// the text formats, and a single read from a pipe.
-const HEAD: u64 = 4096;
-
-/// Size of the input's buffer, bytes: what a pipe holds. Reads of large arrays pass the buffer by.
-const BUFFER: usize = 1 << 16;
-
 impl Session {
     /// Reads the input named on the command line, whatever its format.
     pub fn read(&self) -> Result<Document, Failure> {
@@ -84,11 +77,13 @@ impl Session {
         (path, from): (Option<&Path>, Option<Format>),
         repairing: Repairing,
     ) -> Result<Document, String> {
-        let mut input = BufReader::with_capacity(BUFFER, input);
+        let mut input = BufReader::new(input);
         let mut head = Vec::new();
         let read = |e: std::io::Error| format!("cannot read: {e}");
+        // What the buffer holds tells the format: it is more than the comments before the first telling line of text.
+        let buffer = input.capacity() as u64;
         (&mut input)
-            .take(HEAD)
+            .take(buffer)
             .read_to_end(&mut head)
             .map_err(read)?;
         if head.is_empty() {

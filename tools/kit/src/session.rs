@@ -7,11 +7,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use tmesh::{ChunkInfo, HistoryEntry};
-
-/// Time between two drawings of a progress bar: often enough to be seen moving.
-const TICK: Duration = Duration::from_millis(200);
 
 /// One run of a tool.
 pub struct Session {
@@ -114,8 +111,7 @@ impl Session {
         messages::say(&line);
     }
 
-    /// A progress bar for work of `length` steps; shown on a terminal only, and only when the work
-    /// lasts.
+    /// A progress bar for work of `length` steps, drawn when one is done; shown on a terminal only.
     pub fn progress(&self, length: u64, text: &str) -> Progress {
         let for_people = self.common.message_format == MessageFormat::Text;
         if self.common.quiet || !for_people || !std::io::stderr().is_terminal() {
@@ -126,7 +122,6 @@ impl Session {
             ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}% {eta}")
                 .unwrap_or_else(|_| ProgressStyle::default_bar()),
         );
-        bar.enable_steady_tick(TICK);
         Progress(bar)
     }
 

@@ -74,5 +74,14 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
         }
     };
     imported.document.promise = mesh.promise;
+    if let Some(instances) = mesh.sector_of {
+        imported.notices.push(format!(
+            "the file holds one sector of a mesh of {instances} instances, without its symmetry: it is taken for a whole body"
+        ));
+        let source = imported.document.source.as_mut();
+        source
+            .into_iter()
+            .for_each(|s| s.sector_of = Some(instances));
+    }
     Ok(imported)
 }
