@@ -61,7 +61,7 @@ pub fn sagittas(surface: &Surface, before: &Before) -> Vec<f64> {
 /// The sagitta of arcs that turn by an angle, of which some is uncertain, over the narrower of two widths; 0 for what is
 /// not smooth.
 fn sagitta(angle: f64, uncertain: f64, widths: [f64; 2]) -> f64 {
-    if !(angle <= SMOOTH) {
+    if angle.is_nan() || angle > SMOOTH {
         return 0.0;
     }
     0.125 * (angle - uncertain).max(0.0) * widths[0].min(widths[1])
