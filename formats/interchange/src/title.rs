@@ -82,17 +82,26 @@ fn parse_outside(text: &str) -> Option<Outside> {
     Some(Outside { group, radius })
 }
 
+/// How the title of a sector begins.
+const SECTOR: &str = "symtet sector: ";
+
 /// The title of a document's own mesh, each template once.
 pub fn document_title(document: &Document) -> String {
     match &document.promise {
         Some(promise) if document.is_plain() => promise_title(promise),
         _ if document.instances.len() > 1 => format!(
-            "symtet sector: {} of {} instances",
+            "{SECTOR}{} of {} instances",
             document.templates.len(),
             document.instances.len()
         ),
         _ => "symtet mesh".to_owned(),
     }
+}
+
+/// The number of instances of the whole in the title of a sector that [`document_title`] made.
+pub fn parse_sector(title: &str) -> Option<u32> {
+    let counts = title.strip_prefix(SECTOR)?.strip_suffix(" instances")?;
+    counts.split_once(" of ")?.1.parse().ok()
 }
 
 fn shortest(x: f64) -> String {

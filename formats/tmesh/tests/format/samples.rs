@@ -193,6 +193,7 @@ pub fn column() -> Document {
             marker(9, "top", None),
         ],
         source: Some(Source {
+            sector_of: None,
             format: "stl".to_owned(),
             triangles: 28,
             volume: 4.0,
