@@ -8,9 +8,6 @@ use glam::DVec3;
 use improve::{Flats, Freedoms, Improved, Wish, improve};
 use mesher::{Climb, Error, Plc, ROUNDING};
 
-/// Part of the tetrahedra that is improved, at most: where more are bad, the shape is.
-const SHARE: f64 = 0.1;
-
 /// Improves the tetrahedra of a filled template, and checks all of it.
 ///
 /// # Errors
@@ -71,7 +68,6 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
         min_dihedral: params.min_dihedral,
         max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),
         scale: plc.scale,
-        share: SHARE,
     };
     Some(improve(&mut filled.template, &freedoms, &wish))
 }
