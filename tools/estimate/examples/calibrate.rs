@@ -241,14 +241,15 @@ impl Compared<'_> {
 }
 
 /// How far ratios are from one: the root of the mean square of their logarithms.
-fn spread(all: &[Compared<'_>], model: CostModel) -> f64 {
-    let squares = all.iter().map(|c| c.ratio(model).ln().powi(2));
-    (squares.sum::<f64>() / all.len().max(1) as f64).sqrt()
+fn spread(all: &[&[Compared<'_>]], model: CostModel) -> f64 {
+    let all = || all.iter().copied().flatten();
+    let squares = all().map(|c| c.ratio(model).ln().powi(2));
+    (squares.sum::<f64>() / all().count().max(1) as f64).sqrt()
 }
 
 /// The value of a coefficient, of those between two bounds, that makes the spread least.
 fn best(
-    all: &[Compared<'_>],
+    all: &[&[Compared<'_>]],
     model: CostModel,
     [low, high]: [f64; 2],
     set: &dyn Fn(&mut CostModel, f64),
@@ -297,13 +298,15 @@ fn fit(samples: &[Sample]) {
         compared.into_iter().partition(|c| c.sample.hub.is_some());
     let (mirror, seam): (Vec<_>, Vec<_>) = plain.into_iter().partition(|c| c.sample.cut.free);
     let mut model = present;
-    // Each is felt beside the others: twice around is enough for what the spread tells.
+    // Each is felt beside the others: twice around is enough for what the spread tells. A coefficient is fitted to all
+    // meshes that feel it.
+    let free: &[&[Compared<'_>]] = &[&mirror, &hubs];
     for _ in 0..2 {
-        model = best(&mirror, model, [0.0, 0.5], &|m, x| m.skin = x);
-        model = best(&mirror, model, [0.6, 2.6], &|m, x| m.span = x);
-        model = best(&seam, model, [0.3, 1.8], &|m, x| m.seam_span = x);
-        model = best(&seam, model, [0.0, 20.0], &|m, x| m.sliced = x);
-        model = best(&hubs, model, [0.0, 2.0], &|m, x| m.hub_skin = x);
+        model = best(free, model, [0.0, 0.5], &|m, x| m.skin = x);
+        model = best(free, model, [0.6, 2.6], &|m, x| m.span = x);
+        model = best(&[&seam], model, [0.3, 1.8], &|m, x| m.seam_span = x);
+        model = best(&[&seam], model, [0.0, 20.0], &|m, x| m.sliced = x);
+        model = best(&[&hubs], model, [0.0, 2.0], &|m, x| m.hub_skin = x);
     }
     let factors = samples.iter().filter(|s| s.whole).map(|s| {
         let elements: f64 = s.elements(&s.estimate(model)).iter().sum();
@@ -312,11 +315,11 @@ fn fit(samples: &[Sample]) {
     let count = samples.iter().filter(|s| s.whole).count().max(1);
     model.tetrahedra = (factors.sum::<f64>() / count as f64).exp();
     for (name, all) in [
-        ("mirror wedges", &mirror),
-        ("seams", &seam),
-        ("hubs", &hubs),
+        ("mirror wedges", &mirror[..]),
+        ("seams", &seam[..]),
+        ("hubs", &hubs[..]),
     ] {
-        let (before, after) = (spread(all, present), spread(all, model));
+        let (before, after) = (spread(&[all], present), spread(&[all], model));
         println!("{name}: spread {before:.3} with the present coefficients, {after:.3} fitted");
     }
     times(samples, &mut model);

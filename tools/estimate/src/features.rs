@@ -1,5 +1,6 @@
 //! Sizes that the edges of the body and the thickness of its parts ask for.
 
+use crate::sum::classes::RESOLUTION;
 use crate::sum::samples::Sample;
 use crate::sum::section::{SectionTriangle, flat};
 use crate::wedge::Wedge;
@@ -8,14 +9,9 @@ use glam::DVec2;
 use rustc_hash::FxHashMap;
 use tmesh::OUTSIDE;
 
-/// Cosine above which two triangles are one flat face: that of an angle of 3e-3 degrees, which single precision
-/// gives triangles of a plane and no shape means.
-pub const FLAT: f64 = 1.0 - 1e-9;
-/// Most pairs of a sample and an edge that are looked at: some hundredths of a second.
-const PAIRS: usize = 20_000_000;
-/// Samples of the thickness along the section's extent, and along one edge at most: sizes differ little between
-/// places that are nearer to each other than the smallest pieces of the integral are to their neighbours.
-const ALONG: f64 = 64.0;
+/// Cosine above which two triangles are one flat face: that of 0.03 degrees, by which single precision turns a triangle
+/// of a plane whose size is the geometric mean of the body's and of the rounding.
+pub const FLAT: f64 = 1.0 - f32::EPSILON as f64;
 
 /// Lengths of the edges of the body, at their ends. Edges in the walls are cuts; those that end at a
 /// mirror plane go on behind it, and those that end at a seam go on from its other face.
@@ -122,17 +118,17 @@ impl Outline {
         Self { edges }
     }
 
-    /// Thickness of what lies on either side of each edge; `sliced` for that up to edges next to it not
-    /// to count.
+    /// Thickness of what lies on either side of each edge, at places as far apart as the estimate tells sizes apart, no
+    /// more of them than it has cells; `sliced` for that up to edges next to it not to count.
     pub fn thickness(&self, extent: f64, sliced: bool, samples: &mut Vec<Sample>) {
         let count = self.edges.len().max(1);
-        let most = (PAIRS / count).max(1);
+        let most = RESOLUTION * RESOLUTION;
         let length: f64 = self.edges.iter().map(|e| e.a.distance(e.b)).sum();
-        let step = (length / most as f64).max(extent / ALONG);
+        let step = (length / most as f64).max(extent / RESOLUTION as f64);
         let stride = count.div_ceil(most);
         for edge in self.edges.iter().step_by(stride) {
             let along = edge.b - edge.a;
-            let parts = (along.length() / step).ceil().clamp(1.0, ALONG) as usize;
+            let parts = (along.length() / step).ceil().max(1.0) as usize;
             let normal = along.perp().normalize_or_zero();
             for i in 0..parts {
                 let from = edge.a + along * ((i as f64 + 0.5) / parts as f64);

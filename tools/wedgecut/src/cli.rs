@@ -122,8 +122,8 @@ fn angle(text: &str) -> Result<Angle, String> {
 
 fn relative(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(x) if (0.0..=0.01).contains(&x) => Ok(x),
-        _ => Err("expected a number from 0 to 0.01".to_owned()),
+        Ok(x) if (0.0..1.0).contains(&x) => Ok(x),
+        _ => Err("expected a number from 0 to below 1".to_owned()),
     }
 }
 

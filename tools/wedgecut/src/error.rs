@@ -50,11 +50,11 @@ pub enum CutError {
     )]
     BadPlace {
         /// Degrees.
-        angle: f64,
+        angle: String,
         /// Elements that it costs, by estimate.
         elements: f64,
         /// Degrees; a better place.
-        better: f64,
+        better: String,
         /// Elements that it costs there.
         fewer: f64,
     },

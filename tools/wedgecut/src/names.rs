@@ -4,10 +4,10 @@ use glam::DVec3;
 use std::collections::BTreeMap;
 use tmesh::{Document, Template};
 
-/// Distance of the centre of a boundary piece from the mirror plane across the axis up to which the piece counts
-/// as its own image, relative to the body's size: several times the
-/// tolerance of the symmetry, up to which facets may be off, and far below the size of a piece that has a name.
-const CENTRED: f64 = 5e-3;
+/// A part in whole percents, as messages tell it; what is less is not told apart.
+fn percents(part: f64) -> f64 {
+    (100.0 * part).round()
+}
 
 /// Whether the mirror plane across the axis maps every boundary piece onto itself, as far as their centres
 /// tell: half a body has only the names of its half. The plane is through `origin` across `axis`.
@@ -25,12 +25,11 @@ pub fn keeps_names(body: &Template, origin: DVec3, axis: DVec3) -> bool {
         piece.0 += area;
         piece.1 += area * heights.iter().sum::<f64>() / 3.0;
     }
-    let is_centred = |p: &(f64, f64)| p.1.abs() <= CENTRED * extent * p.0;
+    let is_centred = |&(area, moment): &(f64, f64)| {
+        area * extent == 0.0 || percents(moment / (area * extent)) == 0.0
+    };
     pieces.len() < 2 || pieces.values().all(is_centred)
 }
-
-/// Part of its area by which a boundary piece may differ between the body and the copies of its wedge.
-const SAME_AREA: f64 = 0.02;
 
 /// What the copies of a wedge do to boundary pieces that differ from sector to sector: a sentence, if there are
 /// any. Every copy has the names of the sector that was cut.
@@ -48,14 +47,14 @@ pub fn lost(wedge: &Document) -> Option<String> {
                 copies * geom::measure::triangle_area(a, b, c);
         }
     }
-    let differ: Vec<(&str, f64, f64)> = (wedge.markers.iter())
+    let differ: Vec<(&str, f64)> = (wedge.markers.iter())
         .filter_map(|m| {
             let now = areas.get(&m.id).copied().unwrap_or(0.0);
-            let area = m.area?;
-            ((now - area).abs() > SAME_AREA * area).then_some((m.name.as_str(), area, now))
+            let area = m.area.filter(|area| *area > 0.0)?;
+            (percents(now / area) != percents(1.0)).then_some((m.name.as_str(), now / area))
         })
         .collect();
-    let (name, area, now) = differ.first()?;
+    let (name, part) = differ.first()?;
     let others = match differ.len() {
         1 => String::new(),
         n => format!(" ({} pieces in all)", n),
@@ -64,6 +63,6 @@ pub fn lost(wedge: &Document) -> Option<String> {
         "boundary pieces differ from sector to sector, and all copies get the names of one: \"{name}\" has {:.0} % \
          of its area in the copies of the wedge{others}; to keep the names, name sectors alike or cut with a lower \
          --order (1 keeps all)",
-        100.0 * now / area
+        percents(*part)
     ))
 }

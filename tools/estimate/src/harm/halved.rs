@@ -6,10 +6,11 @@
 use geom::edges::Edges;
 use geom::measure::double_area_vector;
 use glam::DVec3;
+use std::f64::consts::TAU;
 use tmesh::{OUTSIDE, Triangle};
 
-/// Angles of the wedge from here on do no harm, degrees: an element with equal sides fits in.
-const HARMLESS: f64 = 60.0;
+/// Angles of the wedge from here on do no harm, radians: a triangle with equal sides fits in.
+const HARMLESS: f64 = std::f64::consts::FRAC_PI_3;
 
 /// Sum, over the edges of the body's boundary in the plane through the axis at `angle` (radians), of the
 /// length times how far half of the angle of material there is below [`HARMLESS`], degrees. Positions
@@ -45,10 +46,10 @@ pub fn harm(vertices: &[DVec3], triangles: &[Triangle], angle: f64, tolerance: f
             let away = apex - along * (apex.dot(along) / along.length_squared());
             (away, normal * sign)
         });
-        let between = into.angle_between(other).to_degrees();
+        let between = into.angle_between(other);
         let convex = outward.dot(other) < 0.0;
-        let material = if convex { between } else { 360.0 - between };
-        sum += along.length() * (HARMLESS - 0.5 * material).max(0.0);
+        let material = if convex { between } else { TAU - between };
+        sum += along.length() * (HARMLESS - 0.5 * material).max(0.0).to_degrees();
     }
     sum
 }

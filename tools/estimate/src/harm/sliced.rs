@@ -9,14 +9,8 @@ use geom::measure::double_area_vector;
 use glam::DVec3;
 use tmesh::Triangle;
 
-/// A segment shorter than this part of the size of elements is rounding, or will be collapsed: the default of
-/// `wedgecut --clean`.
-const SHORTEST: f64 = 1e-6;
 /// What a unit of [`crate::needles`], one element of the estimate, is in units of harm.
 const NEEDLE: f64 = 1.0 / CostModel::CALIBRATED.sliced;
-/// Smallest sine that counts, that of the angle below which facets are bent by their drawing and not by their shape:
-/// faces in the plane make no angle with it.
-const FLATTEST: f64 = 1e-3;
 
 /// How much a cut harms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +32,8 @@ impl Harm {
 /// the segments in which it meets the triangles, of how far the inverse sine of the angle between them is
 /// above one, times the segment's length in elements, and of the logarithm of how much shorter than
 /// element and triangle the segment is. Near: the same for corners and sides of triangles beside the plane.
-/// `size` is that of elements beside a triangle, model units; points within `tolerance` of the plane are in it.
+/// `size` is that of elements beside a triangle, model units; points within `tolerance` of the plane are in it, and
+/// what is shorter will be collapsed.
 pub fn harm(
     vertices: &[DVec3],
     triangles: &[Triangle],
@@ -77,11 +72,12 @@ pub fn harm(
         }
         let size = size(triangle);
         let length = p.distance(q);
-        if length < SHORTEST * size {
+        if length <= tolerance {
             continue;
         }
         let face = double_area_vector(corners[0], corners[1], corners[2]).normalize_or(normal);
-        let sine = face.cross(normal).length().max(FLATTEST);
+        // Faces in the plane have no corner off it. What is left of zero is rounding.
+        let sine = face.cross(normal).length().max(f64::EPSILON);
         let side = (0..3)
             .map(|i| corners[i].distance(corners[(i + 1) % 3]))
             .fold(size, f64::min);
@@ -94,12 +90,10 @@ pub fn harm(
         });
         let Some(i) = alone else { continue };
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        let least = SHORTEST * size;
-        harm.near += shorter(height[i].abs().max(least));
+        harm.near += shorter(height[i].abs());
         // A side in the plane leaves no strip.
         let strip = height[j].abs().max(height[k].abs());
         if strip > 0.0 && strip < size {
-            let strip = strip.max(least);
             harm.near += NEEDLE * (corners[j].distance(corners[k]) / strip - 1.0).max(0.0);
         }
     }

@@ -1,13 +1,17 @@
 //! Classes of radius and of the size of elements, by which the body's volume is summed.
 
-/// Classes of radius. The width of a wedge changes by a hundredth of its greatest from one to the next, which is
-/// less than the coefficients of the estimate are known to.
-pub const RADII: usize = 96;
+/// What the estimate tells apart, as a part of the section's extent: the number of classes of radius, of cells across
+/// the section of which each keeps one feature, of samples of the thickness along the extent, of the smallest pieces
+/// along it. Smaller features are seen by what is around them. The width of a wedge changes by a hundredth of its
+/// greatest from one class to the next, a tenth of what the estimate errs by. On 425 bodies and wishes, 64 puts the
+/// hubs of vias elsewhere, and 128 some of them, at no other order of the benchmark; time goes with the square.
+pub const RESOLUTION: usize = 96;
 /// Classes of size per factor of two: the number of elements in a class is known to a quarter octave cubed, and
 /// the errors of neighbouring classes cancel.
 const PER_OCTAVE: usize = 4;
-/// Factors of two between the smallest size and the section's extent.
-const OCTAVES: i32 = 20;
+/// Factors of two between the smallest size and the section's extent: those that single precision tells, in which
+/// sizes are compared.
+const OCTAVES: i32 = f32::MANTISSA_DIGITS as i32 - 1;
 /// Classes of size.
 pub const SIZES: usize = PER_OCTAVE * OCTAVES as usize;
 /// Bounds of the classes within a factor of two: two to the power of a quarter, a half, three quarters.
@@ -35,7 +39,7 @@ impl Classes {
 
     /// The class of a radius.
     pub fn of_radius(&self, r: f64) -> usize {
-        ((r / self.extent * RADII as f64) as usize).min(RADII - 1)
+        ((r / self.extent * RESOLUTION as f64) as usize).min(RESOLUTION - 1)
     }
 
     /// The class of a size.
@@ -58,7 +62,7 @@ impl Classes {
 
     /// Width of a class of radius.
     pub fn width(&self) -> f64 {
-        self.extent / RADII as f64
+        self.extent / RESOLUTION as f64
     }
 
     /// Middle of a class of size.

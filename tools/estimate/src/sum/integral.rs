@@ -1,28 +1,15 @@
 //! How much of a body wants elements of which size: integrals over its section.
 //!
 //! The section's triangles are halved until they are no larger than the elements wanted there, each piece
-//! with the samples of sizes that matter in it.
+//! with the samples of sizes that matter in it. Within a piece as large as an element, sizes vary by their growth;
+//! near the axis pieces are as small as to let the width of a wedge vary by no more.
 
-use crate::sum::classes::{Classes, RADII, SIZES};
+use crate::sum::classes::{Classes, RESOLUTION, SIZES};
 use crate::sum::piece::Piece;
 use crate::sum::samples::{Sample, useful};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::Range;
-
-/// Smallest pieces of the section, relative to its extent; smaller features are seen by the pieces around them.
-pub const FINEST: f64 = 1.0 / 256.0;
-/// Size of pieces near the axis, where wedges get narrow quickly, relative to the radius: the width of a wedge
-/// varies by as much within one.
-const NEAR_AXIS: f64 = 0.3;
-/// Pieces smaller than this, relative to the extent, are so many (a thousand would fill the section) that each
-/// matters little: they may be larger than elements, by a quarter, one class of size, and need not be smaller for
-/// being near the axis. Without it the integral takes twice as long.
-const SMALL: f64 = 1.0 / 32.0;
-const COARSE: f64 = 1.25;
-/// Groups of triangles that are summed on their own, so that sums do not depend on the number of threads: as many
-/// threads have something to do.
-const GROUPS: usize = 8;
 
 /// A triangle of the section.
 pub struct Part {
@@ -49,9 +36,9 @@ pub struct Integral {
 impl Integral {
     fn zero() -> Self {
         Self {
-            volume: vec![[0.0; SIZES]; RADII],
-            walls: vec![0.0; RADII],
-            heights: vec![0.0; RADII],
+            volume: vec![[0.0; SIZES]; RESOLUTION],
+            walls: vec![0.0; RESOLUTION],
+            heights: vec![0.0; RESOLUTION],
         }
     }
 
@@ -65,15 +52,18 @@ impl Integral {
         threads: usize,
     ) -> Self {
         let samples = useful(samples, growth);
+        // Groups of triangles are summed on their own, so that sums do not depend on the number of threads: as many
+        // groups as triangles in each, so that neither the sums nor what is left to the last thread is much.
+        let groups = parts.len().isqrt();
         let of_group = |group: usize| {
             let mut sums = Self::zero();
             let mut near = Near::new(&samples, growth, classes.extent);
-            for part in parts.iter().skip(group).step_by(GROUPS) {
+            for part in parts.iter().skip(group).step_by(groups) {
                 sums.add_part(part, &mut near, classes);
             }
             sums
         };
-        let groups = 0..GROUPS.min(parts.len());
+        let groups = 0..groups;
         // Where no thread is to be had, it goes without.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.min(groups.len()));
         let sums: Vec<Self> = match pool.build() {
@@ -99,7 +89,7 @@ impl Integral {
     }
 
     fn add_part(&mut self, part: &Part, near: &mut Near, classes: Classes) {
-        let [finest, small] = [FINEST, SMALL].map(|part| part * classes.extent);
+        let finest = classes.width();
         // The samples that matter in a piece on the stack are a run of `near`; runs of those above it on
         // the stack lie behind it.
         let mut stack = vec![(Piece::Triangle(part.corners), 0..near.all)];
@@ -107,8 +97,7 @@ impl Integral {
             near.len = run.end;
             let middle = piece.middle();
             let size = near.ask(run.clone(), middle).min(part.cap);
-            let coarse = size.max(small.min(COARSE * size));
-            let wanted = coarse.min((NEAR_AXIS * middle.x).max(small)).max(finest);
+            let wanted = size.min(near.growth * middle.x).max(finest);
             let corners = piece.corners().iter();
             if piece.longest() <= wanted * wanted {
                 let area = piece.area() * part.weight;

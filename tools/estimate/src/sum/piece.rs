@@ -2,9 +2,6 @@
 
 use glam::DVec2;
 
-/// What is so many times longer than wide is narrow: halves across it are then nearer to squares than halves along it.
-const NARROW: f64 = 3.0;
-
 /// A piece of the section, by radius and height.
 #[derive(Clone, Copy, Debug)]
 pub enum Piece {
@@ -70,7 +67,7 @@ impl Piece {
                     true => (next, last),
                     false => (last, next),
                 };
-                if sides[second] > NARROW * NARROW * sides[shortest] {
+                if is_narrow(sides[second], sides[shortest]) {
                     let tip = t[(shortest + 2) % 3];
                     return halves_of_band([t[shortest], t[(shortest + 1) % 3], tip, tip]);
                 }
@@ -81,13 +78,18 @@ impl Piece {
             Self::Band([a, b, c, d]) => {
                 let long = a.distance_squared(d).min(b.distance_squared(c));
                 let wide = a.distance_squared(b).max(c.distance_squared(d));
-                if long > NARROW * NARROW * wide {
+                if is_narrow(long, wide) {
                     return halves_of_band([a, b, c, d]);
                 }
                 [Self::Triangle([a, b, c]), Self::Triangle([a, c, d])]
             }
         }
     }
+}
+
+/// Whether halves across what has these squares of length and width are no wider than long: it is twice as long as wide.
+fn is_narrow(length: f64, width: f64) -> bool {
+    length > 4.0 * width
 }
 
 fn halves_of_band([a, b, c, d]: [DVec2; 4]) -> [Piece; 2] {

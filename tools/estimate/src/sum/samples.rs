@@ -3,10 +3,6 @@
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
-/// Samples, the smallest sizes first, that are tried for whether they make others useless. More find hardly any,
-/// and the time for all pairs would be felt.
-const COMPARED: usize = 256;
-
 /// A size that a feature asks for, at a place of the section.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
@@ -43,7 +39,7 @@ pub fn useful(samples: &[Sample], growth: f64) -> Vec<Sample> {
             let spare = s.size - k.size;
             growth * growth * k.at.distance_squared(s.at) <= spare * spare
         };
-        if !kept.iter().take(COMPARED).any(is_below) {
+        if !kept.iter().any(is_below) {
             kept.push(s);
         }
     }

@@ -6,17 +6,13 @@ use glam::DVec3;
 /// neighbours to a sixteenth of the opening, which is less than two of the elements that fit between the sides.
 const PLACES: usize = 16;
 
-/// Gaps narrower than this part of the largest are places next to a vertex: the cut would leave a strip.
-const LEAST_GAP: f64 = 1e-3;
-
-/// Gaps that differ by less than this part are equal, so that rounding does not choose.
-const EQUAL: f64 = 1e-6;
-
 /// Angles for the first side of a wedge whose sides may be anywhere, radians, best first: the middle of the largest
 /// gap between the angles of the vertices modulo the wedge's `opening`, so that the sides cut edges cleanly
 /// between vertices, the smallest such angle when several gaps are equal; then the same about a
 /// part of the opening further on each.
 pub fn clear_angles(vertices: &[DVec3], opening: f64, axis_tolerance: f64) -> Vec<f64> {
+    // Angles that differ by less are equal, and so are gaps: rounding does not choose.
+    let equal = f64::EPSILON.sqrt() * opening;
     let mut angles: Vec<f64> = vertices
         .iter()
         .filter(|p| p.x.hypot(p.y) > axis_tolerance)
@@ -29,23 +25,20 @@ pub fn clear_angles(vertices: &[DVec3], opening: f64, axis_tolerance: f64) -> Ve
     let wrap = (last - opening, *first);
     let gaps = || std::iter::once(wrap).chain(angles.windows(2).map(|w| (w[0], w[1])));
     let largest = |gaps: &mut dyn Iterator<Item = (f64, f64)>| {
-        gaps.reduce(
-            |best, gap| match gap.1 - gap.0 > (best.1 - best.0) * (1.0 + EQUAL) {
-                true => gap,
-                false => best,
-            },
-        )
+        gaps.reduce(|best, gap| match gap.1 - gap.0 > best.1 - best.0 + equal {
+            true => gap,
+            false => best,
+        })
     };
     let middle = |gap: (f64, f64)| (0.5 * (gap.0 + gap.1)).rem_euclid(opening);
     let widest = largest(&mut gaps());
     let best = widest.map_or(0.0, middle);
-    let least = LEAST_GAP * widest.map_or(0.0, |gap| gap.1 - gap.0);
     let part = opening / PLACES as f64;
     let others = (1..PLACES).filter_map(|k| {
         let around = best + part * k as f64;
         let off = |gap: (f64, f64)| (middle(gap) - around + 0.5 * opening).rem_euclid(opening);
         let is_near = |gap: &(f64, f64)| (off(*gap) - 0.5 * opening).abs() <= 0.5 * part;
-        let is_open = |gap: &(f64, f64)| gap.1 - gap.0 > least;
+        let is_open = |gap: &(f64, f64)| gap.1 - gap.0 > equal;
         largest(&mut gaps().filter(is_open).filter(is_near)).map(middle)
     });
     std::iter::once(best).chain(others).collect()

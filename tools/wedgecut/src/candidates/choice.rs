@@ -1,13 +1,12 @@
 //! The order in which candidates are tried: what is cheapest to mesh first.
 
 use super::groups::Groups;
-use super::places::{Places, UNASKED};
+use super::places::{HARMFUL, Places};
 use crate::body::Body;
-use crate::cell::{hub_order, may_have_hub, opening};
+use crate::cell::{angle, hub_order, may_have_hub};
 use crate::cutting::{Candidate, Cut};
 use crate::params::Hub;
 use estimate::{Bounds, CostModel, Estimate, Hubs, Way, Ways};
-use std::f64::consts::TAU;
 use tmesh::{Group, Kind};
 
 /// Candidates, and why they are in this order.
@@ -29,7 +28,7 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     // narrow wedge may do better with a hub.
     let may_choose = body.params.order.is_none() || body.params.hub != Hub::Auto;
     let kinds_of = |order: u32| {
-        let clean = |g: &Group| g.kind == groups.plain || harm(body, *g, first) <= UNASKED;
+        let clean = |g: &Group| g.kind == groups.plain || harm(body, *g, first) <= HARMFUL;
         let kinds: Vec<Group> = groups.at(order).into_iter().filter(clean).collect();
         let last = kinds.last().copied();
         let wanted = |g: &Group| {
@@ -100,15 +99,6 @@ fn turning_over(group: Group) -> &'static str {
         Kind::Ch | Kind::Dh => " halved",
         Kind::D | Kind::Dd => " halved by half turns",
         Kind::S => " halved by rotary reflections",
-    }
-}
-
-/// The angle of a group's wedge, radians.
-fn angle(group: Group) -> f64 {
-    let turn = opening(group);
-    match turn.k() {
-        0 => TAU,
-        k => TAU * f64::from(k) / f64::from(turn.n()),
     }
 }
 

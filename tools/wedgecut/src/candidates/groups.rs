@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use crate::body::Body;
-use crate::cell::{HUB_LEAST_ORDER, may_have_hub};
+use crate::cell::{has_room_for_hub, may_have_hub};
 use crate::cutting::Candidate;
 use crate::error::CutError;
 use crate::names;
@@ -56,15 +56,14 @@ impl Groups {
             groups.over = None;
         }
         // A mesh without symmetry is not what a symmetric body is cut for.
-        let least = match params.hub {
-            _ if found.order == 1 => 1,
-            Hub::Radius(_) => HUB_LEAST_ORDER,
-            _ if mirrors => 1,
-            _ => 2,
+        let is_wanted = |order: &u32| match params.hub {
+            _ if found.order == 1 => true,
+            Hub::Radius(_) => has_room_for_hub(*order),
+            Hub::Auto | Hub::None => mirrors || *order > 1,
         };
         groups.orders = match params.order {
             Some(order) => vec![order],
-            None => divisors.into_iter().filter(|&n| n >= least).collect(),
+            None => divisors.into_iter().filter(is_wanted).collect(),
         };
         // Of some divisors there are no rotary reflections: these would give up half of the elements found.
         if params.order.is_none() && groups.has_half_turns_or_rotary_reflections() {
@@ -125,13 +124,13 @@ fn keeps_names(body: &Body<'_>) -> bool {
 }
 
 fn check_hub(radius: f64, order: u32) -> Result<(), CutError> {
-    if order >= HUB_LEAST_ORDER {
+    if has_room_for_hub(order) {
         return Ok(());
     }
     Err(CutError::BadHub {
         radius,
         reason: format!(
-            "the wedge of order {order} is too wide for one; orders from {HUB_LEAST_ORDER} can have a hub"
+            "the wedge of order {order} is too wide for one; orders from 3 can have a hub"
         ),
     })
 }

@@ -2,28 +2,29 @@
 
 use super::angles::clear_angles;
 use crate::body::Body;
-use crate::cell::opening;
+use crate::cell::angle;
 use crate::cutting::Place;
 use crate::error::CutError;
 use estimate::CostModel;
 use estimate::harm::sliced::Harm;
 use estimate::harm::{halved, sliced};
+use geom::number::number;
 use glam::DVec3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use tmesh::{Frame, Group, Isometry, Kind};
 
 /// How many places of a seam are tried, at most: at the fourth, most bodies that cannot be cut have failed for a
 /// reason that holds everywhere.
 const TRIALS: usize = 4;
-/// Harm from which a seam at an angle that was asked for is told, if another place does so many times less: a few
-/// thousand elements in each copy, the size of a small wedge, and more than the estimate errs by.
-const HARMFUL: f64 = 20.0;
-const LESS: f64 = 4.0;
-/// Harm from which it is refused: each copy would get as many elements as a whole body usually has.
+/// Harm from which walls on the axes of half turns, which nobody asked for, are given up, since they cannot be elsewhere;
+/// and by how much more a seam at an angle that was asked for harms than at the best place when the user is told. Twenty
+/// thousand tetrahedra in each copy, by the coefficients of the model, the size of a wedge. Of half turns, walls
+/// that harm by up to 205 give as good elements as a seam (gears), and from 217 on slivers (knots), so that
+/// the value lies between.
+pub const HARMFUL: f64 = 210.0;
+/// Harm from which a seam at an angle that was asked for is refused: each copy would get as many elements as a whole
+/// body usually has. A choice; only angles that pass an edge by a hundred-thousandth of the body reach it.
 const USELESS: f64 = 2000.0;
-/// Harm from which walls on half turns' axes, which nobody asked for and which cannot be elsewhere, are given up: a tenth
-/// of what is refused where it was asked for.
-pub const UNASKED: f64 = 0.1 * USELESS;
 
 /// Places to try for the wedge of a group, best first.
 pub struct Places {
@@ -114,7 +115,7 @@ impl Places {
         let [given, other] = both.map(|a| halved::harm(&vertices, triangles, a, plane));
         let [cut, less] = both.map(|a| halved::crossed(&vertices, triangles, a, plane));
         // Rounding does not choose.
-        let alike = (given - other).abs() <= 1e-6 * given.max(other);
+        let alike = (given - other).abs() <= f64::EPSILON.sqrt() * given.max(other);
         let is_better = if alike { less < cut } else { other < given };
         Self::fixed(body, i64::from(is_better), harm)
     }
@@ -145,14 +146,13 @@ impl Places {
 
     /// The sides may lie anywhere.
     fn of_seams(body: &Body<'_>, group: Group) -> Result<Self, CutError> {
-        let turn = opening(group);
-        let opening = TAU * f64::from(turn.k()) / f64::from(turn.n());
+        let opening = angle(group);
         let vertices = body.canonical();
         let slicing = slicing(body);
         let clear = clear_angles(&vertices, opening, body.tolerance.on_plane());
         let mut list: Vec<_> = clear.into_iter().map(|a| (a, slicing(a))).collect();
-        // Stable, and rounding does not choose: the clearest place stays first among equals.
-        let class = |harm: Harm| (harm.total() * 1e3).round();
+        // Stable: of places that differ by less than an element the clearest stays first.
+        let class = |harm: Harm| (CostModel::CALIBRATED.sliced * harm.total()).round();
         list.sort_by(|a, b| class(a.1).total_cmp(&class(b.1)));
         let mut warning = None;
         if let Some(angle) = body.params.start_angle {
@@ -194,7 +194,7 @@ fn turned(body: &Body<'_>, angle: f64) -> Result<Frame, CutError> {
 fn slicing(body: &Body<'_>) -> impl Fn(f64) -> Harm {
     let vertices = body.canonical();
     let size = body.element_size();
-    let plane = body.tolerance.on_plane();
+    let plane = body.tolerance.on_plane().max(body.tolerance.detail());
     move |angle| sliced::harm(&vertices, &body.surface.triangles, angle, plane, &size)
 }
 
@@ -205,16 +205,16 @@ fn slicing(body: &Body<'_>) -> impl Fn(f64) -> Harm {
 /// The same of a place that makes the mesh useless.
 fn is_harmful(angle: f64, harm: Harm, best: (f64, Harm)) -> Result<Option<String>, CutError> {
     let (given, least) = (harm.total(), best.1.total());
-    if given <= HARMFUL.max(LESS * least) {
+    if given <= least + HARMFUL {
         return Ok(None);
     }
     // What a unit of harm costs.
     let model = CostModel::CALIBRATED;
     let elements = model.sliced * model.tetrahedra;
     let error = CutError::BadPlace {
-        angle: (angle.to_degrees() * 1e9).round() / 1e9,
+        angle: number(angle.to_degrees()),
         elements: elements * given,
-        better: (best.0.to_degrees() * 1e4).round() / 1e4,
+        better: number(best.0.to_degrees()),
         fewer: elements * least,
     };
     if given > USELESS {

@@ -1,20 +1,18 @@
 //! Where a point lies with respect to the faces of a cell.
 
-/// Most faces of a cell: two through the axis, the hub's, and one across the axis.
-pub const MAX_FACES: usize = 4;
-
 /// For each face of a cell -1 beyond it, 0 on it, 1 on the cell's side of it; and whether the point is on the axis.
-/// Points on the axis are on every face that begins there.
+/// Points on the axis are on every face that begins there. A cell has at most four faces: two through the axis, the
+/// hub's, and one across the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Class {
-    signs: [i8; MAX_FACES],
+    signs: [i8; 4],
     axis: bool,
 }
 
 impl Class {
     /// Within all faces.
     pub const INSIDE: Self = Self {
-        signs: [1; MAX_FACES],
+        signs: [1; 4],
         axis: false,
     };
 
@@ -43,7 +41,7 @@ impl Class {
     pub fn bound(self) -> u8 {
         let faces = self.signs.iter().enumerate();
         let on = faces.filter(|(_, sign)| **sign == 0);
-        on.fold(u8::from(self.axis) << MAX_FACES, |bits, (i, _)| {
+        on.fold(u8::from(self.axis) << self.signs.len(), |bits, (i, _)| {
             bits | 1 << i
         })
     }

@@ -17,4 +17,4 @@ pub use class::Class;
 pub use face::{Face, Role, Shape};
 pub use join::Join;
 pub use part::{Border, Part};
-pub use table::{HUB_LEAST_ORDER, LEVEL_WALL, hub_order, may_have_hub, of_group, opening};
+pub use table::{LEVEL_WALL, angle, has_room_for_hub, hub_order, may_have_hub, of_group};

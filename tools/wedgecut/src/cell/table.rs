@@ -4,33 +4,27 @@ use super::bounds::Cell;
 use super::face::{Face, Role};
 use super::join::Join;
 use super::part::Part;
+use estimate::CostModel;
+use std::f64::consts::TAU;
 use tmesh::{Group, Isometry, Kind};
 
-/// Least angle of the hub's wedge, degrees: below it, elements at the axis would be bad again; an order more would
-/// only make the hub, which is small, smaller.
-const HUB_ANGLE: u32 = 30;
-
-/// Least order of a rotation for a hub: the hub's plane has to cross both sides.
-pub const HUB_LEAST_ORDER: u32 = 3;
-
-/// The order of the rotation that the hub of a wedge keeps: the largest divisor for which its own wedge is at least
-/// [`HUB_ANGLE`] wide.
+/// The order of the rotation that the hub of a wedge keeps: the largest divisor for which its own wedge is a wide one.
 pub fn hub_order(group: Group) -> u32 {
-    let full = if group.has_vertical_mirrors() {
-        180
-    } else {
-        360
-    };
-    (1..=group.order.min(full / HUB_ANGLE))
-        .rev()
-        .find(|h| group.order.is_multiple_of(*h))
-        .unwrap_or(1)
+    let is_wide = |&order: &u32| angle(Group::new(group.kind, order)) >= CostModel::CALIBRATED.wide;
+    let divisors = (1..=group.order).filter(|h| group.order.is_multiple_of(*h));
+    divisors.rev().find(is_wide).unwrap_or(1)
 }
 
 /// Whether wedges of a group can have a hub.
 pub fn may_have_hub(group: Group) -> bool {
     let kinds = [Kind::C, Kind::Cv, Kind::Ch, Kind::Dh];
-    kinds.contains(&group.kind) && group.order >= HUB_LEAST_ORDER
+    kinds.contains(&group.kind) && has_room_for_hub(group.order)
+}
+
+/// Whether the sides of the wedges of an order are less than half a turn apart, or mirror planes less than a quarter, so
+/// that the plane of a hub crosses both.
+pub fn has_room_for_hub(order: u32) -> bool {
+    order > 2
 }
 
 /// The angle of a group's wedge as a turn; the identity for a full one.
@@ -40,6 +34,15 @@ pub fn opening(group: Group) -> Isometry {
         Kind::C | Kind::Ch => Isometry::rotation(1, n),
         Kind::Cv | Kind::S | Kind::D | Kind::Dh => Isometry::rotation(1, 2 * n),
         Kind::Dd => Isometry::rotation(1, 4 * n),
+    }
+}
+
+/// The angle of a group's wedge, radians.
+pub fn angle(group: Group) -> f64 {
+    let turn = opening(group);
+    match turn.k() {
+        0 => TAU,
+        k => TAU * f64::from(k) / f64::from(turn.n()),
     }
 }
 

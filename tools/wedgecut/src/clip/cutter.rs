@@ -9,9 +9,6 @@ use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::Triangle;
 
-/// Sine of the angle between a patch and a face below which it is not cut as one polygon: across the cut its
-/// coordinates would have four digits less than the input has.
-const LEAST_TILT: f64 = 1e-4;
 /// Labels of the parts of a patch.
 const INSIDE: u32 = 1;
 const OUT: u32 = 0;
@@ -35,6 +32,12 @@ struct Flat {
     normal: DVec3,
     /// Direction of the line in which it is cut.
     along: DVec3,
+}
+
+/// Whether a patch, of whose unit normal the part across a face is given, is as good as parallel to the face: it is not
+/// cut as one polygon, whose coordinates would have lost half of their digits across the cut.
+fn is_parallel(across: DVec3) -> bool {
+    across.length() < f64::EPSILON.sqrt()
 }
 
 /// Cuts patches at a face.
@@ -106,7 +109,7 @@ impl<'a> Cutter<'a> {
         let inward = self.cell.faces[self.cut.face].inward;
         let across = inward - normal * inward.dot(normal);
         let along = across.cross(normal).try_normalize()?;
-        if across.length() < LEAST_TILT {
+        if is_parallel(across) {
             return None;
         }
         let mut sides: FxHashMap<[u32; 2], [bool; 2]> = FxHashMap::default();
@@ -185,7 +188,7 @@ impl<'a> Cutter<'a> {
                 .flat_map(|s| s.ends)
                 .chain(corners.iter().copied())
         };
-        if across.length() < LEAST_TILT || !all().any(|v| is_beyond(&v)) {
+        if is_parallel(across) || !all().any(|v| is_beyond(&v)) {
             return None;
         }
         let stays = |s: &&Segment| !s.ends.iter().all(is_beyond);

@@ -6,16 +6,6 @@
 use crate::section::{Chain, Place, project};
 use glam::DVec2;
 
-/// Cosine of the turn from which a point counts as a corner of the curve, 20 degrees: twice the turn between the
-/// chords of a circle drawn with 36 edges, so that drawings of arcs have no corners.
-const CORNER: f64 = 0.94;
-/// Share of the tolerance within which points that are no corners are taken for the same: each may be off by half of
-/// what partners may be apart.
-const SAME: f64 = 0.5;
-/// Least distance of an inserted point from the ends of its edge and from others, relative to the
-/// edge over the number of points it gets.
-const APART: f64 = 0.2;
-
 /// A point of the common curve: where it is on either drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
@@ -78,15 +68,6 @@ impl<'a> Line<'a> {
         self.at[edge].lerp(self.at[edge + 1], at)
     }
 
-    fn is_corner(&self, i: usize) -> bool {
-        if i == 0 || i + 1 == self.at.len() {
-            return true;
-        }
-        let a = (self.at[i] - self.at[i - 1]).normalize_or_zero();
-        let b = (self.at[i + 1] - self.at[i]).normalize_or_zero();
-        a.dot(b) < CORNER
-    }
-
     /// For each point of another line, the length along this one of the nearest place that keeps the
     /// order, ends at ends.
     fn follow(&self, other: &Line<'_>, reach: f64) -> Vec<f64> {
@@ -106,7 +87,7 @@ impl<'a> Line<'a> {
                 let s = (self.length[edge] + at * span).clamp(low, high);
                 let distance = self.point(s).distance(other.at[i]);
                 // Of places about as near, the one that is about as far along.
-                if distance < best.0 - 1e-9 * reach {
+                if distance < best.0 - f64::EPSILON.sqrt() * reach {
                     best = (distance, s);
                 }
             }
@@ -175,65 +156,39 @@ pub fn align(first: &Chain, second: &Chain, tolerance: f64) -> Result<Vec<Step>,
         steps.push(Step::Both(k, l));
     }
     debug_assert_eq!(pairs.last(), Some(&[n - 1, m - 1]));
-    spread(&mut steps, &a, &b, SAME * tolerance);
+    spread(&mut steps, &a, &b, tolerance);
     match worst.distance > tolerance {
         true => Err(worst),
         false => Ok(steps),
     }
 }
 
-/// Points that belong together, increasing in both: ends, corners, then others that are each other's
-/// nearest.
+/// Points that belong together, increasing in both: ends, and others that are each other's nearest along the curves.
 fn pairs(a: &Line<'_>, b: &Line<'_>, on_b: &[f64], tolerance: f64) -> Vec<[usize; 2]> {
-    let (n, m) = (a.at.len(), b.at.len());
-    let mut found = vec![[0, 0], [n - 1, m - 1]];
-    for (corners, reach) in [(true, tolerance), (false, SAME * tolerance)] {
-        let wanted = |line: &Line<'_>, i: usize| !corners || line.is_corner(i);
-        let mut next = vec![found[0]];
-        for w in found.windows(2) {
-            let ([i, j], [k, l]) = (w[0], w[1]);
-            let own: Vec<usize> = (i + 1..k).filter(|&i| wanted(a, i)).collect();
-            let other: Vec<usize> = (j + 1..l).filter(|&j| wanted(b, j)).collect();
-            let (to, back) = (
-                nearest(
-                    own.iter().map(|&i| on_b[i]),
-                    other.iter().map(|&j| b.length[j]),
-                ),
-                nearest(
-                    other.iter().map(|&j| b.length[j]),
-                    own.iter().map(|&i| on_b[i]),
-                ),
-            );
-            for (x, &i) in own.iter().enumerate() {
-                let Some(y) = to[x].filter(|&y| back[y] == Some(x)) else {
-                    continue;
-                };
-                let j = other[y];
-                let along = (on_b[i] - b.length[j]).abs();
-                if along <= reach && a.at[i].distance(b.at[j]) <= reach {
-                    next.push([i, j]);
-                }
-            }
-            next.push([k, l]);
-        }
-        found = next;
-    }
+    let ends = [[0, 0], [a.at.len() - 1, b.at.len() - 1]];
+    let (own, other) = (1..ends[1][0], 1..ends[1][1]);
+    let [own_at, other_at] = [&on_b[own.clone()], &b.length[other.clone()]];
+    let (to, back) = (nearest(own_at, other_at), nearest(other_at, own_at));
+    let inner = own.filter_map(|i| {
+        let y = to[i - 1].filter(|&y| back[y] == Some(i - 1))?;
+        let j = y + 1;
+        let along = (on_b[i] - b.length[j]).abs();
+        (along.max(a.at[i].distance(b.at[j])) <= tolerance).then_some([i, j])
+    });
+    let mut found = vec![ends[0]];
+    found.extend(inner);
+    found.push(ends[1]);
     found
 }
 
-/// For each of some increasing values, the index of the nearest of others.
-fn nearest(
-    values: impl Iterator<Item = f64>,
-    others: impl Iterator<Item = f64>,
-) -> Vec<Option<usize>> {
-    let others: Vec<f64> = others.collect();
-    values
-        .map(|x| {
-            let after = others.partition_point(|&y| y < x);
-            let around = after.saturating_sub(1)..(after + 1).min(others.len());
-            around.min_by(|&i, &j| (others[i] - x).abs().total_cmp(&(others[j] - x).abs()))
-        })
-        .collect()
+/// For each of some increasing values, the index of the nearest of others, which increase too.
+fn nearest(values: &[f64], others: &[f64]) -> Vec<Option<usize>> {
+    let nearest = |x: &f64| {
+        let after = others.partition_point(|y| y < x);
+        let around = after.saturating_sub(1)..(after + 1).min(others.len());
+        around.min_by(|&i, &j| (others[i] - x).abs().total_cmp(&(others[j] - x).abs()))
+    };
+    values.iter().map(nearest).collect()
 }
 
 /// Keeps points that one edge gets apart from each other and from its ends, without moving them by
@@ -252,7 +207,7 @@ fn spread(steps: &mut [Step], a: &Line<'_>, b: &Line<'_>, reach: f64) {
             let line = if first { b } else { a };
             let edge = group[0].edge;
             let length = line.length[edge + 1] - line.length[edge];
-            let gap = APART.min(reach / length.max(f64::MIN_POSITIVE)) / (count + 1.0);
+            let gap = (reach / length.max(f64::MIN_POSITIVE)).min(1.0) / (count + 1.0);
             let mut least = gap;
             for place in group.iter_mut() {
                 place.at = place.at.max(least);

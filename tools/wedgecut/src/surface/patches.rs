@@ -5,11 +5,6 @@ use geom::flat::{Flatness, Flats};
 use glam::DVec3;
 use tmesh::Triangle;
 
-/// Cosine above which neighbouring normals may belong to one flat patch, 8 degrees. Flatness decides about all faces
-/// that are larger than it; this keeps folds of smaller ones out, and any angle that is clearly none of rounding
-/// does.
-const PATCH_COSINE: f64 = 0.99;
-
 /// Numbers connected sets of faces with equal attributes that lie within `flatness` (model units)
 /// of the plane of their largest face.
 pub fn flat_patches(points: &[DVec3], faces: &[Triangle], flatness: f64) -> Vec<u32> {
@@ -17,7 +12,8 @@ pub fn flat_patches(points: &[DVec3], faces: &[Triangle], flatness: f64) -> Vec<
     let across = Edges::new(&corners).across();
     let flatness = |_| Flatness {
         distance: flatness,
-        cosine: PATCH_COSINE,
+        // No face of a patch is turned over.
+        cosine: 0.0,
     };
     let attributes = |t: u32| {
         let f = &faces[t as usize];
