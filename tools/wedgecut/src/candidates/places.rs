@@ -1,6 +1,6 @@
 //! Where the first side of a wedge may lie.
 
-use super::angles::clear_angles;
+use super::angles::{PLACES, clear_angles};
 use crate::body::Body;
 use crate::cell::angle;
 use crate::cutting::Place;
@@ -10,7 +10,7 @@ use estimate::harm::sliced::Harm;
 use estimate::harm::{halved, sliced};
 use geom::number::number;
 use glam::DVec3;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use tmesh::{Frame, Group, Isometry, Kind};
 
 /// How many places of a seam are tried, at most: at the fourth, most bodies that cannot be cut have failed for a
@@ -105,6 +105,9 @@ impl Places {
             }
             _ => 0.0,
         };
+        if body.tolerance.slide() > 0.0 && body.symmetry.rotation_regions().pairs.is_empty() {
+            return Self::fixed(body, Self::best_sector(body, group), harm);
+        }
         if !Self::has_choice(body, group) {
             return Self::fixed(body, 0, harm);
         }
@@ -118,6 +121,24 @@ impl Places {
         let alike = (given - other).abs() <= f64::EPSILON.sqrt() * given.max(other);
         let is_better = if alike { less < cut } else { other < given };
         Self::fixed(body, i64::from(is_better), harm)
+    }
+
+    /// The sector, as a number of half steps, whose sides harm the drawing least, where that does not share the symmetry:
+    /// of all of them, or of [`PLACES`] all around.
+    fn best_sector(body: &Body<'_>, group: Group) -> i64 {
+        let sectors = 2 * body.symmetry.group.order as usize;
+        let step = TAU / sectors as f64;
+        let slicing = slicing(body);
+        let harm = |k: usize| {
+            let first = k as f64 * step;
+            slicing(first).total() + slicing(first + angle(group)).total()
+        };
+        let places = (0..sectors).step_by(sectors.div_ceil(PLACES));
+        let all = places.map(|k| (harm(k), k as i64));
+        // The first of those that differ by less than an element.
+        let elements = |harm: f64| (CostModel::CALIBRATED.sliced * harm).round();
+        let best = all.min_by(|a, b| elements(a.0).total_cmp(&elements(b.0)));
+        best.map_or(0, |(_, k)| k)
     }
 
     /// The sides lie along axes of half turns.
