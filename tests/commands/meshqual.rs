@@ -337,6 +337,7 @@ fn the_page() {
         2
     );
     assert_eq!(html.matches("<svg ").count(), 1);
+    assert!(!html.contains("alt=\"\"") && html.contains("alt=\"Surface, by region\""));
     // One element has few neighbours among the worst.
     assert_eq!(html.matches("<td>min_dihedral_deg</td>").count(), 2);
     for tag in ["table", "tr", "td", "figure", "figcaption", "h2"] {

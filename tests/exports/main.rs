@@ -8,6 +8,7 @@ mod calculix;
 mod heat;
 mod poisson;
 mod referee;
+mod second_reader;
 mod sweep;
 mod tools;
 

@@ -169,7 +169,7 @@ fn a_hub_that_crosses_layers_and_holds_an_interface() {
     assert_eq!((regions(0), regions(1)), (1, 3));
 }
 
-/// The hub keeps its surface when it is filled; where that spoils an element, a vertex is added or another surface tried.
+/// The hub keeps its surface when it is filled; where that spoils an element, a vertex is added.
 /// Each of these bodies had elements, in 4 to 16 copies, with half the angle asked for.
 #[test]
 fn the_surface_of_a_hub_spoils_no_element() {

@@ -1,6 +1,6 @@
-//! Wedges without mirrors: their surface as `periodic-surf` makes it, and what becomes of it.
+//! Wedges without mirrors: their surface as `periodic-surf` or `tetwedge` make it, and what becomes of it.
 
-use bodies::{Body, Impeller, Placement, Prism, Ratchet, Tessellation};
+use bodies::{Body, Impeller, Placement, Prism, Ratchet, Screw, Tessellation};
 use geom::measure::volume_of_region;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -86,7 +86,7 @@ fn mesh(name: &str, body: &Body, options: &[&str]) {
     let mut tetwedge = vec!["-v"];
     tetwedge.extend(options);
     let filled = run("tetwedge", &tetwedge, &surface);
-    assert!(!filled.stderr.contains("better elements"), "{name}");
+    assert!(!filled.stderr.contains("as they were cut"), "{name}");
     let filled = filled.success();
     let meshed = read(&filled);
     check_seam(name, &meshed);
@@ -170,6 +170,66 @@ fn thin_layers_across_the_seam_are_graded() {
     let areas = seam(template).triangle_pairs.iter().map(|p| area(p[0]));
     let (least, most) = areas.fold((f64::MAX, 0.0_f64), |(l, m), a| (l.min(a), m.max(a)));
     assert!(most > 100.0 * least, "{least} {most}");
+}
+
+/// Four stages are enough: what `periodic-surf` would have done, `tetwedge` does.
+#[test]
+fn the_surface_of_seams_is_made_by_whoever_comes_first() {
+    let screw = Screw {
+        order: 3,
+        radius: 1.0,
+        bore: 0.4,
+        coating: 0.0,
+        height: 0.5,
+        twist: 0.25,
+        layers: 3,
+        facets: 48,
+        drawing: 1,
+    };
+    for (name, body) in [
+        ("ratchet", ratchet(12, 0.3, 0.0)),
+        ("coated ratchet", ratchet(7, 0.3, 0.02)),
+        ("impeller", impeller(5, 0.3)),
+        ("screw", screw.build()),
+    ] {
+        let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();
+        let size = ["-q", "--edge-length", "0.2"];
+        let cut = run("wedgecut", &size, &found).success();
+        let surface = run("periodic-surf", &size, &cut).success();
+        let five = run("tetwedge", &size, &surface).success();
+        let four = run("tetwedge", &size[1..], &cut);
+        assert!(!four.stderr.contains("as they were cut"), "{name}");
+        let four = four.success();
+        assert_eq!(read(&four).templates, read(&five).templates, "{name}");
+        let assemble = |meshed: &[u8]| run("rotassemble", &["-q", "--to", "vtk"], meshed).success();
+        assert_eq!(assemble(&four), assemble(&five), "{name}");
+        // The history says what was made.
+        let text = run("rotassemble", &["-q", "--to", "txt"], &four).success();
+        assert!(
+            String::from_utf8_lossy(&text).contains("seam of "),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_surface_is_kept_where_that_is_asked_for() {
+    let cut = cut("ratchet", &ratchet(12, 0.3, 0.0));
+    let size = ["-q", "--edge-length", "0.1"];
+    let pairs = |arguments: &[&str]| {
+        let filled = run("tetwedge", &[&size, arguments].concat(), &cut).success();
+        run("meshqual", &["-q", "--check"], &filled).success();
+        seam(&read(&filled).templates[0]).triangle_pairs.len()
+    };
+    let before = seam(&read(&cut).templates[0]).triangle_pairs.len();
+    assert_eq!(pairs(&["--keep-surface"]), before);
+    assert_eq!(pairs(&["--no-quality"]), before);
+    assert!(pairs(&[]) > 4 * before);
+    // A mesh that is made again keeps what was settled.
+    let once = run("tetwedge", &size, &cut).success();
+    let twice = run("tetwedge", &["-q"], &once).success();
+    let settled = |meshed: &[u8]| seam(&read(meshed).templates[0]).triangle_pairs.len();
+    assert_eq!(settled(&once), settled(&twice));
 }
 
 #[test]

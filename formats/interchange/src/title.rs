@@ -2,7 +2,7 @@
 
 use crate::text::MAX_TITLE;
 use glam::DVec3;
-use tmesh::{Document, Group, Outside, Promise};
+use tmesh::{Document, Group, Outside, Promise, ROUNDING};
 
 /// The title of a mesh that promises a symmetry:
 ///
@@ -62,7 +62,7 @@ pub fn parse_promise(title: &str) -> Option<Promise> {
     let z = DVec3::new(n[3], n[4], n[5]);
     let x = DVec3::new(n[6], n[7], n[8]);
     let y = z.cross(x);
-    let is_unit = |v: DVec3| (v.length() - 1.0).abs() < 1e-9;
+    let is_unit = |v: DVec3| (v.length() - 1.0).abs() < ROUNDING;
     // Two unit vectors whose product is one too are orthogonal.
     let orthonormal = [x, y, z].into_iter().all(is_unit);
     let outside = outside.filter(|o: &Outside| o.group.order.is_multiple_of(group.order));
@@ -82,17 +82,26 @@ fn parse_outside(text: &str) -> Option<Outside> {
     Some(Outside { group, radius })
 }
 
+/// How the title of a sector begins.
+const SECTOR: &str = "symtet sector: ";
+
 /// The title of a document's own mesh, each template once.
 pub fn document_title(document: &Document) -> String {
     match &document.promise {
         Some(promise) if document.is_plain() => promise_title(promise),
         _ if document.instances.len() > 1 => format!(
-            "symtet sector: {} of {} instances",
+            "{SECTOR}{} of {} instances",
             document.templates.len(),
             document.instances.len()
         ),
         _ => "symtet mesh".to_owned(),
     }
+}
+
+/// The number of instances of the whole in the title of a sector that [`document_title`] made.
+pub fn parse_sector(title: &str) -> Option<u32> {
+    let counts = title.strip_prefix(SECTOR)?.strip_suffix(" instances")?;
+    counts.split_once(" of ")?.1.parse().ok()
 }
 
 fn shortest(x: f64) -> String {

@@ -107,6 +107,9 @@ pub struct Source {
     /// Absolute error of a coordinate, model units: what the input's number format can hold at the
     /// size of its largest coordinate.
     pub precision: f64,
+    /// How many instances the whole has, where the input is one sector of a mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sector_of: Option<u32>,
 }
 
 /// One step in the making of the document.

@@ -27,7 +27,7 @@ pub use document::{
 pub use error::DecodeError;
 pub use gluing::{Gluing, Plane};
 pub use isometries::{
-    FixedSet, Frame, Group, Isometry, Kind, MAX_TURN_DENOMINATOR, NotAGroup, Placed,
+    FixedSet, Frame, Group, Isometry, Kind, MAX_TURN_DENOMINATOR, NotAGroup, Placed, ROUNDING,
 };
 pub use region_map::RegionMap;
 pub use symmetry::{Axis, OtherAxis, Outside, Promise, RejectedOrder, Search, Symmetry};

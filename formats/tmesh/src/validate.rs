@@ -2,24 +2,17 @@
 
 use crate::isometries::lcm;
 use crate::{
-    Document, Gluing, Instance, Isometry, MAX_TURN_DENOMINATOR, OUTSIDE, Plane, Promise, Symmetry,
-    Template, Violation,
+    Document, Gluing, Instance, Isometry, MAX_TURN_DENOMINATOR, OUTSIDE, Plane, Promise, ROUNDING,
+    Symmetry, Template, Violation,
 };
 use glam::DVec3;
 use std::collections::{BTreeSet, HashSet};
 
-/// Distance, relative to the template's extent, up to which a vertex counts as on its mirror plane, or
-/// as the image of another template's vertex: an isometry rounds each coordinate by at most two units
-/// in the last place of the extent, 4.4e-16 of it; two of them and the square root of three stay below
-/// a tenth of this.
-const ROUNDING: f64 = 1e-14;
-
-/// Deviation from orthonormality up to which a frame counts as a rotation.
-const FRAME_ROUNDING: f64 = 1e-12;
-
-/// Deviation from unit length and from a right angle that directions of a symmetry may have: they
-/// are reported values, and whoever computes with them makes them orthonormal first.
-const DIRECTION_ROUNDING: f64 = 1e-6;
+/// Deviation that directions of a symmetry may have from unit length and from a right angle: they are
+/// reported values, which may have been written in single precision, and whoever computes with them
+/// makes them orthonormal first. A component is off by 2^-25 then, a length by the square root of
+/// three times that, and a product of two directions by twice as much, which is below 2^-23.
+const DIRECTION_ROUNDING: f64 = f32::EPSILON as f64;
 
 /// All broken invariants of a document; empty when it is valid.
 ///
@@ -85,7 +78,7 @@ fn check_frame(document: &Document, found: &mut Collector) {
         .iter()
         .fold(0.0_f64, |m, x| m.max(x.abs()));
     // A NaN anywhere makes both comparisons false.
-    if !(off <= FRAME_ROUNDING && q.determinant() > 0.0 && document.frame.origin.is_finite()) {
+    if !(off <= ROUNDING && q.determinant() > 0.0 && document.frame.origin.is_finite()) {
         found.add(Violation::BadFrame);
     }
 }
@@ -402,6 +395,12 @@ fn check_elements(
 }
 
 fn check_axis(index: usize, template: &Template, found: &mut Collector) {
+    if let Some(at) = first_unordered(template.axis.iter().copied()) {
+        found.add(Violation::AxisUnordered {
+            template: index,
+            index: at,
+        });
+    }
     for &vertex in &template.axis {
         let p = template.vertices[vertex as usize];
         if p.x != 0.0 || p.y != 0.0 {

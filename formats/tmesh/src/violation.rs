@@ -190,6 +190,16 @@ pub enum Violation {
         /// Its distance, model units.
         distance: f64,
     },
+    /// A template's list of vertices on the axis is not increasing.
+    #[error(
+        "template {template}: its list of vertices on the axis is not increasing at entry {index}"
+    )]
+    AxisUnordered {
+        /// Template index.
+        template: usize,
+        /// First entry that is not larger than the one before.
+        index: usize,
+    },
     /// An instance or a gluing names something that is not there.
     #[error("{what} names {target} {index}, and there are {count}")]
     IndexOutOfRange {

@@ -155,6 +155,7 @@ fn document(body: &Body) -> Document {
         })
         .collect();
     document.source = Some(Source {
+        sector_of: None,
         format: "body".to_owned(),
         triangles: body.faces.len() as u64,
         volume: body.total_volume(),

@@ -8,12 +8,6 @@ pub struct Eigen<const N: usize> {
     pub vectors: [[f64; N]; N],
 }
 
-/// Sum of squares off the diagonal, relative to that of all entries, at which a matrix is diagonal: far below the
-/// square of the machine's precision, 4.9e-32. Convergence is quadratic, so that it costs one sweep.
-const OFF: f64 = 1e-36;
-/// Sweeps at most; ten are enough for the sizes used here.
-const SWEEPS: usize = 60;
-
 /// Eigen decomposition of a symmetric matrix by cyclic Jacobi rotations (Golub and Van Loan, "Matrix
 /// Computations", 8.5). Accurate to rounding for the sizes used here.
 pub fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> Eigen<N> {
@@ -21,20 +15,21 @@ pub fn symmetric<const N: usize>(mut a: [[f64; N]; N]) -> Eigen<N> {
     for (i, row) in v.iter_mut().enumerate() {
         row[i] = 1.0;
     }
-    for _ in 0..SWEEPS {
+    let mut least = f64::INFINITY;
+    loop {
         let mut off = 0.0;
-        let mut all = 0.0;
         for (i, row) in a.iter().enumerate() {
             for (j, x) in row.iter().enumerate() {
-                all += x * x;
                 if i != j {
                     off += x * x;
                 }
             }
         }
-        if off <= OFF * all {
+        // Convergence is quadratic until only rounding is left, which does not get less. Nothing compares with NaN.
+        if off >= least || off.is_nan() || off == 0.0 {
             break;
         }
+        least = off;
         for p in 0..N {
             for q in p + 1..N {
                 rotate(&mut a, &mut v, p, q);
@@ -66,6 +61,8 @@ fn rotate<const N: usize>(a: &mut [[f64; N]; N], v: &mut [[f64; N]; N], p: usize
     let (rp, rq) = (a[p], a[q]);
     a[p] = std::array::from_fn(|k| c * rp[k] - s * rq[k]);
     a[q] = std::array::from_fn(|k| s * rp[k] + c * rq[k]);
+    // Zero but for rounding.
+    (a[p][q], a[q][p]) = (0.0, 0.0);
     for row in v.iter_mut() {
         let (x, y) = (row[p], row[q]);
         row[p] = c * x - s * y;

@@ -8,7 +8,7 @@
 //! | nearest points of triangles, rays, pairs of boxes | [`tree`] |
 //! | constrained Delaunay triangulation with regions | [`cdt`] |
 //! | disjoint sets, eigenvectors | [`sets`], [`eigen`] |
-//! | what counts as equal | [`tolerance`] |
+//! | what counts as equal, how far rounded results are off | [`tolerance`], [`rounding`] |
 //! | numbers and points as people read them | [`number`] |
 
 pub mod cdt;
@@ -17,6 +17,7 @@ pub mod eigen;
 mod element;
 pub mod number;
 mod points;
+pub mod rounding;
 pub mod sets;
 pub mod tolerance;
 pub mod tree;

@@ -3,10 +3,10 @@
 /// Significant digits: what distinguishes two meshes of a million elements, and what a person compares at a glance.
 const DIGITS: usize = 6;
 
-/// Powers of ten of the leading digit for which plain notation is used: a choice. Within it either notation takes at
-/// most eleven characters, which is what the columns of tables are made for, and beyond it the padding zeros of plain
-/// notation would have to be counted.
-const PLAIN: std::ops::Range<i32> = -4..7;
+/// Powers of ten of the leading digit for which plain notation is used: from 1e-4 as C's `%g` does, where it takes as
+/// many characters as scientific notation of two digits in the exponent, to the first power that has a digit more than
+/// is shown. Beyond that the padding zeros of plain notation would have to be counted.
+const PLAIN: std::ops::Range<i32> = -4..DIGITS as i32 + 1;
 
 /// A number with six significant digits and without trailing zeros, in plain notation from 1e-4 to below 1e7 (there
 /// with its whole part), else in scientific notation.

@@ -1,8 +1,10 @@
 //! The tables of a document: regions with volumes, markers with areas, the source.
 
 use crate::HealError;
+use crate::repair::Repair;
 use crate::words::short;
 use geom::measure::{area_of_region, corners, tet_volume, triangle_area};
+use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Document, Marker, OUTSIDE, Region, Source, Template};
@@ -14,6 +16,8 @@ pub struct Imported {
     pub document: Document,
     /// What the user should know about the file, a sentence each.
     pub notices: Vec<String>,
+    /// What was repaired.
+    pub repairs: Vec<Repair>,
 }
 
 /// A surface with its labels, before volumes and areas are known.
@@ -28,6 +32,8 @@ pub struct Labelled {
     pub relative_precision: f64,
     /// What the user should know about the file.
     pub notices: Vec<String>,
+    /// What was repaired.
+    pub repairs: Vec<Repair>,
 }
 
 /// Completes the tables.
@@ -41,6 +47,7 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, He
         markers,
         relative_precision,
         notices,
+        repairs,
     } = labelled;
     drop_unused_vertices(&mut template);
     let precision = relative_precision * largest_coordinate(&template.vertices);
@@ -60,6 +67,7 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, He
         region.volume = Some(volume);
     }
     let source = Source {
+        sector_of: None,
         format: format.to_owned(),
         triangles: template.triangles.len() as u64,
         volume: regions.iter().filter_map(|r| r.volume).sum(),
@@ -80,7 +88,11 @@ pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, He
         })
         .collect();
     document.source = Some(source);
-    Ok(Imported { document, notices })
+    Ok(Imported {
+        document,
+        notices,
+        repairs,
+    })
 }
 
 type Measures = FxHashMap<u32, f64>;
@@ -119,18 +131,36 @@ pub fn largest_coordinate(points: &[DVec3]) -> f64 {
         .fold(0.0_f64, |m, p| m.max(p.abs().max_element()))
 }
 
-/// Largest coordinates of models that can be computed with: products of four of them, which the exact
-/// predicate of five points has, stay within the range of numbers, 1e-308 to 1e308, beside its rounding.
-const SCALES: std::ops::Range<f64> = 1e-80..1e80;
+/// What counts as equal among points whose coordinates are off by so much of the largest one.
+pub fn tolerance(points: &[DVec3], relative_precision: f64) -> Tolerance {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for &p in points {
+        low = low.min(p);
+        high = high.max(p);
+    }
+    let radius = if points.is_empty() {
+        0.0
+    } else {
+        0.5 * (high - low).length()
+    };
+    let extent = Extent {
+        radius,
+        height: radius,
+    };
+    let precision = relative_precision * largest_coordinate(points);
+    // Nothing is known of the symmetry yet.
+    Tolerance::new(extent, precision, 1.0)
+}
 
 /// Refuses models so large or small that volumes, or the exact predicates, leave the range of
-/// numbers.
+/// numbers: the test whether a point is in the sphere of four others has products of five coordinates,
+/// more than any other.
 ///
 /// # Errors
 /// Says the largest coordinate.
 pub fn check_scale(points: &[DVec3]) -> Result<(), HealError> {
     let largest = largest_coordinate(points);
-    if largest == 0.0 || SCALES.contains(&largest) {
+    if largest == 0.0 || largest.powi(5).is_normal() {
         return Ok(());
     }
     let size = if largest < 1.0 { "small" } else { "large" };

@@ -24,6 +24,19 @@ pub enum HealError {
     },
 }
 
+impl HealError {
+    /// The same with a further reason.
+    pub fn because(self, reason: &str) -> Self {
+        match self {
+            Self::NotClosed { message, edges } => Self::NotClosed {
+                message: format!("{message}; {reason}"),
+                edges,
+            },
+            other => other,
+        }
+    }
+}
+
 /// Edges that keep a surface from being closed, by their ends in world coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OddEdges {

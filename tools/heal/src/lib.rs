@@ -10,9 +10,9 @@ mod facet;
 mod leak;
 mod meeting;
 mod mesh;
-mod near;
 mod plc;
 mod read;
+mod repair;
 mod shells;
 mod sides;
 mod soup;
@@ -21,4 +21,5 @@ mod words;
 
 pub use document::Imported;
 pub use error::{HealError, OddEdges};
-pub use read::{heal, read};
+pub use read::{read, read_with};
+pub use repair::{Repair, RepairKind, Repairing};

@@ -3,18 +3,23 @@
 use geom::contacts::{Contact, Search, contacts};
 use glam::DVec3;
 
-/// Contacts among which the lowest one is sought. Fewer make the place in a message depend on the order
-/// of the search for more files, more take longer on surfaces that cross themselves everywhere.
-const COMPARED: usize = 1000;
+/// Contacts between triangles of different groups.
+pub struct Meetings {
+    /// The one that is lowest in x, then y, then z.
+    pub lowest: Option<Contact>,
+    /// How many were found.
+    pub count: usize,
+    /// Whether the search came to an end.
+    pub search: Search,
+}
 
-/// The contact between triangles of different groups, among those that `matters` accepts, that is lowest
-/// in x, then y, then z; and whether the search came to an end.
-pub fn lowest_contact(
+/// The contacts between triangles of different groups, among those that `matters` accepts.
+pub fn meetings(
     points: &[DVec3],
     triangles: &[[u32; 3]],
     group: impl Fn(u32) -> u32,
     matters: impl Fn(&Contact) -> bool,
-) -> (Option<Contact>, Search) {
+) -> Meetings {
     let mut lowest: Option<Contact> = None;
     let mut count = 0;
     let search = contacts(points, triangles, group, |contact| {
@@ -26,7 +31,11 @@ pub fn lowest_contact(
                 lowest = Some(contact);
             }
         }
-        count < COMPARED
+        true
     });
-    (lowest, search)
+    Meetings {
+        lowest,
+        count,
+        search,
+    }
 }

@@ -11,9 +11,9 @@ pub fn place(p: DVec3) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// Digits of places in messages: they tell coordinates of single precision apart, so that the place
-/// can be found in the file.
-const DIGITS: usize = 7;
+/// Digits of places in messages: one more than single precision keeps whatever the number, so that
+/// the place can be found in the file.
+const DIGITS: usize = f32::DIGITS as usize + 1;
 
 /// A number with seven significant digits, without trailing zeros.
 pub fn short(x: f64) -> String {

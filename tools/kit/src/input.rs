@@ -1,30 +1,28 @@
 //! Reading the one input document.
 
 use crate::{Failure, Session};
-use heal::{HealError, Imported};
+use heal::{HealError, Imported, Repairing};
 use interchange::{Format, sniff};
 use std::fs::File;
 use std::io::{BufReader, IsTerminal, Read};
 use std::path::Path;
 use tmesh::{DecodeError, Document};
 
-/// Bytes looked at to tell the format: a page, which is more than the comments that precede the first telling line of
-/// the text formats, and a single read from a pipe.
-const HEAD: u64 = 4096;
-
-/// Size of the input's buffer, bytes: what a pipe holds. Reads of large arrays pass the buffer by.
-const BUFFER: usize = 1 << 16;
-
 impl Session {
     /// Reads the input named on the command line, whatever its format.
     pub fn read(&self) -> Result<Document, Failure> {
+        self.read_with(Repairing::Auto)
+    }
+
+    /// The same, where the caller says whether a surface may be repaired.
+    pub fn read_with(&self, repairing: Repairing) -> Result<Document, Failure> {
         let path = self
             .common
             .input
             .as_deref()
             .filter(|p| *p != Path::new("-"));
         let document = match path {
-            Some(path) => self.read_file(path, self.common.from)?,
+            Some(path) => self.read_file(path, self.common.from, repairing)?,
             None => {
                 let stdin = std::io::stdin();
                 if stdin.is_terminal() {
@@ -33,7 +31,7 @@ impl Session {
                             .to_owned(),
                     ));
                 }
-                self.read_from(stdin.lock(), None, self.common.from)
+                self.read_from(stdin.lock(), (None, self.common.from), repairing)
                     .map_err(|text| Failure::Input(format!("standard input: {text}")))?
             }
         };
@@ -52,10 +50,15 @@ impl Session {
 
     /// Reads a further input, whose format its content shows.
     pub fn read_other(&self, path: &Path) -> Result<Document, Failure> {
-        self.read_file(path, None)
+        self.read_file(path, None, Repairing::Auto)
     }
 
-    fn read_file(&self, path: &Path, from: Option<Format>) -> Result<Document, Failure> {
+    fn read_file(
+        &self,
+        path: &Path,
+        from: Option<Format>,
+        repairing: Repairing,
+    ) -> Result<Document, Failure> {
         let name = path.display();
         let open = |e: std::io::Error| Failure::Input(format!("cannot read {name}: {e}"));
         let file = File::open(path).map_err(open)?;
@@ -64,21 +67,23 @@ impl Session {
                 "cannot read {name}: it is a directory"
             )));
         }
-        self.read_from(file, Some(path), from)
+        self.read_from(file, (Some(path), from), repairing)
             .map_err(|text| Failure::Input(format!("{name}: {text}")))
     }
 
     fn read_from(
         &self,
         input: impl Read,
-        path: Option<&Path>,
-        from: Option<Format>,
+        (path, from): (Option<&Path>, Option<Format>),
+        repairing: Repairing,
     ) -> Result<Document, String> {
-        let mut input = BufReader::with_capacity(BUFFER, input);
+        let mut input = BufReader::new(input);
         let mut head = Vec::new();
         let read = |e: std::io::Error| format!("cannot read: {e}");
+        // What the buffer holds tells the format: it is more than the comments before the first telling line of text.
+        let buffer = input.capacity() as u64;
         (&mut input)
-            .take(HEAD)
+            .take(buffer)
             .read_to_end(&mut head)
             .map_err(read)?;
         if head.is_empty() {
@@ -100,17 +105,23 @@ impl Session {
             return Ok(document);
         }
         input.read_to_end(&mut head).map_err(read)?;
-        let Imported { document, notices } = heal::read(&head, format).map_err(|error| {
+        let imported = heal::read_with(&head, format, repairing).map_err(|error| {
             let text = error.to_string();
             if let HealError::NotClosed { edges, .. } = error {
                 let _ = self.odd_edges.set(*edges);
             }
             text
         })?;
+        let Imported {
+            document,
+            notices,
+            repairs,
+        } = imported;
         for notice in &notices {
             self.note(notice);
         }
         let _ = self.notices.set(notices);
+        let _ = self.repairs.set(repairs);
         Ok(document)
     }
 }

@@ -68,8 +68,10 @@ impl MessageFormat {
         let mut object = json!({"tool": tool, "level": name, "message": text});
         match level {
             Level::Error(code) => object["code"] = code.into(),
-            // Milliseconds, as in text.
-            Level::Info(seconds) => object["seconds"] = ((seconds * 1e3).round() / 1e3).into(),
+            // The same digits as in text.
+            Level::Info(seconds) => {
+                object["seconds"] = format!("{seconds:.3}").parse().unwrap_or(seconds).into()
+            }
             Level::Note | Level::Detail => {}
         }
         object.to_string()

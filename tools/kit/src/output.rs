@@ -8,10 +8,6 @@ use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempPath};
 use tmesh::Document;
 
-/// Size of the output's buffer, bytes. It collects small writes, so that the cost of a system call (about a
-/// microsecond) is small against that of moving the bytes (some 50 microseconds); larger writes pass it by.
-const BUFFER: usize = 1 << 18;
-
 /// Where a tool writes. Nothing appears under a file's name before [`Output::commit`].
 pub struct Output {
     target: Target,
@@ -36,7 +32,7 @@ impl Output {
             refuse_terminal(binary)?;
             let name = "standard output".to_owned();
             let file = unbuffered(&io::stdout()).map_err(|e| Failure::writing(&name, &e))?;
-            let target = Target::Stdout(BufWriter::with_capacity(BUFFER, file));
+            let target = Target::Stdout(BufWriter::new(file));
             return Ok(Self { target, name });
         };
         let name = path.display().to_string();
@@ -47,7 +43,7 @@ impl Output {
                 .write(true)
                 .open(path)
                 .map_err(fail)?;
-            Target::Special(BufWriter::with_capacity(BUFFER, file))
+            Target::Special(BufWriter::new(file))
         } else {
             refuse_folder(path)?;
             let folder = folder_of(path);
@@ -60,7 +56,7 @@ impl Output {
                     .tempfile_in(folder)
             })
             .map_err(fail)?;
-            let file = BufWriter::with_capacity(BUFFER, file);
+            let file = BufWriter::new(file);
             Target::File {
                 file,
                 path: path.to_owned(),

@@ -2,16 +2,13 @@
 
 use crate::messages::{self, Level};
 use crate::{CommonArgs, MessageFormat};
-use heal::OddEdges;
+use heal::{OddEdges, Repair};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use tmesh::{ChunkInfo, HistoryEntry};
-
-/// Time between two drawings of a progress bar: often enough to be seen moving.
-const TICK: Duration = Duration::from_millis(200);
 
 /// One run of a tool.
 pub struct Session {
@@ -23,6 +20,8 @@ pub struct Session {
     pub(crate) read: OnceLock<Vec<ChunkInfo>>,
     /// What was said of the input when it was read.
     pub(crate) notices: OnceLock<Vec<String>>,
+    /// What was repaired of the input.
+    pub(crate) repairs: OnceLock<Vec<Repair>>,
     /// Why the input could not be read, when its surface is not closed.
     pub(crate) odd_edges: OnceLock<OddEdges>,
 }
@@ -41,6 +40,7 @@ impl Session {
             begun: Instant::now(),
             read: OnceLock::new(),
             notices: OnceLock::new(),
+            repairs: OnceLock::new(),
             odd_edges: OnceLock::new(),
         }
     }
@@ -53,6 +53,11 @@ impl Session {
     /// What the user was told about the input when it was read, a sentence each.
     pub fn notices(&self) -> &[String] {
         self.notices.get().map_or(&[], Vec::as_slice)
+    }
+
+    /// What was repaired of the input when it was read.
+    pub fn repairs(&self) -> &[Repair] {
+        self.repairs.get().map_or(&[], Vec::as_slice)
     }
 
     /// The edges that kept the input from being read, when its surface is not closed.
@@ -106,8 +111,7 @@ impl Session {
         messages::say(&line);
     }
 
-    /// A progress bar for work of `length` steps; shown on a terminal only, and only when the work
-    /// lasts.
+    /// A progress bar for work of `length` steps, drawn when one is done; shown on a terminal only.
     pub fn progress(&self, length: u64, text: &str) -> Progress {
         let for_people = self.common.message_format == MessageFormat::Text;
         if self.common.quiet || !for_people || !std::io::stderr().is_terminal() {
@@ -118,7 +122,6 @@ impl Session {
             ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}% {eta}")
                 .unwrap_or_else(|_| ProgressStyle::default_bar()),
         );
-        bar.enable_steady_tick(TICK);
         Progress(bar)
     }
 

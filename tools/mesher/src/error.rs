@@ -126,13 +126,6 @@ impl Error {
         }
     }
 
-    /// Whether it is nothing about the surface or what is asked for: what was made before must not stand in for
-    /// what would have been made another time.
-    pub fn is_from_outside(&self) -> bool {
-        matches!(self, Self::Mesher { failure, .. }
-            if matches!(failure.kind, FailureKind::Outside | FailureKind::Killed))
-    }
-
     /// Whether another description of the same surface may go through.
     pub fn is_chance(&self) -> bool {
         match self {

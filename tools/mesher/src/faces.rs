@@ -1,5 +1,6 @@
 //! What a template's walls mean for its triangles: which face of which wall they are on, and what must be preserved.
 
+use crate::Piece;
 use tmesh::{Document, FixedSet, Template};
 
 /// Not on any wall.
@@ -44,9 +45,13 @@ pub struct Faces {
 }
 
 impl Faces {
-    /// Looks through the walls of template `index`, and those of others that name it.
-    pub fn new(document: &Document, index: usize) -> Self {
-        let template = &document.templates[index];
+    /// Looks through the walls of a template, and those of others that name it.
+    pub fn new(piece: Piece<'_>) -> Self {
+        let Piece {
+            document,
+            index,
+            template,
+        } = piece;
         let n = template.triangles.len();
         let mut of_triangle = vec![NO_FACE; n];
         let mut preserved = vec![false; n];
@@ -167,17 +172,18 @@ mod tests {
 
     #[test]
     fn edges_that_only_touch_a_half_turn_wall_are_not_divided() {
+        let faces = |document: &Document| Faces::new(Piece::of(document, 0));
         let itself = [[0, 0], [1, 1]];
         let radial = [DVec3::X, 2.0 * DVec3::X];
         let turn = Gluing::seam("turn-a", 0, Isometry::half_turn(0, 1), itself, []);
         let mirror = Gluing::mirror("wall-a", 0, Isometry::MIRROR, [0, 1], []);
-        assert!(Faces::new(&touching(radial, turn, &[]), 0).preserve());
-        assert!(!Faces::new(&touching(radial, mirror, &[]), 0).preserve());
+        assert!(faces(&touching(radial, turn, &[])).preserve());
+        assert!(!faces(&touching(radial, mirror, &[])).preserve());
         // Points of the axis stay in place under a rotation, but not under what turns the axis over.
         let along = [-DVec3::Z, DVec3::Z];
         let seam = Gluing::seam("seam", 0, Isometry::rotation(1, 3), itself, []);
-        assert!(!Faces::new(&touching(along, seam, &[0, 1]), 0).preserve());
+        assert!(!faces(&touching(along, seam, &[0, 1])).preserve());
         let turn = Gluing::seam("turn-a", 0, Isometry::half_turn(0, 1), [[0, 1], [1, 0]], []);
-        assert!(Faces::new(&touching(along, turn, &[0, 1]), 0).preserve());
+        assert!(faces(&touching(along, turn, &[0, 1])).preserve());
     }
 }

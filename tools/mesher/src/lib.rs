@@ -13,17 +13,17 @@ mod failure;
 mod ladder;
 mod mesher;
 mod params;
+mod piece;
 mod tetgen;
 
 pub use cells::{Cells, Contradiction, Surface, label};
-pub use complex::{
-    Attributes, Description, FLATNESS, Facet, Facets, Order, PROJECTIONS, Plc, ROUNDING, SizeSeed,
-};
+pub use complex::{Attributes, Description, Facet, Facets, Order, Plc, SizeSeed, settled};
 pub use deadline::Deadline;
 pub use error::{Error, Fault, Place, RegionName};
 pub use faces::{Faces, NO_FACE, Upright, face_key, leads};
 pub use failure::{Failure, FailureKind};
-pub use ladder::{Answer, Asks, Attempt, Change, Climb, Ending, Judged, LADDER, Rung};
+pub use ladder::{Answer, Asks, Attempt, Change, Climb, EASING, Ending, LADDER, Rung};
 pub use mesher::{Elements, Limits, Log, Mesh, Mesher, Task};
 pub use params::{Params, Sizes};
+pub use piece::Piece;
 pub use tetgen::TetGen;

@@ -42,7 +42,7 @@ pub struct Cli {
     #[arg(long, value_name = "OTHER")]
     compare: Option<PathBuf>,
 
-    /// Exit with 1 if a promise of assembled meshes is broken
+    /// Exit with 1 if a promise of assembled meshes is broken, and say which ones there is nothing to check against
     #[arg(long)]
     check: bool,
 

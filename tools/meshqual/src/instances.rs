@@ -3,6 +3,7 @@
 //! The instance algebra here is the referee's own: it shares nothing with the numbering by which
 //! meshes are assembled, so that an error there cannot hide itself here.
 
+use geom::sets::DisjointSets;
 use rustc_hash::{FxHashMap, FxHashSet};
 use serde::Serialize;
 use serde::ser::{SerializeStruct, Serializer};
@@ -81,6 +82,11 @@ impl Links {
         Self(links(document))
     }
 
+    /// The placed vertices that the walls make one with a placed vertex, across one wall each.
+    pub fn from(&self, place: Place) -> impl Iterator<Item = Place> {
+        neighbours(place, &self.0)
+    }
+
     /// Whether the walls make two placed vertices one, given that all neighbours exist.
     pub fn join(&self, a: Place, b: Place) -> bool {
         let mut seen = FxHashSet::from_iter([a]);
@@ -98,7 +104,7 @@ impl Links {
 fn neighbours(
     (t, isometry, v): Place,
     links: &[FxHashMap<u32, Vec<Link>>],
-) -> impl Iterator<Item = Place> {
+) -> impl Iterator<Item = Place> + use<'_> {
     let own = links[t as usize].get(&v).into_iter().flatten();
     own.map(move |l| (l.template, isometry.compose(l.step), l.vertex))
 }
@@ -268,15 +274,44 @@ impl Serialize for Realized {
 /// The symmetry of the instances, with their region maps: each operation has to permute the regions.
 pub fn realized(document: &Document) -> Realized {
     let placements = Placements::of(document);
-    let placed: Vec<u32> = (0..document.templates.len() as u32)
-        .filter(|&t| placements.copies[t as usize] > 0)
-        .collect();
+    let placed = placements.placed();
     let group = placements.group(&placed).0;
     let outside = placements.outside(&placed);
     Realized {
         group,
         outside: outside.filter(|o| o.group != group),
     }
+}
+
+/// An instance of each kind: symmetries of the instances take it onto all the others of its kind.
+pub fn representatives(document: &Document) -> Vec<usize> {
+    let placements = Placements::of(document);
+    let placed = placements.placed();
+    let (group, mirror) = placements.group(&placed);
+    let numbers: FxHashMap<(u32, Isometry), u32> = (document.instances.iter().zip(0..))
+        .map(|(i, number)| ((i.template, i.isometry), number))
+        .collect();
+    let mut kinds = DisjointSets::new(document.instances.len());
+    for generator in generators(group, mirror) {
+        for (instance, number) in document.instances.iter().zip(0..) {
+            let image = generator.checked_compose(instance.isometry);
+            let image = image.and_then(|image| numbers.get(&(instance.template, image)));
+            image.map(|&image| kinds.join(number, image));
+        }
+    }
+    let mut seen = FxHashSet::default();
+    (0..document.instances.len())
+        .filter(|&i| seen.insert(kinds.find(i as u32)))
+        .collect()
+}
+
+/// The generators of a group, with the mirror that contains the axis where it is.
+fn generators(group: Group, mirror: Option<Isometry>) -> impl Iterator<Item = Isometry> {
+    let generators = group.generators().into_iter();
+    generators.map(move |g| match g == Isometry::MIRROR {
+        true => mirror.unwrap_or(g),
+        false => g,
+    })
 }
 
 /// The instances of a document, to be compared with their images.
@@ -307,6 +342,13 @@ impl<'a> Placements<'a> {
                 common / gcd(common, n) * n
             }),
         }
+    }
+
+    /// The templates that are placed.
+    fn placed(&self) -> Vec<u32> {
+        (0..self.copies.len() as u32)
+            .filter(|&t| self.copies[t as usize] > 0)
+            .collect()
     }
 
     /// The group of the operations that keep the instances of some templates, and the mirror that
@@ -357,14 +399,8 @@ impl<'a> Placements<'a> {
         let far = |&a: &u32, &b: &u32| reach[a as usize].total_cmp(&reach[b as usize]);
         let farthest = placed.iter().copied().max_by(far)?;
         let (group, mirror) = self.group(&[farthest]);
-        let shared_by = |templates: &[u32]| {
-            let generators = group.generators().into_iter();
-            let mut operations = generators.map(|g| match g == Isometry::MIRROR {
-                true => mirror.unwrap_or(g),
-                false => g,
-            });
-            operations.all(|g| self.keep(templates, g))
-        };
+        let shared_by =
+            |templates: &[u32]| generators(group, mirror).all(|g| self.keep(templates, g));
         let (outer, inner): (Vec<u32>, Vec<u32>) = placed.iter().partition(|&&t| shared_by(&[t]));
         let radius = inner.iter().map(|&t| reach[t as usize]).fold(0.0, f64::max);
         (radius < reach[farthest as usize] && shared_by(&outer))

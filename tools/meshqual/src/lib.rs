@@ -11,6 +11,7 @@ mod measure;
 mod present;
 mod report;
 mod soundness;
+mod tolerances;
 
 pub use check::{Broken, Checks};
 pub use cli::Cli;

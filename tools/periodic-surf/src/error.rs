@@ -6,7 +6,7 @@ use mesher::Fault;
 use thiserror::Error;
 
 /// What the user can do instead.
-const ADVICE: &str = "leave periodic-surf out to keep the surface as it was cut, or cut at another --order, --hub or --start-angle of wedgecut";
+const ADVICE: &str = "leave periodic-surf out, and tetwedge keeps the surface as it was cut, or cut at another --order, --hub or --start-angle of wedgecut";
 
 /// Why a wedge's surface could not be made. Places are canonical coordinates.
 #[derive(Debug, Error)]
@@ -22,7 +22,7 @@ pub enum SurfaceError {
     Mesher(#[from] mesher::Error),
     /// The free pass did not keep the edges of the surface.
     #[error(
-        "the mesh that is to guide the surface of template {template} has {what} near ({}, {}, {}); {ADVICE}",
+        "the mesh that is to guide the surface of template {template} has {what} near ({}, {}, {})",
         place.x, place.y, place.z
     )]
     Guide {
@@ -35,7 +35,7 @@ pub enum SurfaceError {
     },
     /// The faces of the seam do not correspond.
     #[error(
-        "the two faces of the seam of template {template} are not joined alike near ({}, {}, {}); {ADVICE}",
+        "the two faces of the seam of template {template} are not joined alike near ({}, {}, {})",
         place.x, place.y, place.z
     )]
     Unmatched {
@@ -46,7 +46,7 @@ pub enum SurfaceError {
     },
     /// A flat facet cannot be triangulated.
     #[error(
-        "the outline of a flat facet of template {template} crosses itself near ({}, {}, {}); {ADVICE}",
+        "the outline of a flat facet of template {template} crosses itself near ({}, {}, {})",
         place.x, place.y, place.z
     )]
     Facet {
@@ -56,7 +56,7 @@ pub enum SurfaceError {
         place: DVec3,
     },
     /// The new surface does not bound what the old one did.
-    #[error("the new surface of template {template} is wrong: {what}; {ADVICE}")]
+    #[error("the new surface of template {template} is wrong: {what}")]
     Changed {
         /// Template index.
         template: usize,
@@ -66,13 +66,13 @@ pub enum SurfaceError {
 }
 
 impl SurfaceError {
-    /// The exit code's class.
+    /// The exit code's class, and the message with advice.
     pub fn failure(&self) -> Failure {
         let text = self.to_string();
         match self {
             Self::AlreadyFilled(_) => Failure::Input(text),
             Self::Mesher(error) => of_fault(error.fault(), text),
-            _ => Failure::Impossible(text),
+            _ => Failure::Impossible(format!("{text}; {ADVICE}")),
         }
     }
 }

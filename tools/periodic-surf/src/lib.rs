@@ -15,4 +15,4 @@ pub use cli::Cli;
 pub use error::{SurfaceError, failure};
 pub use memory::MemoryArgs;
 pub use prepare::{Report, prepare};
-pub use surface::{GUIDE_EASED, Made, Other, impose, make};
+pub use surface::{Made, Other, impose, make};

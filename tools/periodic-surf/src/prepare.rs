@@ -2,7 +2,7 @@
 
 use crate::SurfaceError;
 use crate::surface::{Other, impose, make};
-use mesher::{Climb, Deadline, LADDER, Log, Params, Sizes, TetGen};
+use mesher::{Climb, Deadline, LADDER, Log, Params, Piece, Sizes, TetGen};
 use tmesh::{Document, Template};
 
 /// Sentences about what was done, for the history and the user.
@@ -37,8 +37,7 @@ pub fn prepare(
         .collect();
     let remake = |document: &Document, template: usize| {
         make(&Climb {
-            document,
-            template,
+            piece: Piece::of(document, template),
             params,
             sizes: &sizes,
             preserve: false,

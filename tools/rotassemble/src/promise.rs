@@ -1,5 +1,6 @@
 //! The symmetry that a mesh has by the way it is made of instances.
 
+use geom::tolerance::ROUNDING;
 use std::collections::BTreeSet;
 use tmesh::{Document, Group, Isometry, Outside, Promise, Template};
 
@@ -82,13 +83,8 @@ fn outside(document: &Document, places: &[Places]) -> Option<Outside> {
     (radius < reach[farthest]).then_some(Outside { group, radius })
 }
 
-/// How much a rounded radius may be below the exact one, relative to it: what the reach of a template,
-/// the root of a sum of squares, is off by is some 1e-16, and vertices this near to the radius count as
-/// within it whoever checks.
-const BELOW: f64 = 1e-12;
-
-/// A radius in six digits, not below `x` but by [`BELOW`]: short enough for titles, and what holds outside
-/// of `x` holds outside of more.
+/// A radius in six digits, not below `x` but by what computing may have lost of it: short enough for titles, and what holds
+/// outside of `x` holds outside of more. Vertices so near to the radius count as within it whoever checks.
 fn rounded_up(x: f64) -> f64 {
     let nearest = format!("{x:.5e}");
     let parts = nearest.split_once('e');
@@ -99,7 +95,7 @@ fn rounded_up(x: f64) -> f64 {
     };
     let value = |digits: u32| format!("{digits}e{}", exponent - 5).parse().unwrap_or(x);
     let below = value(digits);
-    if below >= x * (1.0 - BELOW) {
+    if below >= x * (1.0 - ROUNDING) {
         below
     } else {
         value(digits + 1)

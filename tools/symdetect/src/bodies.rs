@@ -241,6 +241,7 @@ pub fn place(document: &Document, random: &mut Random, scale: f64, noise: f64) -
         largest = largest.max(p.abs().max_element());
     }
     placed.source = Some(tmesh::Source {
+        sector_of: None,
         format: "stl".to_owned(),
         triangles: placed.templates[0].triangles.len() as u64,
         volume: 0.0,

@@ -6,6 +6,7 @@ use crate::params::Params;
 use crate::report::{Defects, Detection, FailureReport, Report, svg};
 use crate::threads;
 use glam::DVec3;
+use heal::Repairing;
 use kit::{Command, CommonArgs, Failure, Output, Session, ThreadArgs};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -51,6 +52,10 @@ pub struct Cli {
           value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_ORDER)))]
     max_order: u32,
 
+    /// Whether cracks of the surface are closed and what is there twice or has no area is dropped; off refuses such files
+    #[arg(long, value_name = "auto|off", default_value = "auto")]
+    repair: RepairArg,
+
     /// Pass a body without symmetry on as C1
     #[arg(long)]
     allow_asymmetric: bool,
@@ -65,6 +70,22 @@ pub struct Cli {
     /// Draw what was found: the body, its axis and mirror planes, the deviation under every order
     #[arg(long, value_name = "PATH")]
     svg: Option<PathBuf>,
+}
+
+/// Values of `--repair`.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum RepairArg {
+    Auto,
+    Off,
+}
+
+impl From<RepairArg> for Repairing {
+    fn from(arg: RepairArg) -> Self {
+        match arg {
+            RepairArg::Auto => Self::Auto,
+            RepairArg::Off => Self::Off,
+        }
+    }
 }
 
 /// Triangles up to which a surface is checked without a report being asked for.
@@ -174,10 +195,12 @@ impl Command for Cli {
     fn run(self, session: &Session) -> Result<(), Failure> {
         session.check_output()?;
         let params = self.params();
-        let mut document = session.read().inspect_err(|failure| {
-            let defects = session.odd_edges().map(Defects::of_open);
-            self.report_failure(failure, &defects.unwrap_or_default(), session);
-        })?;
+        let mut document = session
+            .read_with(self.repair.into())
+            .inspect_err(|failure| {
+                let defects = session.odd_edges().map(Defects::of_open);
+                self.report_failure(failure, &defects.unwrap_or_default(), session);
+            })?;
         let (defects, found) = self.examine(&document, &params, session);
         let found = found.map_err(|error| {
             let failure = Failure::from(error);
@@ -203,7 +226,7 @@ impl Command for Cli {
         if let Some(path) = &self.report {
             write_text(
                 path,
-                &json(&Report::new(&document, &found, &defects, session.notices()))?,
+                &json(&Report::new(&document, &found, &defects, session))?,
             )?;
         }
         if let Some(path) = &self.svg {

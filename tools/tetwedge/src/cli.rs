@@ -8,8 +8,9 @@ use tmesh::Wishes;
 
 /// Fills a wedge, or any closed surface, with tetrahedra
 ///
-/// The mesher is TetGen. Mirror walls may be refined; seams and walls shared with other templates
-/// are kept as they are. Regions come from the surface's triangles.
+/// The mesher is TetGen. Mirror walls may be refined. Faces that copies share by a rotation or a half turn get the surface mesh
+/// that the elements need, as periodic-surf makes it, unless that was there before. Regions come from the surface's
+/// triangles.
 #[derive(clap::Parser, Debug)]
 #[command(
     name = "tetwedge",
@@ -29,6 +30,11 @@ pub struct Cli {
     #[command(flatten)]
     memory: MemoryArgs,
 
+    /// Keep the faces that copies share by a rotation or a half turn as they are, and the surface beside them; without
+    /// this they are remeshed, unless periodic-surf has done so
+    #[arg(long)]
+    keep_surface: bool,
+
     /// TetGen switches to append to ours
     #[arg(long, value_name = "STR", default_value = "", value_parser = switches, allow_hyphen_values = true, hide_default_value = true)]
     switches: String,
@@ -37,14 +43,8 @@ pub struct Cli {
     threads: ThreadArgs,
 }
 
-/// Appended switches may be this long; TetGen keeps them in a small buffer.
-const LONGEST_SWITCHES: usize = 200;
-
 fn switches(text: &str) -> Result<String, String> {
     let text = text.trim().trim_start_matches('-');
-    if text.len() > LONGEST_SWITCHES {
-        return Err(format!("longer than {LONGEST_SWITCHES} characters"));
-    }
     if let Some(odd) = text.chars().find(|c| !c.is_ascii_graphic()) {
         return Err(format!("{odd:?} is not part of a TetGen switch"));
     }
@@ -69,6 +69,9 @@ impl Command for Cli {
         session.check_output()?;
         let mut document = session.read()?;
         self.wishes.apply(&mut document)?;
+        if self.keep_surface {
+            document.wishes.keep_surface = Some(true);
+        }
         let params = self.params(&document.wishes);
         let log = |text: &str| session.info(text);
         let meshed = on_threads(self.threads.count(), || {

@@ -3,8 +3,9 @@
 use crate::fill::{Filled, NONE};
 use crate::follow::{Follow, Followed, Led, follower};
 use crate::leads::leader;
+use crate::settle::{Settled, settle};
 use crate::template::{Done, Job, template};
-use mesher::{Deadline, Error, LADDER, Log, Params, Sizes};
+use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
 use rayon::prelude::*;
 use tmesh::{Document, Template};
 
@@ -19,24 +20,27 @@ pub struct Meshed {
 }
 
 /// Fills every template of a document with tetrahedra. Tetrahedra that were there before are
-/// replaced.
+/// replaced. The faces that copies share are divided as the elements need, unless the document's wishes say that its
+/// surface is to stay.
 ///
 /// `log` receives details while the work goes on.
 ///
 /// # Errors
 /// See [`Error`].
-pub fn tetrahedralize(
-    mut document: Document,
-    params: &Params,
-    log: Log<'_>,
-) -> Result<Meshed, Error> {
+pub fn tetrahedralize(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, Error> {
+    let Settled {
+        mut document,
+        advice: unsettled,
+        facts: settled,
+    } = settle(document, params, log)?;
     let sizes = Sizes::new(&document);
     let leaders: Vec<Option<usize>> = (0..document.templates.len())
         .map(|index| leader(&document, index))
         .collect();
     let mut done = templates(&mut document, &leaders, params, &sizes, log)?;
-    let advice = advice(&document, &leaders, &done);
-    let facts = facts(&done);
+    let advices = done.iter().filter_map(|d| d.advice.clone());
+    let advice = unsettled.into_iter().chain(advices).collect();
+    let facts = [settled, facts(&done)].concat();
     for index in 0..done.len() {
         let mut template = std::mem::take(&mut done[index].filled.template);
         // A follower has the new numbers already.
@@ -79,7 +83,7 @@ fn templates(
             false => Some(&follow),
         };
         let deadline = Deadline::start(params.timeout);
-        template(&job.climb(index, &LADDER, deadline), beside)
+        template(&job.climb(Piece::of(document, index), deadline), beside)
     };
     let meshed: Vec<Led> = first.par_iter().map(mesh).collect();
     let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
@@ -110,22 +114,6 @@ fn templates(
     }
     // Every slot is filled: a leader has no leader.
     Ok(slots.into_iter().flatten().collect())
-}
-
-/// What the user should know or do otherwise.
-fn advice(document: &Document, leaders: &[Option<usize>], done: &[Done]) -> Vec<String> {
-    let mut advice = Vec::new();
-    let refined = document.wishes.keep_surface();
-    let as_cut = |(d, lead): (&Done, &Option<usize>)| d.preserved && lead.is_none();
-    if !refined && done.iter().zip(leaders).any(as_cut) {
-        advice.push(
-            "the surface was preserved for the sake of the faces it shares with its copies; periodic-surf before tetwedge \
-             gives better elements"
-                .to_owned(),
-        );
-    }
-    advice.extend(done.iter().filter_map(|d| d.advice.clone()));
-    advice
 }
 
 /// What was made.

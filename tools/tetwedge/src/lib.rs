@@ -2,15 +2,16 @@
 //!
 //! The surface's triangles say by their two sides where which region is, so no seeds are asked of
 //! anybody. Mirror walls are refined freely: both neighbours of such a wall are images of the same
-//! face. Seams and faces shared with another template are preserved. Afterwards every wall, volume
-//! and orientation is checked again.
+//! face. Seams get a surface that the elements need, with the library of `periodic-surf`, unless that was done before;
+//! then they and faces shared with another template are preserved. Afterwards every wall, volume and orientation is
+//! checked again.
 
 mod cli;
 mod document;
 mod fill;
 mod follow;
-mod judge;
 mod leads;
+mod settle;
 mod template;
 
 pub use cli::Cli;

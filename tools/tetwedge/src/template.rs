@@ -1,8 +1,9 @@
 //! One template: filled, improved, checked, and those that follow it.
 
 use crate::fill::{Filled, fill, finish};
-use crate::judge::{EASING, Verdict, improves};
-use mesher::{Answer, Asks, Climb, Deadline, Error, Judged, Log, Params, Rung, Sizes, TetGen};
+use mesher::{
+    Answer, Asks, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
+};
 use tmesh::Document;
 
 /// What all templates have in common.
@@ -19,15 +20,17 @@ pub struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    /// Attempts at a template, by the given rungs.
-    pub fn climb(&self, template: usize, rungs: &'a [Rung], deadline: Deadline) -> Climb<'a> {
+    /// Attempts at a template.
+    pub fn climb<'p>(&self, piece: Piece<'p>, deadline: Deadline) -> Climb<'p>
+    where
+        'a: 'p,
+    {
         Climb {
-            document: self.document,
-            template,
+            piece,
             params: self.params,
             sizes: self.sizes,
             preserve: true,
-            rungs,
+            rungs: &LADDER,
             deadline,
             mesher: &TetGen,
             log: self.log,
@@ -43,17 +46,12 @@ pub struct Done {
     pub switches: String,
     /// What the user should know or do otherwise.
     pub advice: Option<String>,
-    /// Whether faces were preserved.
-    pub preserved: bool,
     /// Descriptions that failed before.
     pub failed: usize,
-    /// How far the elements are from what was asked for.
-    pub verdict: Verdict,
 }
 
-/// Meshes a template, at first with the bounds eased if improvement can mend that. What it shares with others is settled
-/// before it is improved: where there are threads, `beside` works on that at the same time, and what it makes of
-/// the first attempt that is taken is returned.
+/// Meshes a template, with the bounds eased if elements are improved afterwards. What it shares with others is settled
+/// before: where there are threads, `beside` works on that at the same time, and what it makes of it is returned.
 ///
 /// # Errors
 /// See [`Error`].
@@ -61,25 +59,13 @@ pub fn template<B: Send>(
     climb: &Climb<'_>,
     beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
 ) -> Result<(Done, Option<B>), Error> {
-    let asks = match improves(climb.params) {
+    let improves = climb.params.quality && climb.params.optimize.is_some();
+    let asks = match improves {
         true => Asks::Eased(EASING),
         false => Asks::AsWished,
     };
-    let take = |answer: Answer| {
-        let beside = beside.filter(|_| !answer.again && rayon::current_num_threads() > 1);
-        let (done, made) = done(climb, answer, beside)?;
-        let short = match done.advice {
-            Some(_) => None,
-            None => done.verdict.short_of(climb.params),
-        };
-        Ok(Judged {
-            made: (done, made),
-            short,
-        })
-    };
-    climb.climb(asks, take, |(eased, _), (tight, _)| {
-        tight.verdict.is_worth_it(&eased.verdict)
-    })
+    let beside = beside.filter(|_| rayon::current_num_threads() > 1);
+    climb.climb(asks, |answer| done(climb, answer, beside))
 }
 
 /// Makes a filled template of the mesher's answer.
@@ -88,8 +74,8 @@ fn done<B: Send>(
     answer: Answer,
     beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
 ) -> Result<(Done, Option<B>), Error> {
-    let say = |text: &str| (climb.log)(&format!("template {}: {text}", climb.template));
-    let (mut filled, origin) = fill(climb.document, climb.template, &answer)?;
+    let say = |text: &str| (climb.log)(&format!("template {}: {text}", climb.piece.index));
+    let (mut filled, origin) = fill(climb.piece, &answer)?;
     let made = match beside {
         Some(beside) => {
             let surface = filled.shared_surface();
@@ -124,10 +110,8 @@ fn done<B: Send>(
         ));
     }
     let done = Done {
-        verdict: Verdict::new(filled.improved, filled.template.tets.len(), &answer),
         filled,
         switches: answer.mesh.told().to_owned(),
-        preserved: answer.plc.faces.preserve(),
         failed: answer.failed,
         advice: answer.advice,
     };

@@ -5,14 +5,23 @@ use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
 use kit::Failure;
 use mesher::{
-    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, Judged, LADDER, Params,
-    Rung, Sizes, TetGen,
+    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, LADDER, Params, Piece, Rung,
+    Sizes, TetGen,
 };
 use periodic_surf::failure;
 use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
 
-/// Fills a document as these wishes ask.
-fn filled(mut document: Document, wishes: &Wishes) -> Result<Meshed, Error> {
+/// Fills a document as these wishes ask, its surface as it is.
+fn filled(document: Document, wishes: &Wishes) -> Result<Meshed, Error> {
+    let kept = Wishes {
+        keep_surface: Some(true),
+        ..wishes.clone()
+    };
+    settled_and_filled(document, &kept)
+}
+
+/// The same, with the surface made that the elements need.
+fn settled_and_filled(mut document: Document, wishes: &Wishes) -> Result<Meshed, Error> {
     document.wishes = wishes.clone().over(&document.wishes);
     let params = Params::new(&document.wishes);
     tetrahedralize(document, &params, &|_| ())
@@ -278,7 +287,7 @@ fn seams_are_preserved() {
     for order in [2, 3, 7, 12] {
         let before = ratchet(order);
         let done = filled(before.clone(), &sized(1e-3)).unwrap();
-        assert!(done.advice[0].contains("periodic-surf"));
+        assert!(done.advice.is_empty());
         check(&before, &done.document);
         let (old, new) = (
             &before.templates[0].gluings[0],
@@ -286,12 +295,47 @@ fn seams_are_preserved() {
         );
         assert_eq!(old.vertex_pairs, new.vertex_pairs);
         assert_eq!(old.triangle_pairs.len(), new.triangle_pairs.len());
-        // Whoever settles the surface says so.
-        let mut refined = before;
-        refined.wishes.keep_surface = Some(true);
-        let done = filled(refined, &sized(1e-3)).unwrap();
-        assert!(done.advice.is_empty());
     }
+}
+
+#[test]
+fn seams_that_nobody_settled_are_divided_as_the_elements_need() {
+    let mut before = ratchet(7);
+    before.wishes = sized(1e-3);
+    let done = settled_and_filled(before.clone(), &sized(1e-3)).unwrap();
+    assert!(done.advice.is_empty(), "{:?}", done.advice);
+    assert!(done.facts[0].contains("vertex pairs"), "{:?}", done.facts);
+    assert_eq!(validate(&done.document), []);
+    let pairs = |d: &Document| d.templates[0].gluings[0].triangle_pairs.len();
+    assert!(pairs(&done.document) > pairs(&before));
+    // Just what is made of it in two steps.
+    let params = Params::new(&before.wishes);
+    let (surface, _) = periodic_surf::prepare(before, &params, &|_| ()).unwrap();
+    let again = tetrahedralize(surface, &params, &|_| ()).unwrap().document;
+    assert_eq!(again.templates, done.document.templates);
+    assert_eq!(again.wishes, done.document.wishes);
+    // Nor is a filled one settled again.
+    let mut filled_before = done.document;
+    filled_before.wishes.keep_surface = None;
+    let again = pairs(&filled_before);
+    let done = settled_and_filled(filled_before, &sized(1e-3)).unwrap();
+    assert_eq!(pairs(&done.document), again);
+}
+
+#[test]
+fn a_surface_that_cannot_be_settled_stays_as_it_was_cut() {
+    let mut document = ratchet(5);
+    document.wishes = sized(1e-3);
+    // Two masters of one flat facet whose images are not alike.
+    let [image, _] = document.templates[0].gluings[0].triangle_pairs[0];
+    let before = document.templates[0].gluings[0].triangle_pairs.len();
+    document.templates[0].triangles[image as usize].marker += 1;
+    let done = settled_and_filled(document, &sized(1e-3)).unwrap();
+    let seam = &done.document.templates[0].gluings[0];
+    assert_eq!(seam.triangle_pairs.len(), before);
+    let told = &done.advice[0];
+    assert!(told.contains("stay as they were cut"), "{told}");
+    assert!(!told.contains("--order"), "{told}");
 }
 
 #[test]
@@ -466,8 +510,7 @@ fn described(document: &Document, description: Description, take: impl Fn(&Climb
         change: Change::Describe(description),
     }];
     let climb = Climb {
-        document,
-        template: 0,
+        piece: Piece::of(document, 0),
         params: &params,
         sizes: &sizes,
         preserve: true,
@@ -476,24 +519,17 @@ fn described(document: &Document, description: Description, take: impl Fn(&Climb
         mesher: &TetGen,
         log: &|_| (),
     };
-    let taken = climb.climb(
-        Asks::AsWished,
-        |answer| {
-            if answer.failed == 0 {
-                // The rung has the description that is wanted.
-                return Err(Error::Unusable {
-                    template: 0,
-                    what: "once more".to_owned(),
-                });
-            }
-            take(&climb, answer);
-            Ok(Judged {
-                made: (),
-                short: None,
-            })
-        },
-        |_, _| true,
-    );
+    let taken = climb.climb(Asks::AsWished, |answer| {
+        if answer.failed == 0 {
+            // The rung has the description that is wanted.
+            return Err(Error::Unusable {
+                template: 0,
+                what: "once more".to_owned(),
+            });
+        }
+        take(&climb, answer);
+        Ok(())
+    });
     taken.unwrap();
 }
 
@@ -512,7 +548,7 @@ fn equivalent_descriptions_give_equivalent_meshes() {
         for &description in &descriptions {
             described(&document, description, |climb, answer| {
                 assert_eq!(answer.plc.shift > 0.0, description.flat);
-                let (mut filled, origin) = fill(&document, 0, &answer).unwrap();
+                let (mut filled, origin) = fill(Piece::of(&document, 0), &answer).unwrap();
                 finish(climb, &answer.plc, &mut filled, &origin).unwrap();
                 let mut done = document.clone();
                 done.templates[0] = filled.template;

@@ -176,6 +176,7 @@ impl Body {
             area: None,
         }];
         document.source = Some(Source {
+            sector_of: None,
             format: "stl".to_owned(),
             triangles: document.templates[0].triangles.len() as u64,
             volume: 0.0,

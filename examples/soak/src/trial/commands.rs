@@ -69,7 +69,11 @@ pub fn stages(solid: &Solid, seed: u64) -> Vec<Stage> {
     if surface {
         stages.push(with_elements("periodic-surf"));
     }
-    stages.push(with_elements("tetwedge"));
+    let mut fill = with_elements("tetwedge");
+    if !surface && dice.chance(0.5) {
+        fill.push("--keep-surface".to_owned());
+    }
+    stages.push(fill);
     let mut assemble = stage("rotassemble");
     assemble.extend(["--to", "tmesh"].map(str::to_owned));
     if dice.chance(0.3) {

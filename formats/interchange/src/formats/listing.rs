@@ -63,12 +63,8 @@ impl Table {
 
 fn number(x: f64) -> String {
     // No minus before zero.
-    let x = x + 0.0;
-    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
-        format!("{x}")
-    } else {
-        format!("{x:e}")
-    }
+    let text = format!("{:?}", x + 0.0);
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
 fn point(p: [f64; 3]) -> String {

@@ -3,7 +3,7 @@
 use super::{Group, Mesh, MeshTriangles, Parsed, Soup};
 use crate::ReadError;
 use crate::text::{counted, plain};
-use crate::title::parse_promise;
+use crate::title::{parse_promise, parse_sector};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
@@ -263,6 +263,7 @@ impl Grid {
         let is_sided = sides.is_some();
         Mesh {
             promise: parse_promise(&self.title),
+            sector_of: parse_sector(&self.title),
             points: self.points,
             tets,
             triangles: if is_sided {

@@ -20,6 +20,8 @@ pub struct Mesh {
     pub markers: BTreeMap<u32, String>,
     /// The symmetry that the title of the file promises.
     pub promise: Option<Promise>,
+    /// How many instances the whole has, where the title of the file says that it holds one sector.
+    pub sector_of: Option<u32>,
     /// Largest error of a coordinate relative to the largest one.
     pub relative_precision: f64,
     /// What the user should know about the file.

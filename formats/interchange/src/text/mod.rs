@@ -5,6 +5,7 @@ mod precision;
 mod tokens;
 mod words;
 
+pub(crate) use decimal::significant_digits;
 pub(crate) use precision::TextPrecision;
 pub use precision::{DOUBLE, SINGLE};
 pub(crate) use tokens::{Tokens, number, shown};

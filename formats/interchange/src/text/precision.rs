@@ -41,7 +41,7 @@ impl TextPrecision {
             // A single printed with more digits than it has lies within the printed rounding of
             // itself.
             let off = (value - f64::from(value as f32)).abs();
-            self.single = off <= 10.0_f64.powi(1 - digits as i32) * value.abs();
+            self.single = off <= unit(digits) * value.abs();
         }
     }
 
@@ -51,7 +51,12 @@ impl TextPrecision {
         if self.single || self.digits <= SINGLE_DIGITS {
             SINGLE
         } else {
-            (0.5 * 10.0_f64.powi(1 - self.digits as i32)).max(DOUBLE)
+            (0.5 * unit(self.digits)).max(DOUBLE)
         }
     }
+}
+
+/// One unit in the last of so many significant decimal digits, relative to the number at most.
+fn unit(digits: u32) -> f64 {
+    10.0_f64.powi(1 - digits as i32)
 }

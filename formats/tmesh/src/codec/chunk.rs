@@ -226,7 +226,7 @@ impl<R: Read> ChunkReader<R> {
             "where a chunk or the end marker should follow".to_owned()
         })?;
         let (stored, computed) = (LE::read_u32(&header[16..]), crc32fast::hash(&header[..16]));
-        if stored != computed || header[20..] != [0; 4] {
+        if stored != computed {
             let what = "a chunk header".to_owned();
             return Err(DecodeError::Checksum {
                 what,
@@ -242,7 +242,11 @@ impl<R: Read> ChunkReader<R> {
             offset,
             known: true,
         };
+        if header[20..] != [0; 4] {
+            return Err(info.bad("the last four bytes of its header are not zero"));
+        }
         if info.id == END {
+            info.of_document()?;
             let payload: Vec<u64> = self.array(&info)?;
             if payload != [self.chunks.len() as u64, offset] {
                 return Err(info.bad(format!(
@@ -320,8 +324,7 @@ impl<R: Read> ChunkReader<R> {
             format!("at the checksum of chunk '{}'", info.name())
         })?;
         let stored = LE::read_u32(&tail[pad..]);
-        let zeros = tail[..pad].iter().chain(&tail[pad + 4..]).all(|&b| b == 0);
-        if stored != computed || !zeros {
+        if stored != computed {
             let what = format!("chunk '{}'", info.name());
             return Err(DecodeError::Checksum {
                 what,
@@ -329,6 +332,12 @@ impl<R: Read> ChunkReader<R> {
                 stored,
                 computed,
             });
+        }
+        if tail[..pad].iter().any(|&b| b != 0) {
+            return Err(info.bad("the padding after its payload is not zero"));
+        }
+        if tail[pad + 4..] != [0; 4] {
+            return Err(info.bad("the four bytes after its checksum are not zero"));
         }
         Ok(())
     }

@@ -327,6 +327,7 @@ impl TryFrom<String> for Group {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
     use std::collections::BTreeSet;
 
     fn all(orders: impl IntoIterator<Item = u32>) -> Vec<Group> {
@@ -412,6 +413,21 @@ mod tests {
         for group in whole.subgroups() {
             assert!(group.elements().all(|g| whole.contains(g)), "{group}");
         }
+    }
+
+    /// The inversion alone is the rotary reflection by half a turn.
+    #[test]
+    fn the_inversion_alone_is_s2() {
+        let group: Group = "S2".parse().unwrap();
+        assert_eq!(group, Group::new(Kind::S, 1));
+        let inversion = Isometry::new(1, 2, false, true);
+        assert_eq!(
+            inversion.apply(DVec3::new(1.0, 2.0, 3.0)),
+            DVec3::new(-1.0, -2.0, -3.0)
+        );
+        assert!(group.elements().eq([Isometry::IDENTITY, inversion]));
+        assert_eq!(group.generators(), [inversion]);
+        assert_eq!(Group::of(1, |g| group.contains(g)), group);
     }
 
     #[test]

@@ -6,6 +6,12 @@ use std::fmt;
 /// Largest denominator of a turn, and largest common denominator of all turns of a document.
 pub const MAX_TURN_DENOMINATOR: u32 = 65_536;
 
+/// Relative deviation up to which numbers that an isometry relates count as equal: coordinates of a
+/// point and its image relative to the largest of the template, entries of a rotation matrix relative
+/// to 1. Either side is computed with fewer than 64 roundings (cosine and sine, the products and sums
+/// of a matrix, the distance from a plane), each of at most half an epsilon.
+pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// An element of an axial point group in the canonical frame (axis = z, mirror reference = x):
 /// `R(2 pi k / n) * M^mirrored * H^flipped`, where `M` maps y to -y and `H` maps z to -z.
 ///
@@ -273,7 +279,7 @@ pub(crate) fn cos_sin(k: u32, n: u32) -> (f64, f64) {
 /// Cosine and sine of `(rest / n) * pi / 2` for `0 < 2 rest < n`.
 fn first_octant(rest: u64, n: u64) -> (f64, f64) {
     if 3 * rest == n {
-        return (0.75_f64.sqrt(), 0.5);
+        return (3.0_f64.sqrt() / 2.0, 0.5);
     }
     let angle = std::f64::consts::FRAC_PI_2 * (rest as f64 / n as f64);
     (libm::cos(angle), libm::sin(angle))

@@ -9,4 +9,4 @@ pub use fixed::FixedSet;
 pub use frame::Frame;
 pub use group::{Group, Kind, NotAGroup};
 pub(crate) use isometry::lcm;
-pub use isometry::{Isometry, MAX_TURN_DENOMINATOR, Placed};
+pub use isometry::{Isometry, MAX_TURN_DENOMINATOR, Placed, ROUNDING};

@@ -27,15 +27,15 @@ fn seams_hubs_and_all_metadata_are_written_and_read_as_ever() {
     check(&column(), COLUMN);
 }
 
-/// The annotated dump of section 10: `offset  hex bytes  ; meaning`.
+/// The annotated dump of section 11: `offset  hex bytes  ; meaning`.
 #[test]
 fn the_hex_dump_of_the_specification_is_the_golden_file() {
     let mut dumped = Vec::new();
     let section = SPEC
-        .split("\n## 10")
+        .split("\n## 11")
         .nth(1)
-        .expect("SPEC.md has a section 10");
-    let block = section.split("```").nth(1).expect("section 10 has a dump");
+        .expect("SPEC.md has a section 11");
+    let block = section.split("```").nth(1).expect("section 11 has a dump");
     for line in block.lines().filter(|l| l.contains("  ")) {
         let (offset, rest) = line.split_once("  ").expect("an offset");
         let offset = usize::from_str_radix(offset, 16).expect("a hexadecimal offset");

@@ -60,10 +60,118 @@ fn every_byte_altered() {
                 match error(&damaged) {
                     DecodeError::BadMagic { .. } => assert!(place < 8),
                     DecodeError::Checksum { .. } => assert!(place >= 8),
+                    // No checksum covers the zeros between and after the checksums.
+                    DecodeError::BadChunk { reason, .. } => {
+                        assert!(reason.ends_with("not zero"), "byte {place}: {reason}");
+                        assert_eq!(whole[place], 0);
+                    }
                     other => panic!("byte {place} xor {change:#x}: {other}"),
                 }
             }
         }
+    }
+}
+
+/// Bytes that must be zero and are not were reported as checksums that differ, and did not.
+#[test]
+fn padding_that_is_not_zero_is_called_so() {
+    let whole = bytes(&pyramid());
+    let (_, list) = tmesh::read_with_chunks(whole.as_slice()).expect("valid");
+    let regions = list.iter().find(|c| &c.id == b"REGN").expect("regions");
+    let begin = regions.offset as usize;
+    let end = begin + 24 + regions.length as usize;
+    for (place, expected) in [
+        (begin + 20, "the last four bytes of its header are not zero"),
+        (end, "the padding after its payload is not zero"),
+        (
+            end + 2 + 4,
+            "the four bytes after its checksum are not zero",
+        ),
+    ] {
+        let mut damaged = whole.clone();
+        damaged[place] = 1;
+        let text = error(&damaged).to_string();
+        assert!(text.contains("REGN") && text.ends_with(expected), "{text}");
+    }
+}
+
+/// Words that must be zero are covered by the checksum: a writer that fills them is told which.
+#[test]
+fn reserved_words_that_are_not_zero() {
+    let whole = bytes(&pyramid());
+    let (_, list) = tmesh::read_with_chunks(whole.as_slice()).expect("valid");
+    for (id, word) in [(*b"GLUE", 7), (*b"INST", 5)] {
+        let raw = chunks(|writer| {
+            for chunk in &list {
+                let start = chunk.offset as usize + 24;
+                let mut data = whole[start..start + chunk.length as usize].to_vec();
+                if chunk.id == id {
+                    data[4 * word] = 1;
+                }
+                writer.array(chunk.id, chunk.scope, &data)?;
+            }
+            Ok(())
+        });
+        let text = error(&raw).to_string();
+        assert!(text.ends_with("a reserved field is not zero"), "{text}");
+    }
+}
+
+#[test]
+fn an_end_marker_of_a_template() {
+    let whole = bytes(&pyramid());
+    let mut scoped = whole.clone();
+    let end = whole.len() - 48;
+    scoped[end + 4] = 1;
+    let crc = crc32fast::hash(&scoped[end..end + 16]);
+    scoped[end + 16..end + 20].copy_from_slice(&crc.to_le_bytes());
+    let text = error(&scoped).to_string();
+    assert!(text.ends_with("its scope is 1, and must be 0"), "{text}");
+}
+
+#[test]
+fn axis_vertices_out_of_order() {
+    let mut document = pyramid();
+    document.templates[0].axis = vec![3, 0];
+    let text = violation(&document).to_string();
+    assert!(text.contains("not increasing"), "{text}");
+}
+
+#[test]
+fn json_numbers_keys_and_nulls() {
+    let regions = |json: &str| {
+        let bytes = chunks(|w| {
+            w.array(*b"REGN", 0, json.as_bytes())?;
+            w.array::<f64>(*b"VERT", 0, &[])
+        });
+        read(bytes.as_slice()).map(|document| document.regions)
+    };
+    for right in [
+        r#"[{"id":1,"name":"Cu"}]"#,
+        r#" [ {"name" : "Cu", "id" : 1, "colour" : [1.0, null], "colour" : 2} ] "#,
+        r#"[{"id":1,"name":"C\u0075","max_volume":null,"volume":null}]"#,
+        r#"[{"id":1,"name":"Cu","volume":2}]"#,
+    ] {
+        let found = regions(right).expect(right);
+        assert_eq!((found[0].id, found[0].name.as_str()), (1, "Cu"), "{right}");
+    }
+    for wrong in [
+        r#"[{"id":1.0,"name":"Cu"}]"#,
+        r#"[{"id":"1","name":"Cu"}]"#,
+        r#"[{"id":-1,"name":"Cu"}]"#,
+        r#"[{"id":4294967296,"name":"Cu"}]"#,
+        r#"[{"id":null,"name":"Cu"}]"#,
+        r#"[{"id":1,"id":1,"name":"Cu"}]"#,
+        r#"[{"name":"Cu"}]"#,
+        r#"[{"id":1,"name":"Cu","volume":1e999}]"#,
+        r#"[{"id":1,"name":"Cu"},]"#,
+        r#"[{"id":1,"name":"Cu"}] x"#,
+        "\u{feff}[]",
+        "{}",
+        "",
+    ] {
+        let text = regions(wrong).expect_err(wrong).to_string();
+        assert!(text.contains("its JSON is not as expected"), "{text}");
     }
 }
 
@@ -139,7 +247,7 @@ fn unknown_chunks() {
     }
     // Damage in a chunk that is skipped is damage all the same.
     let mut damaged = optional;
-    let place = damaged.len() - 24 - 16 - 8 - 10;
+    let place = damaged.len() - 24 - 16 - 8 - 16;
     damaged[place] ^= 1;
     assert!(matches!(error(&damaged), DecodeError::Checksum { .. }));
 }

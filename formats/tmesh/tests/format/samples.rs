@@ -34,7 +34,7 @@ fn region(id: u32, name: &str) -> Region {
 }
 
 /// A square pyramid as four images of one tetrahedron between two mirror walls. `SPEC.md`,
-/// section 10, is its hex dump.
+/// section 11, is its hex dump.
 pub fn pyramid() -> Document {
     let mirror = |name: &str, reflection, vertices: [u32; 3], triangle| {
         Gluing::mirror(name, 0, reflection, vertices, [triangle])
@@ -193,6 +193,7 @@ pub fn column() -> Document {
             marker(9, "top", None),
         ],
         source: Some(Source {
+            sector_of: None,
             format: "stl".to_owned(),
             triangles: 28,
             volume: 4.0,

@@ -174,6 +174,7 @@ pub fn wedge(n: u32, mirror: bool) -> Document {
         region(2, "shell", (polygon(3.0) - polygon(1.0)) * height),
     ];
     document.source = Some(Source {
+        sector_of: None,
         format: "code".to_owned(),
         triangles: 0,
         volume: polygon(3.0) * height,

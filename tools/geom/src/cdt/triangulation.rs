@@ -1,6 +1,7 @@
 //! The triangulation as arrays.
 
 use crate::points::weld::Welder;
+use crate::rounding::power_of_two;
 use spade::handles::FixedVertexHandle;
 use spade::{
     ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation,
@@ -66,11 +67,7 @@ impl Cdt {
         if !largest.is_finite() {
             return Err(CdtError::Coordinate);
         }
-        let scale = if largest > 0.0 {
-            (-largest.log2().floor()).clamp(-1000.0, 1000.0).exp2()
-        } else {
-            1.0
-        };
+        let scale = power_of_two(largest).recip();
         let sites: Vec<Point2<f64>> = points.iter().map(|&p| site(p, scale)).collect();
         let mut welder = Welder::new(sites.len());
         for (i, p) in (0..).zip(&sites) {

@@ -1,6 +1,7 @@
 //! Quality measures of a tetrahedron.
 
 use crate::element::measure::tet_volume;
+use crate::rounding::power_of_two;
 use glam::DVec3;
 
 /// Radius-edge ratio of the regular tetrahedron, the smallest there is.
@@ -45,11 +46,7 @@ impl TetMeasures {
         let longest = edges.iter().fold(0.0_f64, |m, &e| m.max(e));
         let shortest = edges.iter().fold(f64::INFINITY, |m, &e| m.min(e));
         // Fourth powers of lengths must neither overflow nor vanish.
-        let unit = if (1e-60..1e60).contains(&longest) || longest == 0.0 {
-            1.0
-        } else {
-            longest
-        };
+        let unit = power_of_two(longest);
         let (u, v, w) = ((b - a) / unit, (c - a) / unit, (d - a) / unit);
         let (uv, vw, wu) = (u.cross(v), v.cross(w), w.cross(u));
         let six_volume = uv.dot(w).abs();

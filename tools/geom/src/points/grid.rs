@@ -3,11 +3,6 @@
 /// No further point in a list.
 const NONE: u32 = u32::MAX;
 
-/// Width of a cell over the distance that is asked for, see [`Grid::for_reach`]. A query looks at
-/// `(1 + 2 / CELL)^N` cells on average, 3.4 in space: with a smaller width it looks at more cells, with a
-/// larger one at more points that are too far off. Results do not depend on this choice.
-const CELL: f64 = 4.0;
-
 /// A hashed grid over points of `N` coordinates. Points have the numbers 0, 1, ... in the order in which
 /// they are added.
 ///
@@ -35,8 +30,9 @@ impl<const N: usize> Grid<N> {
     /// An empty grid for questions about points up to `reach` apart, model units; a reach of zero asks for
     /// equal points.
     pub fn for_reach(reach: f64, expected: usize) -> Self {
-        // Equal points are in one cell, whatever its width.
-        let width = if reach > 0.0 { CELL * reach } else { 1.0 };
+        // As wide as what is asked about, which so is in two cells along each axis. Equal points are in one cell, whatever
+        // its width.
+        let width = if reach > 0.0 { 2.0 * reach } else { 1.0 };
         Self::new(width, expected)
     }
 

@@ -6,19 +6,12 @@
 use crate::eigen;
 use glam::{DMat3, DVec3};
 
-/// Triangles looked at, at most: enough to find directions that are worth it, and a few milliseconds.
-const SAMPLED: usize = 20_000;
-/// Boxes must get smaller by this factor for a frame to be worth its use: turning all coordinates costs about
-/// a tenth of building the tree. This and what follows change the time only.
-const GAIN: f64 = 0.8;
-/// Cosine up to which a face counts as parallel to a direction, three degrees: boxes of faces as far off are
-/// still thin.
-const ALONG: f64 = 0.05;
-
-/// The rotation into such a frame, or `None` where the coordinates given are about as good. Depends on the
-/// triangles, given by their corners, and on their order only. Linear time.
+/// The rotation into such a frame, or `None` where the coordinates given are as good. Depends on the triangles,
+/// given by their corners, and on their order only.
 pub fn alignment(count: usize, corners: impl Fn(usize) -> [DVec3; 3]) -> Option<DMat3> {
-    let step = count.div_ceil(SAMPLED).max(1);
+    // One of as many triangles as a hierarchy over them has levels: so the search takes a small part of the time of
+    // building that, and has enough of them.
+    let step = count.checked_ilog2().unwrap_or(0).max(1) as usize;
     let sampled: Vec<[DVec3; 3]> = (0..count).step_by(step).map(&corners).collect();
     let areas: Vec<DVec3> = (sampled.iter())
         .map(|[a, b, c]| (*b - *a).cross(*c - *a))
@@ -34,10 +27,10 @@ pub fn alignment(count: usize, corners: impl Fn(usize) -> [DVec3; 3]) -> Option<
     };
     let given = cost(&DMat3::IDENTITY);
     let best = (main_directions(&areas).into_iter())
-        .filter_map(|z| Some(frame(z, beside(&areas, z)?)))
+        .map(|z| frame(z, beside(&areas, z)))
         .map(|f| (cost(&f), f))
         .min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (best.0 < GAIN * given).then_some(best.1)
+    (best.0 < given).then_some(best.1)
 }
 
 /// The normal of the largest face, and the direction by which the normals stand out.
@@ -64,11 +57,12 @@ fn main_directions(areas: &[DVec3]) -> Vec<DVec3> {
     all
 }
 
-/// The normal of the largest face along a direction; any direction across it where there is none.
-fn beside(areas: &[DVec3], z: DVec3) -> Option<DVec3> {
-    let along = |n: &DVec3| n.dot(z).abs() <= ALONG * n.length();
-    let n = largest(areas.iter().copied().filter(along)).unwrap_or(z.any_orthogonal_vector());
-    (n - z * n.dot(z)).try_normalize()
+/// The direction across `z` in which the largest face is seen; any one where there is none.
+fn beside(areas: &[DVec3], z: DVec3) -> DVec3 {
+    // In the basis of a plane, so that what is left of normals along `z` by rounding is a direction across as well.
+    let (u, v) = z.any_orthonormal_pair();
+    let across = areas.iter().map(|n| u * n.dot(u) + v * n.dot(v));
+    largest(across).and_then(DVec3::try_normalize).unwrap_or(u)
 }
 
 fn largest(areas: impl Iterator<Item = DVec3>) -> Option<DVec3> {

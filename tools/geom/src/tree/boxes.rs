@@ -7,11 +7,11 @@ use glam::DVec3;
 pub const WIDTH: usize = 4;
 /// Bins per split. More of them find hardly better splits, and take more time.
 const BINS: usize = 12;
-/// Depth from which ranges are halved, so that the depth stays bounded.
-const HALVING_DEPTH: usize = 40;
-/// Entries of a traversal stack: three for each level, and levels are bounded by [`HALVING_DEPTH`] and the 31
-/// halvings after it.
-pub const STACK: usize = 256;
+/// Depth in splits from which ranges are halved: a balanced hierarchy of all boxes that can be numbered is as deep, and
+/// halving adds no more than that again.
+const HALVING_DEPTH: usize = u32::BITS as usize;
+/// Entries of a traversal stack: a level of the hierarchy takes one and adds its children, and is a split at least.
+pub const STACK: usize = 1 + (WIDTH - 1) * 2 * HALVING_DEPTH;
 /// Marks a child that is a leaf.
 pub const LEAF: u32 = 1 << 31;
 

@@ -12,8 +12,7 @@ mod nearest;
 mod pairs;
 mod placement;
 mod rays;
-mod thin;
 
 pub use nearest::{Nearest, Tree, closest_point};
-pub use pairs::pairs;
+pub use pairs::{Search, pairs};
 pub use rays::{Direction, Hit, Met, Rays};

@@ -2,20 +2,15 @@
 
 use super::boxes::{Bounds, Boxes, Item, LEAF, STACK};
 use super::placement::Placement;
-use super::thin::Thin;
+use crate::rounding;
 use crate::tree::alignment::alignment;
 use arrayvec::ArrayVec;
 use glam::DVec3;
 
-/// Bound on the rounding of a single-precision coordinate and of a difference of two, relative to
-/// the largest coordinate: three halves of 1.2e-7 each, and room for as much again.
-const ROUNDING: f32 = 4e-7;
-
 /// A tree over triangles for the nearest one; owns a copy of their corners.
 ///
-/// Boxes are along the faces of the set ([`crate::tree::alignment`]), and long and thin triangles have several; distances
-/// to boxes are taken a margin too small, so that no rounding can hide a triangle. Distances to triangles
-/// are in double precision.
+/// Boxes are along the faces of the set ([`crate::tree::alignment`]); distances to boxes are taken a margin too small, so
+/// that no rounding can hide a triangle. Distances to triangles are in double precision.
 pub struct Tree {
     boxes: Boxes,
     /// Corners in the order of the leaves, in the placement.
@@ -49,12 +44,8 @@ impl Tree {
                 *p = turn * *p;
             }
         }
-        let mut items: Vec<Item> = Vec::with_capacity(triangles.len());
-        let thin = Thin::new(&triangles);
-        for (i, t) in triangles.iter().enumerate() {
-            thin.for_each_piece(t, |bounds| items.push(Item::new(bounds, i as u32)));
-        }
-        let boxes = Boxes::new(items);
+        let items = (0..).zip(&triangles);
+        let boxes = Boxes::new(items.map(|(i, t)| Item::new(Bounds::of(t), i)).collect());
         Self {
             corners: boxes.index.iter().map(|&i| triangles[i as usize]).collect(),
             boxes,
@@ -62,7 +53,7 @@ impl Tree {
         }
     }
 
-    /// Number of leaves: triangles and pieces of them.
+    /// Number of triangles.
     pub fn len(&self) -> usize {
         self.boxes.index.len()
     }
@@ -83,10 +74,13 @@ impl Tree {
         let unit = self.placement.unit;
         let p = self.placement.inside(point);
         let single = p.as_vec3();
-        let margin = ROUNDING * single.abs().max_element().max(1.0);
+        // A gap between a point and a box is rounded with the point's coordinate, with the difference, of up to two
+        // coordinates, and when the margin is taken off. Coordinates of boxes, below two, are rounded outwards.
+        let largest = f64::from(single.abs().max_element().max(2.0));
+        let margin = rounded_up(rounding::single(5) * largest);
         let within = within / unit;
         let mut best = within * within;
-        let mut bound = rounded_up(best);
+        let mut bound = squares_up_to(best);
         let mut found: Option<(u32, DVec3)> = None;
         let enough = enough / unit;
         let enough = enough * enough;
@@ -104,7 +98,7 @@ impl Tree {
                 let d = (p - q).length_squared();
                 if d < best {
                     best = d;
-                    bound = rounded_up(best);
+                    bound = squares_up_to(best);
                     found = Some((i as u32, q));
                     if best <= enough {
                         break;
@@ -135,10 +129,17 @@ impl Tree {
     }
 }
 
-/// A single-precision number that is not smaller, with room for the rounding of a sum of squares.
+/// A single-precision number that is not smaller.
 #[inline]
 fn rounded_up(x: f64) -> f32 {
-    ((x * 1.000_002) as f32).next_up()
+    (x as f32).next_up()
+}
+
+/// A single-precision number that no sum of three squares is above that is up to `x` but for its rounding: of each square
+/// and of two additions.
+#[inline]
+fn squares_up_to(x: f64) -> f32 {
+    rounded_up(x * (1.0 + rounding::single(3)))
 }
 
 /// The point of a triangle nearest to `p`.
@@ -259,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_of_thin_triangles_hide_nothing() {
+    fn thin_triangles_hide_nothing() {
         // A fan of oblique needles, and needles anywhere.
         let mut r = Lcg(3);
         let turn = glam::DQuat::from_rotation_x(0.7) * glam::DQuat::from_rotation_y(0.5);
@@ -275,7 +276,7 @@ mod tests {
             [q, p, p + (q - p) * r.next() + 0.01 * r.point()]
         }));
         let tree = Tree::new(triangles.iter().copied());
-        assert!(tree.len() > 2 * triangles.len());
+        assert_eq!(tree.len(), triangles.len());
         for _ in 0..2000 {
             let p = 2.0 * r.point() - DVec3::splat(0.5);
             let found = tree.nearest(p, f64::INFINITY).unwrap();

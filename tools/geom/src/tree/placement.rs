@@ -1,13 +1,14 @@
 //! Where the boxes of a hierarchy are.
 
 use super::boxes::Bounds;
+use crate::rounding::power_of_two;
 use glam::{DMat3, DVec3};
 
-/// A frame in which coordinates are near one, whatever the model's unit and place.
+/// A frame in which coordinates are below two, whatever the model's unit and place.
 pub struct Placement {
     /// Centre of the set.
     pub centre: DVec3,
-    /// Half the size of the set, rounded up to a power of two.
+    /// Half the size of the set, rounded down to a power of two.
     pub unit: f64,
     /// By what it is turned, if anything.
     pub turn: Option<DMat3>,
@@ -24,14 +25,9 @@ impl Placement {
         } else {
             (DVec3::ZERO, 0.0)
         };
-        let unit = if extent.is_normal() {
-            2.0_f64.powi(extent.log2().ceil().clamp(-1000.0, 1000.0) as i32)
-        } else {
-            1.0
-        };
         Self {
             centre,
-            unit,
+            unit: power_of_two(extent),
             turn: None,
         }
     }

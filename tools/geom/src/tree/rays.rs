@@ -3,13 +3,10 @@
 use super::boxes::{Bounds, Boxes, Item, LEAF, WIDTH};
 use super::placement::Placement;
 use crate::element::predicate::orientation;
+use crate::rounding;
+use crate::tolerance::ROUNDING;
 use glam::DVec3;
 use robust::{Coord, orient2d};
-
-/// Barycentric coordinates may be this much outside in [`Rays::first`], so that no ray slips through an edge by
-/// rounding, which is some 1e-16 times the ratio of lengths; a hit reported a little too near does no harm to a
-/// caller of it.
-const SLACK: f64 = 1e-9;
 
 /// Triangles to be met by rays.
 pub struct Rays<'a> {
@@ -98,11 +95,11 @@ impl<'a> Rays<'a> {
         };
         let items = (0..).zip(&bounds).map(|(i, b)| Item::new(placed(b), i));
         let boxes = Boxes::new(items.collect());
-        // Coordinates in the placement are up to one, sides of triangles up to the diagonal of a cube of two;
+        // Coordinates in the placement are below two, sides of triangles below the diagonal of a cube of four;
         // then the rounding of what is far from the origin.
         let largest = all.low.abs().max(all.high.abs()).max_element() / placement.unit;
-        let rounding = if largest.is_finite() {
-            f64::EPSILON * largest
+        let far = if largest.is_finite() {
+            rounding::double(8) * largest
         } else {
             0.0
         };
@@ -111,7 +108,7 @@ impl<'a> Rays<'a> {
             triangles,
             boxes,
             placement,
-            margin: 2.0 * 12.0_f64.sqrt() * SLACK + 4.0 * rounding,
+            margin: 2.0 * 4.0 * 3.0_f64.sqrt() * ROUNDING + far,
         }
     }
 
@@ -167,7 +164,7 @@ impl<'a> Rays<'a> {
     /// Whether the ray meets `hit` before `other`. Where both lie at the same distance, as at a common
     /// vertex or edge, the moved ray of [`meet`] tells them apart.
     fn is_nearer(&self, from: DVec3, along: Direction, hit: &Hit, other: &Hit) -> bool {
-        let slack = rounding(from, hit.distance);
+        let slack = lost(from, hit.distance);
         if (hit.distance - other.distance).abs() > slack {
             return hit.distance < other.distance;
         }
@@ -206,7 +203,8 @@ impl<'a> Rays<'a> {
         best.is_finite().then_some(best)
     }
 
-    /// Möller and Trumbore's intersection, with slack.
+    /// Möller and Trumbore's intersection. Barycentric coordinates may be outside by what computing may lose, so that no
+    /// ray slips through an edge; a hit reported a little too near does no harm.
     fn crossing(&self, triangle: u32, origin: DVec3, direction: DVec3) -> Option<f64> {
         let [a, b, c] = self.triangles[triangle as usize].map(|v| self.vertices[v as usize]);
         let (u, v) = (b - a, c - a);
@@ -219,7 +217,7 @@ impl<'a> Rays<'a> {
         let q = s.cross(u);
         let first = s.dot(p) / determinant;
         let second = direction.dot(q) / determinant;
-        let inside = first >= -SLACK && second >= -SLACK && first + second <= 1.0 + SLACK;
+        let inside = first.min(second) >= -ROUNDING && first + second <= 1.0 + ROUNDING;
         let distance = v.dot(q) / determinant;
         (inside && distance > 0.0).then_some(distance)
     }
@@ -249,7 +247,7 @@ impl<'a> Rays<'a> {
                     }
                 }
             }
-            limit + rounding(p, limit)
+            limit + lost(p, limit)
         });
     }
 
@@ -302,18 +300,14 @@ fn entry(low: DVec3, high: DVec3, inverse: DVec3, limit: f64) -> Option<f64> {
         from = from.max(a.min(b));
         to = to.min(a.max(b));
     }
-    // A few roundings of the quotients.
-    (from <= to * (1.0 + 8.0 * f64::EPSILON) + f64::MIN_POSITIVE).then_some(from)
+    // Both are products with a rounded reciprocal.
+    (from <= to * (1.0 + rounding::double(4)) + f64::MIN_POSITIVE).then_some(from)
 }
 
-/// Rounding of a distance along a ray, relative to the coordinates it is made of: some times 2.2e-16 over the sine of
-/// the angle between ray and triangle, here down to a twentieth of a degree. Distances that differ by
-/// less are compared exactly, which takes longer and is right as well.
-const DISTANCE: f64 = 1e-12;
-
-/// Rounding to expect of a distance from `p`.
-fn rounding(p: DVec3, distance: f64) -> f64 {
-    DISTANCE * (p.abs().max_element() + distance)
+/// What is to be expected that computing loses of a distance from `p` along a ray. Distances that differ by less are
+/// compared exactly, which takes longer and is right as well.
+fn lost(p: DVec3, distance: f64) -> f64 {
+    ROUNDING * (p.abs().max_element() + distance)
 }
 
 enum Ray {

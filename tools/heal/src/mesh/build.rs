@@ -55,6 +55,7 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
             template,
             relative_precision: mesh.relative_precision,
             notices,
+            repairs: Vec::new(),
         };
         document(labelled, format)?
     } else {
@@ -66,8 +67,21 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
             area: None,
         });
         document.markers = markers.collect();
-        Imported { document, notices }
+        Imported {
+            document,
+            notices,
+            repairs: Vec::new(),
+        }
     };
     imported.document.promise = mesh.promise;
+    if let Some(instances) = mesh.sector_of {
+        imported.notices.push(format!(
+            "the file holds one sector of a mesh of {instances} instances, without its symmetry: it is taken for a whole body"
+        ));
+        let source = imported.document.source.as_mut();
+        source
+            .into_iter()
+            .for_each(|s| s.sector_of = Some(instances));
+    }
     Ok(imported)
 }

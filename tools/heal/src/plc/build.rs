@@ -74,6 +74,7 @@ pub fn build(plc: Plc, format: &'static str) -> Result<Imported, HealError> {
             markers,
             relative_precision: plc.relative_precision,
             notices,
+            repairs: Vec::new(),
         },
         format,
     )

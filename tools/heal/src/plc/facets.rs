@@ -2,24 +2,15 @@
 
 use super::segments::split_segments;
 use crate::HealError;
-use crate::document::largest_coordinate;
+use crate::document::tolerance;
 use crate::facet::{Projection, area_vector};
-use crate::meeting::lowest_contact;
+use crate::meeting::meetings;
 use crate::welded::welded;
 use crate::words::{dropped, place};
 use geom::cdt::{CdtError, triangulate_enclosed};
 use glam::DVec3;
 use interchange::parsed::{Facet, Plc};
 use rustc_hash::FxHashSet;
-
-/// A node lies on a segment when it is no farther from it than so many roundings of the largest
-/// coordinate: each end of the segment and the node are off by one, and the distance by another.
-const ROUNDINGS: f64 = 4.0;
-
-/// The finest relative precision that nodes on segments are expected to have, whatever the digits
-/// printed: programs that compute such nodes lose a few digits. With a smaller one, nodes of files with
-/// 16 digits are no longer found on segments that they were computed to lie on.
-const FINEST: f64 = 1e-10;
 
 /// Triangles of all facets, fitting together along common segments.
 pub struct Facets {
@@ -39,8 +30,8 @@ pub fn triangulate_facets(plc: &Plc, notices: &mut Vec<String>) -> Result<Facets
     let (points, id) = welded(plc.points.iter().copied(), plc.points.len());
     // Segments of each facet, and what they are split into by nodes that lie on them.
     let segments: Vec<Vec<[u32; 2]>> = plc.facets.iter().map(|f| segments(f, &id)).collect();
-    let tolerance = plc.relative_precision.max(FINEST) * ROUNDINGS * largest_coordinate(&points);
-    let pieces = split_segments(&points, &segments, tolerance)
+    let equal = tolerance(&points, plc.relative_precision).equal();
+    let pieces = split_segments(&points, &segments, equal)
         .ok_or_else(|| HealError::BadSurface("too many segments lie close to nodes".to_owned()))?;
     let mut surface = Facets {
         points,
@@ -181,7 +172,7 @@ pub fn check_crossing(
     facet_of: &[u32],
 ) -> Result<(), HealError> {
     let facet = |t: u32| facet_of[t as usize];
-    match lowest_contact(points, triangles, facet, |_| true).0 {
+    match meetings(points, triangles, facet, |_| true).lowest {
         None => Ok(()),
         Some(contact) => {
             let [a, b] = contact.triangles.map(|t| facet_of[t as usize] + 1);

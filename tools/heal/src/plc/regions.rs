@@ -5,12 +5,10 @@ use crate::words::place;
 use geom::cells::{Cells, Place};
 use glam::DVec3;
 use interchange::parsed::{Plc, Seed};
+use interchange::text::counted;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 use tmesh::{OUTSIDE, Region};
-
-/// Cells without a region point that a notice lists: enough to see which they are, and one line.
-const MOST_LISTED: usize = 10;
 
 /// What the points of the file say of a cell.
 #[derive(Clone, Copy)]
@@ -63,7 +61,7 @@ pub fn regions(
         };
     }
     let mut next = 1;
-    let mut named = Vec::new();
+    let mut named = 0;
     let content = (0_u32..).zip(content).map(|(cell, content)| match content {
         _ if cell == Cells::UNBOUNDED => OUTSIDE,
         Content::Hole(_) => OUTSIDE,
@@ -73,16 +71,19 @@ pub fn regions(
                 next += 1;
             }
             regions.insert(next, region(next, format!("region{next}")));
-            named.push(next.to_string());
+            named += 1;
             next
         }
     });
     let content = content.collect();
-    if !named.is_empty() && !plc.regions.is_empty() {
-        named.truncate(MOST_LISTED);
+    if named > 0 && !plc.regions.is_empty() {
+        let (one, many) = (
+            "cell has no region point and is a region of its own",
+            "cells have no region point and are regions of their own",
+        );
         notices.push(format!(
-            "cells without a region point are regions of their own: {}",
-            named.join(", ")
+            "{} (the last is {next})",
+            counted(named, one, many)
         ));
     }
     Ok((content, regions.into_values().collect()))

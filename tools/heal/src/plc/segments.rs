@@ -1,14 +1,8 @@
 //! Splitting of segments at nodes that lie on them, so that facets fit together.
 
-use geom::tree::pairs;
+use geom::tree::{Search, pairs};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-
-/// Pairs of a segment and a node with meeting boxes that are compared at most: so many for each segment and
-/// node, and [`PAIRS`]. Sound files have a few each; without a limit, a damaged one takes quadratic time.
-const PAIRS_EACH: u64 = 1000;
-/// Pairs that are always compared: a second's work.
-const PAIRS: u64 = 10_000_000;
 
 /// For segments on which other segments' nodes lie, to within `tolerance`: the chain of nodes they
 /// become, from the lower to the higher node id. `None` when far too many segments and nodes are
@@ -36,8 +30,7 @@ pub fn split_segments(
     let count = all.len() as u32;
     let group = |t: u32| u32::from(t < count);
     let mut on: FxHashMap<u32, Vec<(f64, u32)>> = FxHashMap::default();
-    let mut left = PAIRS_EACH * (all.len() + nodes.len()) as u64 + PAIRS;
-    pairs(of_segments.chain(of_nodes), group, |s, t| {
+    let search = pairs(of_segments.chain(of_nodes), group, |s, t| {
         let (segment, node) = (s.min(t), nodes[(s.max(t) - count) as usize]);
         let [a, b] = all[segment as usize];
         if node != a && node != b {
@@ -48,10 +41,9 @@ pub fn split_segments(
                 on.entry(segment).or_default().push((f, node));
             }
         }
-        left -= 1;
-        left > 0
+        true
     });
-    if left == 0 {
+    if search == Search::GaveUp {
         return None;
     }
     let chains = on.into_iter().map(|(segment, mut inner)| {

@@ -4,14 +4,14 @@
 //! as in other surface formats. Otherwise pieces meet along edges, as CAD programs write the surfaces of
 //! touching parts, each once: then the cells that they divide space into are the regions.
 
-use crate::HealError;
 use crate::document::{Imported, Labelled, check_scale, document};
 use crate::leak::leak;
-use crate::meeting::lowest_contact;
+use crate::meeting::meetings;
 use crate::sides::sided;
 use crate::soup;
 use crate::welded::welded;
 use crate::words::{dropped, place};
+use crate::{HealError, Repairing};
 use geom::cells::Cells;
 use geom::edges::Edges;
 use glam::DVec3;
@@ -24,12 +24,16 @@ use tmesh::{OUTSIDE, Region, Template};
 ///
 /// # Errors
 /// Surfaces that enclose nothing, and triangles that cross.
-pub fn build(shells: Shells, format: &'static str) -> Result<Imported, HealError> {
+pub fn build(
+    shells: Shells,
+    format: &'static str,
+    repairing: Repairing,
+) -> Result<Imported, HealError> {
     check_scale(&shells.points)?;
     let distinct = Distinct::of(&shells);
     let edges = Edges::new(&distinct.triangles);
     if soup::odd_edges(&edges).is_empty() {
-        return as_solids(shells, format);
+        return as_solids(shells, format, repairing);
     }
     let Distinct {
         points,
@@ -69,6 +73,7 @@ pub fn build(shells: Shells, format: &'static str) -> Result<Imported, HealError
             markers: shells.markers,
             relative_precision: shells.relative_precision,
             notices,
+            repairs: Vec::new(),
         },
         format,
     )
@@ -108,7 +113,11 @@ impl Distinct {
 }
 
 /// Groups as other surface formats have them.
-fn as_solids(shells: Shells, format: &'static str) -> Result<Imported, HealError> {
+fn as_solids(
+    shells: Shells,
+    format: &'static str,
+    repairing: Repairing,
+) -> Result<Imported, HealError> {
     let group = |marker: u32| shells.markers.partition_point(|m| m.0 < marker) as u32;
     let triangles = shells.triangles.iter();
     let soup = Soup {
@@ -122,7 +131,7 @@ fn as_solids(shells: Shells, format: &'static str) -> Result<Imported, HealError
         relative_precision: shells.relative_precision,
         notices: shells.notices,
     };
-    let mut imported = soup::build(soup, format)?;
+    let mut imported = soup::build(soup, format, repairing)?;
     if let ([region], [volume]) = (&mut imported.document.regions[..], &shells.volumes[..]) {
         region.name.clone_from(&volume.name);
     }
@@ -177,7 +186,7 @@ fn contents(shells: &Shells, cells: &Cells<'_>, pieces: &[i64]) -> Contents {
 }
 
 fn check_crossing(points: &[DVec3], triangles: &[[u32; 3]]) -> Result<(), HealError> {
-    match lowest_contact(points, triangles, |t| t, |_| true).0 {
+    match meetings(points, triangles, |t| t, |_| true).lowest {
         None => Ok(()),
         Some(contact) => Err(HealError::BadSurface(format!(
             "two triangles cross or touch at {}, away from common points and edges",

@@ -4,12 +4,15 @@ use super::surface::Surface;
 use crate::HealError;
 use crate::words::place;
 use geom::edges::{Edges, apex_of};
+use glam::DVec3;
 
 /// What [`merge`] did.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Merged {
     /// Triangles dropped because the same solid has them more than once.
     pub dropped: usize,
+    /// A corner of one of them.
+    pub first: Option<DVec3>,
     /// Triangles that now lie between two solids.
     pub interfaces: usize,
 }
@@ -49,7 +52,11 @@ pub fn merge(surface: &mut Surface, edges: &Edges, across: bool) -> Result<Merge
                 drop[keep as usize] = false;
                 kept.push(keep);
             }
-            merged.dropped += same.len() - usize::from(balance != 0);
+            let dropped = same.len() - usize::from(balance != 0);
+            if dropped > 0 && merged.first.is_none() {
+                merged.first = Some(surface.points[run[0].corners[0] as usize]);
+            }
+            merged.dropped += dropped;
         }
         match kept.as_slice() {
             _ if !across => {}
@@ -90,26 +97,22 @@ struct Candidate {
     triangle: u32,
 }
 
-/// Around edges with more triangles than this, all count as candidates: comparing them in pairs would
-/// take quadratic time, and candidates are compared once more anyway.
-const CROWD: usize = 16;
-
 /// Triangles with an edge that has another triangle with the same apex, of the same solid unless
 /// `across`. Coincident triangles have three of those.
 fn candidates(surface: &Surface, edges: &Edges, across: bool) -> Vec<Candidate> {
     let mut list = Vec::new();
+    let mut fan = Vec::new();
     for edge in 0..edges.len() {
-        let fan = edges.around(edge);
-        let apex = |i: usize| apex_of(&surface.triangles[fan[i].triangle as usize], fan[i].corner);
-        let solid = |i: usize| surface.solid[fan[i].triangle as usize];
-        let same = |i: usize, j: usize| apex(i) == apex(j) && (across || solid(i) == solid(j));
-        if fan.len() < 2 || (fan.len() == 2 && apex(0) != apex(1)) {
-            continue;
-        }
-        for i in 0..fan.len() {
-            if fan.len() > CROWD || (0..fan.len()).any(|j| j != i && same(i, j)) {
-                list.push(fan[i].triangle);
-            }
+        fan.clear();
+        fan.extend(edges.around(edge).iter().map(|u| {
+            let (corners, solid) = (u.triangle as usize, surface.solid[u.triangle as usize]);
+            let apex = apex_of(&surface.triangles[corners], u.corner);
+            (apex, if across { 0 } else { solid }, u.triangle)
+        }));
+        fan.sort_unstable();
+        let same = fan.chunk_by(|s, t| (s.0, s.1) == (t.0, t.1));
+        for run in same.filter(|run| run.len() > 1) {
+            list.extend(run.iter().map(|&(.., triangle)| triangle));
         }
     }
     list.sort_unstable();

@@ -3,10 +3,11 @@
 mod build;
 mod closure;
 mod coincident;
-mod gaps;
+mod mending;
 mod needles;
 mod notices;
 mod solids;
+mod stitch;
 mod surface;
 mod tables;
 mod weld;

@@ -2,33 +2,32 @@
 
 use super::surface::Surface;
 use geom::edges::Edges;
+use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Rounds of flips at most: caps that lean on each other take one each, and stacks of more than a few
-/// are not seen. Those left are kept as they are.
-const ROUNDS: usize = 8;
-
 /// Removes triangles that are no higher than `rounding` above their longest edge. Returns how many
-/// there were and are no more; `None` when the surface is as it was.
+/// there were and are no more, and a corner of the first; `None` when the surface is as it was.
 ///
 /// A needle's short edge is contracted. A cap's longest edge, which its apex lies on, is turned: the
 /// triangle beyond the edge is divided at the apex. Nothing moves by more than `rounding`. Those
 /// that cannot be removed without spoiling the surface are left. Linear.
-pub fn remove(surface: &mut Surface, rounding: f64) -> Option<usize> {
-    let before = flat_ones(surface, rounding).len();
-    if before == 0 {
-        return None;
-    }
+pub fn remove(surface: &mut Surface, rounding: f64) -> Option<(usize, DVec3)> {
+    let flat = flat_ones(surface, rounding);
+    let first = surface.corners(flat.first()?.0)[0];
+    let before = flat.len();
     let mut changed = contract_needles(surface, rounding);
-    for _ in 0..ROUNDS {
-        if turn_caps(surface, rounding) == 0 {
+    let mut left = flat_ones(surface, rounding).len();
+    // Caps that lean on each other take a round each. Where coordinates are hardly known, turning may leave
+    // as many as it removes.
+    while left > 0 && turn_caps(surface, rounding) > 0 {
+        changed = true;
+        let now = flat_ones(surface, rounding).len();
+        if now >= left {
             break;
         }
-        changed = true;
+        left = now;
     }
-    // Where coordinates are hardly known, contracting may leave more than it removes.
-    let left = flat_ones(surface, rounding).len();
-    changed.then(|| before.saturating_sub(left))
+    changed.then(|| (before.saturating_sub(left), first))
 }
 
 /// Triangles lower than `rounding`, each with its corner opposite to the longest edge.
@@ -69,7 +68,7 @@ fn contract_needles(surface: &mut Surface, rounding: f64) -> bool {
     for t in &mut surface.triangles {
         *t = t.map(|v| new_id.get(&v).copied().unwrap_or(v));
     }
-    surface.drop_degenerate();
+    surface.drop_collapsed();
     true
 }
 

@@ -8,7 +8,7 @@
 use super::notices::explain_turned;
 use super::surface::{NONE, Surface};
 use crate::HealError;
-use crate::meeting::lowest_contact;
+use crate::meeting::meetings;
 use crate::words::place;
 use geom::cells::Cells;
 use geom::contacts::{Contact, Search};
@@ -106,7 +106,7 @@ fn check_contacts(
     notices: &mut Vec<String>,
 ) -> Result<Option<String>, HealError> {
     let of = |t: u32| (surface.solid[t as usize], surface.partner[t as usize]);
-    let (met, search) = lowest_contact(
+    let met = meetings(
         &surface.points,
         &surface.triangles,
         |t| shell[t as usize],
@@ -117,33 +117,36 @@ fn check_contacts(
             !(related && (b != NONE || d != NONE))
         },
     );
-    if met.is_none() && search == Search::GaveUp {
+    if met.lowest.is_none() && met.search == Search::GaveUp {
         notices.push(
             "too many triangles lie close to each other to tell whether all pieces are apart"
                 .to_owned(),
         );
     }
-    let Some(Contact { triangles, point }) = met else {
+    let Some(Contact { triangles, point }) = met.lowest else {
         return Ok(None);
     };
     let [a, b] = triangles.map(|t| surface.solid[t as usize]);
+    let (one, many) = ("pair of triangles meets", "pairs of triangles meet");
     let at = place(point);
+    let count = counted(met.count, one, many);
     if a != b {
         return Err(HealError::BadSurface(format!(
-            "{} and {} cross or touch at {at} with different triangles; where solids meet, both \
-             must have the same triangles",
+            "{} and {} cross or touch at {at} with different triangles ({count}); where solids \
+             meet, both must have the same triangles",
             surface.group_name(a),
             surface.group_name(b)
         )));
     }
     if solids > 1 {
         return Err(HealError::BadSurface(format!(
-            "{} crosses or touches itself at {at}",
+            "{} crosses or touches itself at {at}: {count}",
             surface.group_name(a)
         )));
     }
     Ok(Some(format!(
-        "pieces of the surface cross or touch at {at}; it cannot be meshed as it is"
+        "pieces of the surface cross or touch at {at} ({count}); it cannot be \
+         meshed as it is"
     )))
 }
 

@@ -17,6 +17,8 @@ pub struct Surface {
     pub solid: Vec<u32>,
     /// The solid on the other side of an interface, or [`NONE`].
     pub partner: Vec<u32>,
+    /// The triangle that each one is, or is a part of, before corners were joined and edges divided.
+    pub source: Vec<u32>,
     /// Names of the groups, unique.
     pub groups: Vec<String>,
     /// What a group is called in the file format.
@@ -47,16 +49,68 @@ impl Surface {
         filter(&mut self.group, &keep);
         filter(&mut self.solid, &keep);
         filter(&mut self.partner, &keep);
+        filter(&mut self.source, &keep);
     }
 
-    /// Drops triangles that name a point twice; returns how many.
-    pub fn drop_degenerate(&mut self) -> usize {
-        let before = self.triangles.len();
-        let good = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[0] != t[2];
-        if !self.triangles.iter().all(good) {
-            let keep: Vec<bool> = self.triangles.iter().map(good).collect();
-            self.retain(|t| keep[t]);
+    /// Puts parts in the place of a triangle; the first takes its number, the others the last ones.
+    pub fn replace(&mut self, triangle: u32, parts: &[[u32; 3]]) {
+        let t = triangle as usize;
+        let Some((&first, others)) = parts.split_first() else {
+            return;
+        };
+        self.triangles[t] = first;
+        for &part in others {
+            self.triangles.push(part);
+            self.group.push(self.group[t]);
+            self.solid.push(self.solid[t]);
+            self.partner.push(self.partner[t]);
+            self.source.push(self.source[t]);
         }
-        before - self.triangles.len()
+    }
+
+    /// The triangles of a group, with all points.
+    pub fn part(&self, group: u32) -> Self {
+        let of = |list: &[u32]| -> Vec<u32> {
+            let both = list.iter().zip(&self.group);
+            both.filter(|(_, g)| **g == group)
+                .map(|(x, _)| *x)
+                .collect()
+        };
+        let both = self.triangles.iter().zip(&self.group);
+        Self {
+            points: self.points.clone(),
+            triangles: both
+                .filter(|(_, g)| **g == group)
+                .map(|(t, _)| *t)
+                .collect(),
+            group: of(&self.group),
+            solid: of(&self.solid),
+            partner: of(&self.partner),
+            source: of(&self.source),
+            groups: self.groups.clone(),
+            group_word: self.group_word,
+        }
+    }
+
+    /// Puts the triangles that `others` has of a group in the place of those here, with the same points.
+    pub fn take_group(&mut self, group: u32, others: Self) {
+        let keep: Vec<bool> = self.group.iter().map(|&g| g != group).collect();
+        self.retain(|t| keep[t]);
+        self.triangles.extend(others.triangles);
+        self.group.extend(others.group);
+        self.solid.extend(others.solid);
+        self.partner.extend(others.partner);
+        self.source.extend(others.source);
+    }
+
+    /// Drops triangles that name a point twice; returns how many, and a corner of the first.
+    pub fn drop_collapsed(&mut self) -> Option<(usize, DVec3)> {
+        let good = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[0] != t[2];
+        let first = self.triangles.iter().find(|t| !good(t))?[0];
+        let before = self.triangles.len();
+        let keep: Vec<bool> = self.triangles.iter().map(good).collect();
+        self.retain(|t| keep[t]);
+        let count = before - self.triangles.len();
+        Some((count, self.points[first as usize]))
     }
 }

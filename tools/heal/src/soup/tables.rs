@@ -62,6 +62,7 @@ pub fn tables(surface: Surface, labels: Labels, solids: usize) -> Labelled {
         },
         relative_precision: 0.0,
         notices: Vec::new(),
+        repairs: Vec::new(),
     }
 }
 

@@ -4,26 +4,19 @@
 //! with exact arithmetic whether points are coplanar, and on thin layers the answer "not quite" ends in
 //! failed assertions. So the mesher gets the wall at a slope that is a ratio of two small whole numbers,
 //! and on it multiples of that direction by numbers with few digits: then all products are exact. The shift
-//! is about 1e-10 of the radius (below 1e-9 for a few orders above 180), and is taken back afterwards.
+//! is below 1e-10 of the radius (1e-9 for a few orders above 180), and is taken back afterwards.
 
-use super::roundings::FLATNESS;
 use geom::predicate::orientation;
 use glam::DVec3;
 
-/// Bits of the direction's whole numbers, of the 53 that a coordinate has: with fewer the direction is off by more (a fraction
-/// with denominators up to 2^20 is within 2^-40 of most angles), with more the multiples get coarser.
-const DIRECTION_BITS: i32 = 20;
-/// Bits of the multiples.
-const MULTIPLE_BITS: i32 = 53 - DIRECTION_BITS;
-
 /// Moves the listed points into one plane through the z axis, exactly, near the angle with the given
 /// cosine and sine. Returns the largest distance moved; nothing moves when the points are exact
-/// already, or when there is no good ratio.
+/// already.
 pub fn flatten(points: &mut [[f64; 3]], listed: &[usize], cos: f64, sin: f64) -> f64 {
     // The smaller part over the larger one.
     let steep = sin.abs() > cos.abs();
     let (large, small) = if steep { (sin, cos) } else { (cos, sin) };
-    let (numerator, denominator) = ratio(small.abs() / large.abs(), 1 << DIRECTION_BITS);
+    let ((numerator, denominator), bits) = direction(small.abs() / large.abs());
     let (q, p) = (
         (denominator as f64).copysign(large),
         (numerator as f64).copysign(small),
@@ -35,8 +28,7 @@ pub fn flatten(points: &mut [[f64; 3]], listed: &[usize], cos: f64, sin: f64) ->
         orientation(DVec3::ZERO, direction, DVec3::Z, p) == 0.0
     };
     let length = direction.length();
-    let error = (direction / length - DVec3::new(cos, sin, 0.0)).length();
-    if error > FLATNESS || listed.iter().all(|&i| on_plane(&points[i])) {
+    if listed.iter().all(|&i| on_plane(&points[i])) {
         return 0.0;
     }
     let multiple = |p: &[f64; 3]| (p[0] * x + p[1] * y) / (length * length);
@@ -46,8 +38,8 @@ pub fn flatten(points: &mut [[f64; 3]], listed: &[usize], cos: f64, sin: f64) ->
     if largest == 0.0 {
         return 0.0;
     }
-    // A power of two with largest / unit < 2^MULTIPLE_BITS.
-    let unit = libm::scalbn(1.0, libm::ilogb(largest) + 1 - MULTIPLE_BITS);
+    // A power of two that leaves the multiples the bits that the direction does not take.
+    let unit = libm::scalbn(1.0, libm::ilogb(largest) + 1) * grain(bits);
     let mut moved = 0.0_f64;
     for &i in listed {
         let point = &mut points[i];
@@ -59,23 +51,40 @@ pub fn flatten(points: &mut [[f64; 3]], listed: &[usize], cos: f64, sin: f64) ->
     moved
 }
 
+/// What is left of one for multiples of a direction of whole numbers with so many bits, if the products are to be exact: a
+/// coordinate has the digits of both.
+fn grain(bits: u32) -> f64 {
+    libm::scalbn(1.0, bits as i32 - f64::MANTISSA_DIGITS as i32)
+}
+
+/// A fraction near `x`, in [0, 1], and the bits of its denominator: with fewer the direction is off by more, with more the
+/// multiples get coarser, so that the number of bits for which both errors come to the least is taken.
+fn direction(x: f64) -> ((i64, i64), u32) {
+    let mut best = ((0, 1), 0);
+    let mut least = f64::INFINITY;
+    for bits in 0..f64::MANTISSA_DIGITS {
+        let (p, q) = ratio(x, 1 << bits);
+        let off = (p as f64 / q as f64 - x).abs() + 0.5 * grain(bits);
+        if off < least {
+            (best, least) = (((p, q), bits), off);
+        }
+    }
+    best
+}
+
 /// The fraction nearest to `x` (in [0, 1]) with a denominator up to `limit`, by continued fractions.
 fn ratio(x: f64, limit: i64) -> (i64, i64) {
     let (mut p0, mut q0, mut p1, mut q1) = (0_i64, 1_i64, 1_i64, 0_i64);
     let mut rest = x;
     loop {
         let whole = rest.floor();
-        // Once `rest` is rounding only, `whole` may be anything.
+        // Once `rest` is rounding only, `whole` is too large, or infinite.
         if whole * q1 as f64 + q0 as f64 > limit as f64 {
             break;
         }
         let a = whole as i64;
         (p0, q0, p1, q1) = (p1, q1, a * p1 + p0, a * q1 + q0);
-        let fraction = rest - whole;
-        if fraction < 1e-15 {
-            return (p1, q1);
-        }
-        rest = 1.0 / fraction;
+        rest = 1.0 / (rest - whole);
     }
     let k = (limit - q0) / q1;
     let between = (p0 + k * p1, q0 + k * q1);

@@ -4,10 +4,10 @@ mod description;
 mod facets;
 mod flat;
 mod plc;
-mod roundings;
 mod seeds;
+mod settled;
 
 pub use description::{Description, Order};
 pub use facets::{Attributes, Facet, Facets};
 pub use plc::{Plc, SizeSeed};
-pub use roundings::{FLATNESS, PROJECTIONS, ROUNDING};
+pub use settled::settled;

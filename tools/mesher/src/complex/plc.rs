@@ -3,11 +3,11 @@
 use super::description::{Description, Order, mixed};
 use super::facets::Facets;
 use super::flat::flatten;
-use super::roundings::{FLATNESS, PRECISIONS};
 use super::seeds::{Seed, seeds};
 use crate::faces::Faces;
-use crate::{Error, Sizes};
+use crate::{Error, Piece, Sizes};
 use geom::edges::Edges;
+use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use tmesh::{Document, OUTSIDE, Template};
 
@@ -52,6 +52,8 @@ pub struct Plc {
     pub faces: Faces,
     /// Largest coordinate, model units.
     pub extent: f64,
+    /// What computing may lose, model units; see [`Tolerance::rounding`].
+    pub rounding: f64,
     /// Limit that holds in all regions, the mesher's unit cubed.
     pub max_volume: Option<f64>,
     /// Whether seeds carry limits for single regions.
@@ -59,17 +61,16 @@ pub struct Plc {
 }
 
 impl Plc {
-    /// Describes template `index`.
+    /// Describes a template.
     ///
     /// # Errors
     /// [`Error::NoSurface`], and what is said about surfaces that bound nothing.
-    pub fn new(
-        document: &Document,
-        index: usize,
-        sizes: &Sizes,
-        description: Description,
-    ) -> Result<Self, Error> {
-        let template = &document.templates[index];
+    pub fn new(piece: Piece<'_>, sizes: &Sizes, description: Description) -> Result<Self, Error> {
+        let Piece {
+            document,
+            index,
+            template,
+        } = piece;
         let corners: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
         if corners.len() < 4 {
             return Err(Error::NoSurface { template: index });
@@ -85,17 +86,20 @@ impl Plc {
         let diagonal = (high - low).length();
         let edges = Edges::new(&corners);
         let seeds = seeds(index, template, &corners, &edges)?;
-        let faces = Faces::new(document, index);
+        let faces = Faces::new(piece);
         let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
-        let tolerance = (FLATNESS * diagonal).max(PRECISIONS * precision);
-        let elsewhere = if description.apart { 0.0 } else { tolerance };
-        let facets = Facets::new(template, &edges, &faces.of_triangle, [tolerance, elsewhere]);
+        let extent = Extent::about(&template.vertices, DVec3::ZERO, DVec3::Z);
+        let tolerance = Tolerance::new(extent, precision, 0.0);
+        let flat = tolerance.flat();
+        let elsewhere = if description.apart { 0.0 } else { flat };
+        let facets = Facets::new(template, &edges, &faces.of_triangle, [flat, elsewhere]);
         let mut order: Vec<usize> = (0..corners.len()).collect();
         description.order.apply(&mut order);
         let mut plc = Self {
             template: index,
             scale: power_of_two_near(diagonal),
             extent: low.abs().max(high.abs()).max_element(),
+            rounding: tolerance.rounding(),
             triangles: order
                 .iter()
                 .map(|&t| corners[t])
@@ -138,7 +142,7 @@ impl Plc {
             // Seams are paired exactly only where they are walls: a vertex elsewhere may be listed.
             let near = |p: &usize| {
                 let [x, y, _] = points[*p];
-                (y * cos - x * sin).abs() <= FLATNESS
+                (y * cos - x * sin).abs() <= self.rounding * self.scale
             };
             let listed = plane.vertices.iter();
             let used = listed.map(|&v| point_of_vertex[v as usize] as usize);

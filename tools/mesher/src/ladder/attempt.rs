@@ -4,12 +4,16 @@ use super::room::Room;
 use super::rungs::Change;
 use crate::complex::Description;
 use crate::{Mesh, Params, Plc, Task};
-use geom::tet::TetMeasures;
-use glam::DVec3;
 use std::time::Instant;
 
-/// Radius-edge ratio for which refinement is sure to end where no angle of the input is acute; see [`super::LADDER`].
-const ENDING: f64 = 2.0;
+/// What the bounds are multiplied by where elements are improved afterwards, which brings back what the mesher left past
+/// them: the radius-edge ratio, and the smallest dihedral angle. Measured with `tetwedge` on prisms, coated rings and vias of
+/// `body`, orders 4 to 64: with 1.12 for the ratio there are 4 to 8 % fewer elements and more of them stay past the
+/// bound, with 1 there are 2 to 15 % more. Of the angle, two thirds save a quarter of the elements where 15 degrees are
+/// asked for and next to nothing with 5, and all of them reach what was asked for. A mesh with the bounds as they are
+/// is no better: on bodies with and without sharp edges, with radius-edge bounds from 1.1 to 1.7 and angles from 10 to 25 degrees,
+/// improvement left as many of its elements past them.
+pub const EASING: [f64; 2] = [1.05, 2.0 / 3.0];
 
 /// The bounds that the mesher is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +23,7 @@ pub enum Asks {
     Eased([f64; 2]),
     /// Those of the user.
     AsWished,
-    /// For which refinement ends.
+    /// For which refinement ends: a radius-edge ratio of two; see [`super::LADDER`].
     Loosened,
 }
 
@@ -32,8 +36,8 @@ pub struct Attempt {
     pub asks: Asks,
     /// Points that may be added, once the surface is known and if there is a limit.
     pub room: Option<Room>,
-    /// The last limit, after which the mesh is taken as it is: points for each of the surface.
-    pub stop: Option<f64>,
+    /// Whether the limit is the last one, after which the mesh is taken as it is.
+    pub stop: bool,
 }
 
 impl Attempt {
@@ -43,29 +47,22 @@ impl Attempt {
             description: Description::PLAIN,
             asks,
             room: None,
-            stop: None,
+            stop: false,
         }
     }
 
     /// The next attempt.
     pub fn changed(self, change: Change) -> Self {
         match change {
-            Change::AskAsWished => Self {
-                asks: Asks::AsWished,
-                ..self
-            },
-            Change::AllowMore(times) => Self {
-                room: self.room.map(|room| room.more(times)),
+            Change::AllowMore => Self {
+                room: self.room.map(Room::more),
                 ..self
             },
             Change::Loosen => Self {
                 asks: Asks::Loosened,
                 ..self
             },
-            Change::Stop(points) => Self {
-                stop: Some(points),
-                ..self
-            },
+            Change::Stop => Self { stop: true, ..self },
             Change::Describe(description) => Self {
                 description,
                 ..self
@@ -79,15 +76,15 @@ impl Attempt {
         match self.asks {
             Asks::Eased([r, a]) => [radius_edge * r, angle * a],
             Asks::AsWished => [radius_edge, angle],
-            Asks::Loosened => [radius_edge.max(ENDING), 0.0],
+            Asks::Loosened => [radius_edge.max(2.0), 0.0],
         }
     }
 
     /// Decides how many points may be added, now that the surface is known.
     pub fn limit(&mut self, first: impl FnOnce() -> Room, plc: &Plc) {
         self.room = match self.stop {
-            Some(points) => Some(Room::per_point(plc, points)),
-            None => self.room.or_else(|| Some(first())),
+            true => Some(Room::last(plc)),
+            false => self.room.or_else(|| Some(first())),
         };
     }
 
@@ -105,7 +102,7 @@ impl Attempt {
     /// What became of the bounds, if they are not what was asked for.
     pub fn advice(&self, params: &Params) -> Option<String> {
         let [radius_edge, _] = self.bounds(params);
-        let stopped = match self.room.filter(|_| self.stop.is_some()) {
+        let stopped = match self.room.filter(|_| self.stop) {
             Some(room) => format!(", and it was stopped after {:.0} points", room.most()),
             None => String::new(),
         };
@@ -132,26 +129,9 @@ pub struct Answer {
     pub meshed: Instant,
     /// Attempts that failed before.
     pub failed: usize,
-    /// Whether there is a mesh already, and this one is to be better.
-    pub again: bool,
 }
 
 impl Answer {
-    /// The parts of the mesh that are past the bounds that the mesher was given: of the radius-edge ratio, and of the
-    /// smallest dihedral angle.
-    pub fn outside(&self) -> [f64; 2] {
-        let [radius_edge, angle] = self.bounds;
-        let least = angle.to_radians();
-        let mut found = [0_usize; 2];
-        let (points, tets) = (self.mesh.points(), self.mesh.tetrahedra());
-        for t in tets {
-            let measures = TetMeasures::of(t.map(|v| DVec3::from_array(points[v as usize])));
-            found[0] += usize::from(measures.radius_edge_ratio > radius_edge);
-            found[1] += usize::from(measures.min_dihedral < least);
-        }
-        found.map(|n| n as f64 / tets.len().max(1) as f64)
-    }
-
     /// Whether the points of the complex came back first and where they were.
     pub fn keeps_points(&self) -> bool {
         let (given, found) = (&self.plc.points, self.mesh.points());

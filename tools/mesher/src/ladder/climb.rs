@@ -4,30 +4,24 @@ use super::attempt::{Answer, Asks, Attempt};
 use super::room::Room;
 use super::rungs::{Change, Ending, Rung};
 use crate::error::{ADVICE, Place};
-use crate::{Deadline, Error, Failure, FailureKind, Limits, Log, Mesher, Params, Plc, Sizes};
+use crate::{
+    Deadline, Error, Failure, FailureKind, Limits, Log, Mesher, Params, Piece, Plc, Sizes,
+};
 use geom::measure::volume_of_region;
 use std::time::{Duration, Instant};
-use tmesh::Document;
-
-/// Most tetrahedra that may be asked for in a template: TetGen counts their corners in 32 bits.
-const MOST: f64 = i32::MAX as f64 / 4.0;
-
 /// How long finding the place of a failure may take at most. It is for the message only, and is worth about as much
 /// patience as reading it.
 const DIAGNOSIS: Duration = Duration::from_secs(10);
 
 /// Everything that attempts at one template have in common.
 ///
-/// Attempts follow each other by one rule. A mesh as asked for ends them. Otherwise the first rung that answers how the
+/// Attempts follow each other by one rule. A mesh that can be used ends them. Otherwise the first rung that answers how the
 /// attempt ended and was not taken before says what is done differently. When there is none, or no time is left, the
-/// best mesh so far is taken, or the last failure reported; and so it is when there is a mesh already and the attempt at a
-/// better one fails.
+/// last mesh is taken, or the last failure reported.
 #[derive(Clone, Copy)]
 pub struct Climb<'a> {
-    /// The document with the template.
-    pub document: &'a Document,
-    /// The template's number.
-    pub template: usize,
+    /// What is meshed.
+    pub piece: Piece<'a>,
     /// What is asked for.
     pub params: &'a Params,
     /// Sizes by region.
@@ -42,15 +36,6 @@ pub struct Climb<'a> {
     pub mesher: &'a dyn Mesher,
     /// Receives details.
     pub log: Log<'a>,
-}
-
-/// What was made of an attempt's mesh.
-#[derive(Clone, Debug)]
-pub struct Judged<T> {
-    /// What was made of it.
-    pub made: T,
-    /// Why another attempt may be worth it, if too many elements are not as asked for.
-    pub short: Option<String>,
 }
 
 /// An attempt that gave no mesh: why, and the surface as it was described if it came that far.
@@ -72,16 +57,14 @@ impl Left<'_> {
 
 impl Climb<'_> {
     /// Makes attempts, the first with these bounds, until the rule ends them: at most one more than there are rungs. `take`
-    /// makes something of a mesh, and `better` says whether its second argument is to be preferred to the first, which
-    /// was made before.
+    /// makes something of a mesh, or says why it cannot be used.
     ///
     /// # Errors
     /// The last attempt's, if none gave a mesh.
     pub fn climb<T>(
         &self,
         asks: Asks,
-        mut take: impl FnMut(Answer) -> Result<Judged<T>, Error>,
-        better: impl Fn(&T, &T) -> bool,
+        mut take: impl FnMut(Answer) -> Result<T, Error>,
     ) -> Result<T, Error> {
         self.check_count()?;
         let mut left = Left {
@@ -89,10 +72,9 @@ impl Climb<'_> {
             deadline: &self.deadline,
         };
         let mut attempt = Attempt::new(asks);
-        let mut in_hand: Option<T> = None;
         let mut failed = 0;
         loop {
-            let answer = self.run(&mut attempt, failed, in_hand.is_some());
+            let answer = self.run(&mut attempt, failed);
             if let Ok(Answer { plc, mesh, .. }) = &answer
                 && let Some(ending) = attempt.room.and_then(|room| room.ending(plc, &**mesh))
                 && let Some(change) = left.next(ending)
@@ -100,65 +82,39 @@ impl Climb<'_> {
                 attempt = attempt.changed(change);
                 continue;
             }
-            let (judged, plc) = match answer {
-                Ok(answer) => (take(answer), None),
-                Err((error, plc)) => (Err(error), plc),
+            let (error, plc) = match answer {
+                Ok(answer) => match take(answer) {
+                    Ok(made) => return Ok(made),
+                    Err(error) => (error, None),
+                },
+                Err(broken) => broken,
             };
-            match judged {
-                Ok(Judged { made, short }) => {
-                    let is_eased = matches!(attempt.asks, Asks::Eased(_));
-                    if let Some(why) = short.filter(|_| is_eased)
-                        && let Some(change) = left.next(Ending::Short)
-                    {
-                        self.say(&format!("{why}; once more without the bounds eased"));
-                        attempt = attempt.changed(change);
-                        in_hand = Some(made);
-                        continue;
-                    }
-                    return Ok(match in_hand {
-                        Some(before) if !better(&before, &made) => before,
-                        _ => made,
-                    });
-                }
-                Err(error) => {
-                    let again = error.is_chance() && in_hand.is_none();
-                    match again.then(|| left.next(Ending::Chance)).flatten() {
-                        Some(change) => {
-                            let next = "trying an equivalent description of the surface";
-                            self.say(&format!("{error}; {next}"));
-                            failed += 1;
-                            attempt = attempt.changed(change);
-                        }
-                        None => return self.settle(in_hand, error, plc.as_deref()),
-                    }
-                }
-            }
-        }
-    }
-
-    /// What there is after an attempt without a mesh and without a rung for it.
-    fn settle<T>(&self, in_hand: Option<T>, error: Error, plc: Option<&Plc>) -> Result<T, Error> {
-        match (in_hand, plc) {
-            (Some(before), _) if !error.is_from_outside() => Ok(before),
-            (_, Some(plc)) => Err(self.located(error, plc)),
-            _ => Err(error),
+            let change = match error.is_chance() {
+                true => left.next(Ending::Chance),
+                false => None,
+            };
+            let Some(change) = change else {
+                return Err(match plc {
+                    Some(plc) => self.located(error, &plc),
+                    None => error,
+                });
+            };
+            let next = "trying an equivalent description of the surface";
+            self.say(&format!("{error}; {next}"));
+            failed += 1;
+            attempt = attempt.changed(change);
         }
     }
 
     /// Has the surface meshed once.
-    fn run(&self, attempt: &mut Attempt, failed: usize, again: bool) -> Result<Answer, Broken> {
+    fn run(&self, attempt: &mut Attempt, failed: usize) -> Result<Answer, Broken> {
         let begun = Instant::now();
-        let plc = Plc::new(
-            self.document,
-            self.template,
-            self.sizes,
-            attempt.description,
-        )
-        .map_err(|error| (error, None))?;
+        let plc =
+            Plc::new(self.piece, self.sizes, attempt.description).map_err(|error| (error, None))?;
         let prepared = Instant::now();
         if self.params.quality && !self.params.switches.contains('S') {
             // The user's own limit counts.
-            attempt.limit(|| Room::new(self.document, self.sizes, &plc), &plc);
+            attempt.limit(|| Room::new(self.piece, self.sizes, &plc), &plc);
         }
         let preserve = self.preserve && plc.faces.preserve();
         let task = attempt.task(self.params, preserve);
@@ -184,12 +140,11 @@ impl Climb<'_> {
             advice: attempt.advice(self.params),
             meshed,
             failed,
-            again,
         })
     }
 
     fn say(&self, text: &str) {
-        (self.log)(&format!("template {}: {text}", self.template));
+        (self.log)(&format!("template {}: {text}", self.piece.index));
     }
 
     /// The error to report for a failure, with advice.
@@ -257,18 +212,24 @@ impl Climb<'_> {
 
     /// Refuses sizes that could only end in running out of memory.
     fn check_count(&self) -> Result<(), Error> {
-        let template = &self.document.templates[self.template];
-        let sizes = self.document.regions.iter().zip(&self.sizes.of_region);
+        let Piece {
+            document,
+            index,
+            template,
+        } = self.piece;
+        // TetGen counts corners in 32 bits.
+        let most = f64::from(i32::MAX) / 4.0;
+        let sizes = document.regions.iter().zip(&self.sizes.of_region);
         for (region, limit) in sizes {
             if let Some(max_volume) = *limit {
                 let count =
                     volume_of_region(&template.vertices, template.faces(), region.id) / max_volume;
-                if count > MOST {
+                if count > most {
                     return Err(Error::TooMany {
-                        template: self.template,
+                        template: index,
                         max_volume,
                         count,
-                        limit: MOST,
+                        limit: most,
                     });
                 }
             }

@@ -5,6 +5,6 @@ mod climb;
 mod room;
 mod rungs;
 
-pub use attempt::{Answer, Asks, Attempt};
-pub use climb::{Climb, Judged};
+pub use attempt::{Answer, Asks, Attempt, EASING};
+pub use climb::Climb;
 pub use rungs::{Change, Ending, LADDER, Rung};

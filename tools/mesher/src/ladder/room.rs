@@ -5,25 +5,20 @@
 //! is: far shorter than those of the surface, or not.
 
 use super::rungs::Ending;
-use crate::{Elements, Plc, Sizes};
+use crate::{Elements, Piece, Plc, Sizes};
 use geom::measure::volume_of_region;
 use glam::DVec3;
-use tmesh::Document;
 
 /// Points that may be added at first, at least. A choice: a second or two of work, so that a small surface whose mesh is to be
 /// large is rarely meshed twice, and a heap is soon noticed.
 const LEAST: f64 = 5e4;
 
-/// The same for each point of the surface. A choice with the same reasons, for large surfaces.
-const PER_POINT: f64 = 200.0;
-
-/// Edges shorter than this part of the shortest one of the surface are those of a heap. A choice: refinement that ends
-/// makes few edges shorter than the surface's, and one that does not halves them again and again; a larger value
-/// takes fine meshes for heaps, a smaller one lets heaps grow to four hundred times the room.
-const SHRUNK: f64 = 0.05;
-
-/// TetGen counts points in 32 bits.
-const MOST: f64 = i32::MAX as f64;
+/// By how much more or less is a matter of another kind. A mesh that needs more points than there was room for gets so many
+/// times more. Edges so many times shorter than the shortest one of the surface are those of a heap: refinement that
+/// ends makes few edges shorter than the surface's, and one that does not halves them again and again. And a heap that
+/// does not end is stopped after so many points for each of the surface. A choice: a smaller one takes fine meshes
+/// for heaps, a larger one lets heaps grow.
+const FAR: f64 = 20.0;
 
 /// Points that may be added to a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,30 +26,34 @@ pub struct Room(f64);
 
 impl Room {
     /// What is enough for most surfaces, and for the sizes asked for.
-    pub fn new(document: &Document, sizes: &Sizes, plc: &Plc) -> Self {
-        let template = &document.templates[plc.template];
+    pub fn new(piece: Piece<'_>, sizes: &Sizes, plc: &Plc) -> Self {
+        let Piece {
+            document, template, ..
+        } = piece;
         let limits = document.regions.iter().zip(&sizes.of_region);
         let by_size: f64 = limits
             .filter_map(|(r, limit)| {
                 Some(volume_of_region(&template.vertices, template.faces(), r.id) / (*limit)?)
             })
             .sum();
-        Self(LEAST.max(PER_POINT * plc.points.len() as f64).max(by_size))
+        // What is as fine inside as on its surface has the power 3/2 of the points there.
+        let points = plc.points.len() as f64;
+        Self(LEAST.max(points * points.sqrt()).max(by_size))
     }
 
-    /// So many times more.
-    pub fn more(self, times: f64) -> Self {
-        Self(times * self.0)
+    /// Far more.
+    pub fn more(self) -> Self {
+        Self(FAR * self.0)
     }
 
-    /// So many for each point of the surface.
-    pub fn per_point(plc: &Plc, points: f64) -> Self {
-        Self(points * plc.points.len() as f64)
+    /// For a mesh that is taken as it is.
+    pub fn last(plc: &Plc) -> Self {
+        Self(FAR * plc.points.len() as f64)
     }
 
-    /// The number of points.
+    /// The number of points. TetGen counts them in 32 bits.
     pub fn most(self) -> f64 {
-        self.0.min(MOST)
+        self.0.min(f64::from(i32::MAX))
     }
 
     /// How the attempt ended, if it used all points.
@@ -64,7 +63,7 @@ impl Room {
             return None;
         }
         let of_surface = shortest(&plc.points, &plc.triangles);
-        let heaped = shortest(mesh.points(), mesh.tetrahedra()) < SHRUNK * of_surface;
+        let heaped = FAR * shortest(mesh.points(), mesh.tetrahedra()) < of_surface;
         Some(if heaped {
             Ending::Heaped
         } else {

@@ -9,8 +9,6 @@ pub enum Ending {
     /// meet: TetGen's own points on segments are coplanar up to rounding only, and where layers are thin some of its
     /// assertions fail by bad luck; so does its walk through the Delaunay mesh of symmetric points in some orders.
     Chance,
-    /// There is a mesh, but the bounds were eased for it, and too many elements are not as asked for.
-    Short,
     /// All points that may be added were used, on edges not much shorter than the surface's: the mesh is to be that large.
     Large,
     /// All points that may be added were used, and heap up at sharp places.
@@ -20,14 +18,12 @@ pub enum Ending {
 /// What an attempt does differently.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Change {
-    /// Asks the mesher for what the user asks for.
-    AskAsWished,
-    /// Lets the mesher add so many times more points.
-    AllowMore(f64),
+    /// Lets the mesher add far more points.
+    AllowMore,
     /// Leaves out the bound of the dihedral angle, and asks for a radius-edge ratio for which refinement ends.
     Loosen,
-    /// Lets the mesher add so many points for each of the surface, whatever comes of it.
-    Stop(f64),
+    /// Lets the mesher add a number of points for each of the surface, whatever comes of it.
+    Stop,
     /// Describes the surface in another way.
     Describe(Description),
 }
@@ -57,23 +53,20 @@ const fn describe(order: Order, stir: Option<f64>, rounds_from: Option<u32>) -> 
 
 /// The rungs, each of which is taken once at most, so that there is one attempt more than rungs in the worst case.
 ///
-/// - Elements that are not as asked for are put down to the easing of the bounds first, and then to the shape.
-/// - The limit of points is a guess (see `room.rs`); where the mesh is to be large, it gets four hundred times as many
-///   in two steps.
+/// - The limit of points is a guess (see `room.rs`); where the mesh is to be large, it is raised in two steps.
 /// - Where points heap up, refinement would not end: Delaunay refinement is sure to end for radius-edge bounds of 2 and above
 ///   without a bound of the angle, if no angle of the input is acute (Shewchuk, "Tetrahedral mesh generation by
-///   Delaunay refinement", 1998). Acute ones are left to the last limit, 20 points for each of the surface.
+///   Delaunay refinement", 1998). Acute ones are left to the last limit, some points for each of the surface.
 /// - Equivalent descriptions of the surface are draws of the same lot. Of 72 open vias with films of 1e-4 to 7e-4 at orders
 ///   24 to 64 the first failed for 10, and the third for none; the others came with ten thousand random bodies. An
 ///   order by itself is another draw; a stir breaks up cospherical points, by no more than walls are moved anyway;
 ///   random rounds break up an order that depends on the places alone; walls as they are, and no facet but exactly
 ///   coplanar triangles, are for surfaces on which flattening or merging is what fails.
-pub const LADDER: [Rung; 12] = [
-    rung(Ending::Short, Change::AskAsWished),
-    rung(Ending::Large, Change::AllowMore(20.0)),
-    rung(Ending::Large, Change::AllowMore(20.0)),
+pub const LADDER: [Rung; 11] = [
+    rung(Ending::Large, Change::AllowMore),
+    rung(Ending::Large, Change::AllowMore),
     rung(Ending::Heaped, Change::Loosen),
-    rung(Ending::Heaped, Change::Stop(20.0)),
+    rung(Ending::Heaped, Change::Stop),
     describe(Order::Reversed, Some(1e-11), None),
     describe(Order::FromTheMiddle, Some(1e-9), Some(4)),
     rung(

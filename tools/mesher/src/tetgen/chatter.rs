@@ -10,10 +10,6 @@ pub struct Chatter<'a> {
     pub step: String,
 }
 
-/// Longest line kept, in bytes; anything beyond is cut, so that a mesher gone wild takes no memory here. TetGen's own lines
-/// have fewer than a hundred.
-const LONGEST_LINE: usize = 1000;
-
 impl<'a> Chatter<'a> {
     /// Passes whole lines to `log`.
     pub fn new(log: Log<'a>) -> Self {
@@ -24,14 +20,17 @@ impl<'a> Chatter<'a> {
         }
     }
 
-    /// Takes the next bytes.
+    /// Takes the next bytes. A line that fills more than one reading of them ends with it, so that a mesher gone wild
+    /// takes no memory here: TetGen prints line by line, and none of its lines is as long.
     pub fn take(&mut self, bytes: &[u8]) {
         for &byte in bytes {
-            if byte == b'\n' {
-                self.end_line();
-            } else if self.line.len() < LONGEST_LINE {
-                self.line.push(byte);
+            match byte {
+                b'\n' => self.end_line(),
+                _ => self.line.push(byte),
             }
+        }
+        if self.line.len() > bytes.len() {
+            self.end_line();
         }
     }
 

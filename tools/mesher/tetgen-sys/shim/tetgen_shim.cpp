@@ -93,7 +93,8 @@ void *mesh(void *argument) {
   tetgenio *output = new tetgenio;
   tetgenbehavior *behavior = new tetgenbehavior;
   char *switches = strdup(in.switches);
-  if (switches == nullptr || !behavior->parse_commandline(switches)) {
+  // TetGen copies them without looking at their length.
+  if (switches == nullptr || strlen(switches) >= sizeof behavior->commandline || !behavior->parse_commandline(switches)) {
     finish(TETGEN_SHIM_BAD_SWITCHES, nullptr);
   }
   // Switches that write files into the working directory.

@@ -6,10 +6,7 @@ use std::ffi::CString;
 use std::fs::File;
 use std::io::{ErrorKind, PipeReader, Read};
 use std::os::fd::{AsRawFd, FromRawFd};
-use std::time::{Duration, Instant};
-
-/// How long the end of a child that has closed its output is waited for between two looks.
-const REAP_PAUSE: Duration = Duration::from_micros(200);
+use std::time::Instant;
 
 /// Signals that a process gets for what it does itself.
 const CRASHES: [i32; 7] = [
@@ -122,15 +119,7 @@ impl Child {
                 }
             }
         }
-        let status = loop {
-            if let Some(status) = self.try_wait()? {
-                break status;
-            }
-            if deadline.is_some_and(|d| Instant::now() >= d) {
-                return Err(timed_out());
-            }
-            std::thread::sleep(REAP_PAUSE);
-        };
+        let status = self.wait()?;
         self.outcome(status)
     }
 
@@ -207,16 +196,16 @@ impl Child {
         }
     }
 
-    /// The wait status, once the child has ended.
-    fn try_wait(&mut self) -> Result<Option<i32>, Error> {
+    /// The wait status of a child that has closed its output, which its end does.
+    fn wait(&mut self) -> Result<i32, Error> {
         let mut status = 0;
-        // SAFETY: waits for our own child only, into a valid integer.
-        let found = unsafe { libc::waitpid(self.pid, &raw mut status, libc::WNOHANG) };
-        if found == self.pid {
-            self.reaped = true;
-            return Ok(Some(status));
-        }
-        if found < 0 {
+        loop {
+            // SAFETY: waits for our own child only, into a valid integer.
+            let found = unsafe { libc::waitpid(self.pid, &raw mut status, 0) };
+            if found == self.pid {
+                self.reaped = true;
+                return Ok(status);
+            }
             let error = std::io::Error::last_os_error();
             if error.kind() != ErrorKind::Interrupted {
                 // Somebody else has collected it.
@@ -227,7 +216,6 @@ impl Child {
                 });
             }
         }
-        Ok(None)
     }
 }
 

@@ -1,12 +1,13 @@
 //! All checks of a document.
 
+use super::copies;
 use super::faces::{Skin, closedness, coincident_vertices, conformity, inverted};
 use super::findings::{Broken, Findings, Kind};
 use super::symmetry::{instanced, plain};
 use super::volume::volume_errors;
 use super::walls::{self, Mesh, gluing_residual, hub_coverage};
 use crate::error::Error;
-use crate::instances::{is_sector, wall_triangles};
+use crate::instances::{Copies, is_sector, wall_triangles};
 use crate::measure::Measured;
 use serde::Serialize;
 use tmesh::{Document, Violation};
@@ -34,6 +35,8 @@ pub struct Checks {
     pub boundary_area_error: Option<f64>,
     /// Whether no promise is broken.
     pub passed: bool,
+    /// What there is nothing to check against, a few words each.
+    pub unchecked: Vec<&'static str>,
     /// The broken promises.
     pub violations: Vec<Broken>,
 }
@@ -48,10 +51,22 @@ pub fn check(
     for violation in violations {
         findings.add(Kind::Document, || violation.to_string());
     }
+    for (index, copies) in Copies::of(document).of_template.iter().enumerate() {
+        if *copies == 0 {
+            findings.add(Kind::Unplaced, || format!("template {index}"));
+        }
+    }
+    let sector_of = document.source.as_ref().and_then(|s| s.sector_of);
+    if let Some(instances) = sector_of {
+        findings.add(Kind::Sector, || {
+            format!("the input was one sector of a mesh of {instances} instances")
+        });
+    }
     let mut checks = Checks::default();
     let has_tets = document.templates.iter().any(|t| !t.tets.is_empty());
     let sector = is_sector(document);
-    let (skins, inverted) = check_templates(document, &mut findings)?;
+    let on_wall = wall_triangles(document);
+    let (skins, inverted) = check_templates(document, &on_wall, &mut findings)?;
     let mesh = Mesh {
         document,
         size: document.diagonal(),
@@ -62,6 +77,11 @@ pub fn check(
         hub_coverage(document, &mut findings);
     }
     coincident_vertices(document, mesh.size, &mut findings);
+    // Vertices of one template that coincide do so in all copies, and are reported already.
+    let reported = [Kind::Coincident, Kind::NearWall, Kind::UnpairedVertex];
+    if !sector && document.instances.len() > 1 && !findings.has(&reported) {
+        copies::check(&mesh, &on_wall, &mut findings);
+    }
     if has_tets && !sector {
         checks.check_symmetry(&mesh, violations, &mut findings);
     }
@@ -71,17 +91,36 @@ pub fn check(
         checks.region_volume_error = errors.region_volume;
         checks.boundary_area_error = errors.boundary_area;
     }
+    checks.unchecked = unchecked(document, has_tets, sector);
     checks.inverted = has_tets.then_some(inverted);
     checks.settle(&findings);
     Ok(checks)
 }
 
+/// What promises a document leaves nothing to be checked against.
+fn unchecked(document: &Document, has_tets: bool, sector: bool) -> Vec<&'static str> {
+    let mut unchecked = Vec::new();
+    if sector {
+        unchecked.push("the whole, as this is one sector of it");
+    }
+    if !has_tets {
+        unchecked.push("elements, as there are none");
+    }
+    if document.source.is_none() {
+        unchecked.push("volume and boundary, as those of the input are not in the file");
+    }
+    if document.is_plain() && document.promise.is_none() {
+        unchecked.push("symmetry, as none is promised");
+    }
+    unchecked
+}
+
 /// Checks the templates one by one; returns their outer faces and the number of inverted tetrahedra.
 fn check_templates(
     document: &Document,
+    on_wall: &[Vec<bool>],
     findings: &mut Findings,
 ) -> Result<(Vec<Skin>, u64), Error> {
-    let on_wall = wall_triangles(document);
     let mut skins = Vec::new();
     let mut count = 0;
     for (index, template) in document.templates.iter().enumerate() {

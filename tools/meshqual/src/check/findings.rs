@@ -34,6 +34,8 @@ macro_rules! kinds {
 
 kinds! {
     Document, "document", "inconsistencies of the document";
+    Unplaced, "document", "templates that are placed nowhere, so that nothing of them is in the mesh";
+    Sector, "document", "pieces that were taken for the whole body";
     OverfullFace, "conforming", "faces with more than two tetrahedra";
     SameSide, "conforming", "faces with two tetrahedra on the same side";
     MissingTriangle, "conforming", "open faces inside (one tetrahedron, and no surface triangle): cracks";
@@ -46,10 +48,13 @@ kinds! {
     BeyondWall, "conforming", "vertices beyond a mirror wall";
     UnlistedWallFace, "conforming", "faces that lie on a wall and are not listed on it";
     HubCoverage, "conforming", "hub wall triangles that do not meet each instance exactly once";
+    UngluedFace, "conforming", "pairs of boundary faces of copies that lie on each other without being glued";
+    Crossing, "conforming", "pairs of boundary faces of copies that cross or touch";
     Inverted, "orientation", "tetrahedra that are not positively oriented";
     Coincident, "coincidence", "vertices that coincide with another";
     NearWall, "coincidence", "vertices that nearly lie on a mirror wall, so that they coincide with their image";
     UnpairedVertex, "coincidence", "vertices that coincide with one of the neighbour across a wall, unpaired";
+    Unglued, "coincidence", "vertices of copies that coincide without being glued";
     Instances, "symmetry", "symmetries of the instances that fall short of the promise";
     NoImage, "symmetry", "vertices whose image is no vertex";
     Deviation, "symmetry", "vertices that miss their image";
@@ -105,12 +110,17 @@ impl Findings {
 pub fn at(document: &Document, template: usize, vertices: &[u32]) -> String {
     let points = &document.templates[template].vertices;
     let sum: DVec3 = vertices.iter().map(|&v| points[v as usize]).sum();
-    let p = document.frame.to_world(sum / vertices.len().max(1) as f64);
+    let place = place(document, sum / vertices.len().max(1) as f64);
     let of = if document.templates.len() > 1 {
         format!(" of template {template}")
     } else {
         String::new()
     };
-    let [x, y, z] = p.to_array().map(number);
-    format!("near ({x}, {y}, {z}){of}")
+    format!("{place}{of}")
+}
+
+/// "near (x, y, z)" in world coordinates, of a point in the frame of the document.
+pub fn place(document: &Document, point: DVec3) -> String {
+    let [x, y, z] = document.frame.to_world(point).to_array().map(number);
+    format!("near ({x}, {y}, {z})")
 }

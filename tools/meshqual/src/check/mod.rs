@@ -1,8 +1,8 @@
 //! Checks what every assembled mesh promises.
 //!
-//! A plain mesh is checked as it stands. An instanced one is checked template by template, and at
-//! the walls: that proves the same of the assembled mesh, because copies are congruent and meet
-//! nowhere but there.
+//! A plain mesh is checked as it stands. An instanced one is checked template by template, at the walls,
+//! and along the boundaries of the copies, which must meet nowhere but there: that proves the same of the
+//! assembled mesh, because copies are congruent.
 //!
 //! The checks are a referee: they share no code with the tools whose meshes they judge. What is one
 //! vertex, and what an image is, follows here from coordinates (in a plain mesh) or from links between
@@ -11,12 +11,12 @@
 //! made twice.
 
 mod checks;
+mod copies;
 mod faces;
 mod findings;
 mod symmetry;
 #[cfg(test)]
 mod tests;
-mod tolerances;
 mod volume;
 mod walls;
 

@@ -2,9 +2,9 @@
 
 use super::faces::Skin;
 use super::findings::{Findings, Kind};
-use super::tolerances::{SHIFTS, VOLUME};
 use crate::instances::Copies;
 use crate::measure::Measured;
+use crate::tolerances::VOLUME;
 use std::collections::BTreeMap;
 use tmesh::Document;
 
@@ -53,8 +53,9 @@ impl Extent {
 ///
 /// A mesh of one sector's copies is exactly symmetric; the input is so only within its residual. Its
 /// boundary, and the interfaces, may therefore differ by the residual times the radius, and by the
-/// error of the input's coordinates. With `d` [`SHIFTS`] times the sum of these, a volume may differ by
-/// `d` times the area around it, and the area of a triangle by `d` times half its perimeter.
+/// error of the input's coordinates: by the sum of these in the sector, by as much in the copy, and by
+/// twice that near the cuts, onto which points are moved. With `d` four times the sum, a volume may differ
+/// by `d` times the area around it, and the area of a triangle by `d` times half its perimeter.
 pub fn volume_errors(
     document: &Document,
     measured: &Measured,
@@ -66,7 +67,7 @@ pub fn volume_errors(
     };
     let symmetry = document.symmetry.as_ref();
     let residual = symmetry.map_or(0.0, |s| s.residual * s.radius);
-    let shift = SHIFTS * (residual + source.precision);
+    let shift = 4.0 * (residual + source.precision);
     let extent = Extent::of(document, skins);
     let mut compare = |kind: Kind, amount: &Amount<'_>, shifted: f64| {
         let allowed = VOLUME * amount.expected + shift * shifted;

@@ -3,11 +3,6 @@
 use super::metric::Metric;
 use serde::Serialize;
 
-/// Share of a bin's width that is taken for rounding: well above the rounding of angles computed in
-/// double precision (1e-14 of a degree), so that all right angles fall into one bin, and too little
-/// to be seen in a histogram.
-const ROUNDING: f64 = 1e-9;
-
 /// A statistic over all values of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Statistic {
@@ -83,9 +78,9 @@ pub struct Statistics {
 /// Counts of values between boundaries.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Histogram {
-    /// Boundaries, one more than counts; a bin includes its lower one, the last bin both. Values 1e-9
-    /// of a bin's width below a boundary count as on it: right angles are common, and rounding must
-    /// not strew them over two bins.
+    /// Boundaries, one more than counts; a bin includes its lower one, the last bin both. Values that
+    /// miss a boundary by less than half of their digits (of the bin's width) count as on it: right angles are common, and
+    /// rounding must not strew them over two bins.
     pub edges: Vec<f64>,
     /// Values in each bin. Values beyond the ends (infinite ones) count in the outermost bins.
     pub counts: Vec<u64>,
@@ -170,10 +165,12 @@ impl Sample {
     }
 
     fn counts(&self, edges: &[f64]) -> Vec<u64> {
+        // Half of the digits: far above the rounding of angles, and far too little to be seen.
+        let rounding = f64::EPSILON.sqrt();
         let inner: Vec<f64> = edges
             .windows(2)
             .skip(1)
-            .map(|e| e[0] - ROUNDING * (e[1] - e[0]))
+            .map(|e| e[0] - rounding * (e[1] - e[0]))
             .collect();
         let mut counts = vec![0; edges.len() - 1];
         for (values, weight) in &self.parts {
@@ -225,18 +222,18 @@ impl Sample {
     }
 }
 
-/// Values that are summed one after another; any small number does.
-const BLOCK: usize = 256;
-
-/// Sum in blocks, so that the rounding error grows with the logarithm of the number of values only.
+/// Sum as good as if it were formed with twice the digits: what each addition loses is summed apart
+/// (Ogita, Rump and Oishi 2005, algorithm Sum2).
 pub fn sum(values: &[f64]) -> f64 {
-    match values.len() {
-        0..=BLOCK => values.iter().sum(),
-        n => {
-            let (a, b) = values.split_at(n / 2);
-            sum(a) + sum(b)
-        }
+    let (mut sum, mut lost) = (0.0, 0.0);
+    for &x in values {
+        let next = sum + x;
+        let part = next - sum;
+        lost += (sum - (next - part)) + (x - part);
+        sum = next;
     }
+    // An infinite value leaves no loss to tell.
+    if sum.is_finite() { sum + lost } else { sum }
 }
 
 /// The boundaries of a metric's histogram over several samples.

@@ -1,9 +1,8 @@
 //! The report as a page: tables, histograms and pictures in one file that needs no other.
 
-use super::palette::{quality_colour, quality_legend, region_colour};
-use super::picture;
+use super::drawing::{self, Colour, quality_colour, quality_legend, region_colour};
 use super::svg::{escaped, svg};
-use super::words::{STATISTICS, beyond, check_table, symmetry_words};
+use super::words::{STATISTICS, beyond, check_table, symmetry_words, verdict};
 use crate::error::Error;
 use crate::measure::{Metric, Statistic, Summary};
 use crate::report::Report;
@@ -17,6 +16,8 @@ use tmesh::Document;
 pub struct Pictures {
     outside: Vec<u8>,
     inside: Option<Vec<u8>>,
+    /// The same by region, where there are several.
+    regions: Option<Vec<u8>>,
 }
 
 impl Pictures {
@@ -26,8 +27,12 @@ impl Pictures {
     /// Pictures that cannot be encoded.
     pub fn of(document: &Document) -> Result<Self, Error> {
         Ok(Self {
-            outside: picture::outside(document)?,
-            inside: picture::inside(document)?,
+            outside: drawing::outside(document)?,
+            inside: drawing::inside(document, Colour::Quality)?,
+            regions: match document.regions.len() {
+                0 | 1 => None,
+                _ => drawing::inside(document, Colour::Region)?,
+            },
         })
     }
 }
@@ -35,11 +40,12 @@ impl Pictures {
 /// Regions named below a picture; the table of regions has them all.
 const NAMED_REGIONS: usize = 16;
 
-const STYLE: &str = "body{font:14px/1.5 sans-serif;color:#222;max-width:1280px;margin:2em auto;padding:0 1em}\
+const STYLE: &str = "body{font:14px/1.5 sans-serif;color:#222;max-width:1680px;margin:2em auto;padding:0 1em}\
 table{border-collapse:collapse;margin:.5em 0 1.5em}td,th{padding:.15em .9em;text-align:right;border-bottom:1px solid #ddd}\
-td:first-child,th:first-child{text-align:left;padding-left:0}figure{display:inline-block;margin:0 1em 1em 0;vertical-align:top}\
-figcaption{max-width:600px;color:#555}img{max-width:100%;border:1px solid #ddd}.broken{color:#b2182b;font-weight:bold}\
-.key{display:inline-block;width:.9em;height:.9em;margin:0 .3em 0 .8em;vertical-align:-.1em}svg{max-width:100%;height:auto}";
+td:first-child,th:first-child{text-align:left;padding-left:0}figure{margin:0}\
+.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(24em,100%),1fr));gap:1em;margin-bottom:1em}\
+figcaption{color:#555}img{width:100%;height:auto;border:1px solid #ddd}.broken{color:#b2182b;font-weight:bold}\
+.key{display:inline-block;width:.9em;height:.9em;margin:0 .3em 0 .8em;vertical-align:-.1em}svg{width:100%;height:auto}";
 
 /// The page.
 pub fn html(report: &Report, title: &str, pictures: &Pictures) -> String {
@@ -93,17 +99,17 @@ fn key(out: &mut String, colour: [f64; 3], text: &str) {
 }
 
 fn images(out: &mut String, report: &Report, pictures: &Pictures) {
-    let mut figure = |bytes: &[u8], caption: &dyn Fn(&mut String)| {
+    out.push_str("<div class=\"pictures\">\n");
+    let mut figure = |bytes: &[u8], words: &str, caption: &dyn Fn(&mut String)| {
         let _ = write!(
             out,
-            "<figure><img width=\"600\" alt=\"\" src=\"data:image/png;base64,{}\"><figcaption>",
+            "<figure><img alt=\"{words}\" src=\"data:image/png;base64,{}\"><figcaption>{words}:",
             Base64Display::new(bytes, &STANDARD)
         );
         caption(out);
         out.push_str("</figcaption></figure>\n");
     };
-    figure(&pictures.outside, &|out| {
-        out.push_str("Surface, by region:");
+    let by_region = |out: &mut String| {
         for (i, region) in report
             .summary
             .regions
@@ -113,16 +119,22 @@ fn images(out: &mut String, report: &Report, pictures: &Pictures) {
         {
             key(out, region_colour(i), &region.name);
         }
-    });
+    };
+    figure(&pictures.outside, "Surface, by region", &by_region);
+    if let Some(regions) = &pictures.regions {
+        let words = "Elements behind a plane through the middle, by region";
+        figure(regions, words, &by_region);
+    }
     if let Some(inside) = &pictures.inside {
-        figure(inside, &|out| {
-            out.push_str("Elements behind a plane through the middle, by smallest dihedral angle:");
+        let words = "Elements behind a plane through the middle, by smallest dihedral angle";
+        figure(inside, words, &|out| {
             for degrees in quality_legend() {
                 let text = format!("{degrees}°");
                 key(out, quality_colour(degrees), &text);
             }
         });
     }
+    out.push_str("</div>\n");
 }
 
 fn regions(out: &mut String, s: &Summary) {
@@ -218,7 +230,8 @@ fn checks(out: &mut String, report: &Report) {
         let _ = writeln!(out, "<p class=\"broken\">{}</p>", escaped(failure));
     }
     if failures.is_empty() {
-        out.push_str("<p>All promises and limits hold.</p>\n");
+        let verdict = verdict(&report.checks);
+        let _ = writeln!(out, "<p>No limit is broken; {}.</p>", escaped(&verdict));
     }
     out.push_str("<table>\n");
     for (name, value) in check_table(&report.checks) {

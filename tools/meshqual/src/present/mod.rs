@@ -1,13 +1,10 @@
 //! The report as people see it: text, page, histograms and pictures.
 
-mod canvas;
+mod drawing;
 mod html;
-mod layout;
-mod palette;
-mod picture;
 mod svg;
 mod text;
-mod view;
+mod ticks;
 mod words;
 
 pub use html::{Pictures, html};

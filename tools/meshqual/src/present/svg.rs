@@ -1,8 +1,10 @@
 //! The histograms as an SVG image: two rows of three panels.
 
+use super::ticks::Ticks;
 use crate::measure::{Histogram, Metric, Statistics};
 use crate::report::Report;
-use kit::number;
+use geom::number::significant;
+use kit::{grouped, number};
 use std::fmt::Write;
 
 /// The look of the image, pixels. All of it is a matter of taste: nothing is computed from it.
@@ -33,16 +35,18 @@ struct Layout {
     /// Gap between bars, and the least width of a bar.
     gap: f64,
     least_bar: f64,
-    /// Panels side by side, and the steps between the labels of a plot.
+    /// Panels side by side, and the labels of a plot at most.
     columns: usize,
-    steps: usize,
+    labels: usize,
+    /// Digits of labels and statistics.
+    digits: usize,
 }
 
 const LAYOUT: Layout = Layout {
     width: 340.0,
     height: 200.0,
     left: 52.0,
-    right: 18.0,
+    right: 30.0,
     top: 44.0,
     bottom: 34.0,
     head: 48.0,
@@ -57,7 +61,8 @@ const LAYOUT: Layout = Layout {
     gap: 1.0,
     least_bar: 0.5,
     columns: 3,
-    steps: 4,
+    labels: 8,
+    digits: 3,
 };
 
 /// The image. With a comparison, the other mesh is drawn as an outline; heights are shares.
@@ -73,8 +78,9 @@ pub fn svg(report: &Report, title: &str) -> String {
     let mut out = String::new();
     let _ = writeln!(
         out,
-        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="11" fill="#222222">
-<rect width="{width}" height="{height}" fill="#ffffff"/>"##
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" role="img" aria-label="{}" font-family="sans-serif" font-size="11" fill="#222222">
+<rect width="{width}" height="{height}" fill="#ffffff"/>"##,
+        escaped(&format!("Histograms of the elements of {title}"))
     );
     headline(&mut out, report, title);
     for (i, metric) in Metric::ALL.into_iter().enumerate() {
@@ -106,13 +112,15 @@ fn headline(out: &mut String, report: &Report, title: &str) {
     );
     let mut line = format!(
         "{} vertices, {} tetrahedra",
-        summary.vertices, summary.tetrahedra
+        grouped(summary.vertices),
+        grouped(summary.tetrahedra)
     );
     if let Some(other) = &report.compare {
         let _ = write!(
             line,
             "; outline: {} ({} tetrahedra)",
-            other.name, other.summary.tetrahedra
+            other.name,
+            grouped(other.summary.tetrahedra)
         );
     }
     let line = escaped(&line);
@@ -136,15 +144,16 @@ fn draw(out: &mut String, metric: Metric, own: Option<&Statistics>, other: Optio
         return;
     };
     if let Some(s) = own {
-        let _ = writeln!(
-            out,
-            r#"<text y="{statistics_base}">min {}  p01 {}  p50 {}  p99 {}  max {}</text>"#,
-            number(s.min),
-            number(s.p01),
-            number(s.p50),
-            number(s.p99),
-            number(s.max)
-        );
+        let values = [s.min, s.p01, s.p50, s.p99, s.max];
+        let names = ["min", "p01", "p50", "p99", "max"];
+        for (i, (name, value)) in names.into_iter().zip(values).enumerate() {
+            let x = LAYOUT.width * i as f64 / names.len() as f64;
+            let value = significant(value, LAYOUT.digits);
+            let _ = writeln!(
+                out,
+                r##"<text x="{x:.0}" y="{statistics_base}" font-size="10"><tspan fill="#777777">{name}</tspan> {value}</text>"##
+            );
+        }
     }
     let shown = [own, other].into_iter().flatten();
     let plot = Plot {
@@ -159,7 +168,7 @@ fn draw(out: &mut String, metric: Metric, own: Option<&Statistics>, other: Optio
     if let Some(s) = other {
         plot.outline(out, &s.histogram);
     }
-    plot.axes(out, &reference.histogram.edges);
+    plot.axes(out, &Ticks::of(&reference.histogram.edges, LAYOUT.labels));
 }
 
 /// The scales of a panel.
@@ -209,14 +218,13 @@ impl Plot {
         );
     }
 
-    fn axes(&self, out: &mut String, edges: &[f64]) {
+    fn axes(&self, out: &mut String, ticks: &Ticks) {
         let Layout {
             width,
             height,
             label_gap,
             share_base,
             tick,
-            steps,
             ..
         } = LAYOUT;
         let _ = writeln!(
@@ -226,15 +234,13 @@ impl Plot {
 <text x="-{label_gap}" y="{height}" text-anchor="end">0</text>"##,
             100.0 * self.highest
         );
-        let mut labelled: Vec<usize> = (0..=steps).map(|i| i * self.bins / steps).collect();
-        labelled.dedup();
-        for i in labelled {
+        for &(value, share) in &ticks.0 {
             let _ = writeln!(
                 out,
                 r##"<path d="M{0:.2} {height} v{tick}" stroke="#222222"/><text x="{0:.2}" y="{1}" text-anchor="middle">{2}</text>"##,
-                self.x(i),
+                width * share,
                 height + LAYOUT.label_base,
-                number(edges[i])
+                significant(value, LAYOUT.digits)
             );
         }
     }

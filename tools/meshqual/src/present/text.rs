@@ -1,6 +1,6 @@
 //! The report as text: tables and histograms for a terminal.
 
-use super::words::{STATISTICS, beyond, check_table, symmetry_words};
+use super::words::{STATISTICS, beyond, check_table, symmetry_words, verdict};
 use crate::measure::{Histogram, Metric, Statistic, Summary};
 use crate::report::Report;
 use kit::{grouped, number, point};
@@ -209,7 +209,7 @@ fn checks(out: &mut String, report: &Report, promises: bool) {
         let _ = writeln!(out, "BROKEN {failure}");
     }
     if promises && report.checks.passed {
-        let _ = writeln!(out, "all promises hold");
+        let _ = writeln!(out, "{}", verdict(&report.checks));
     }
 }
 

@@ -40,6 +40,17 @@ pub fn beyond(summary: &Summary) -> impl Iterator<Item = String> + use<'_> {
     })
 }
 
+/// What is said of checks that broke no promise.
+pub fn verdict(checks: &Checks) -> String {
+    match checks.unchecked.as_slice() {
+        [] => "all promises hold".to_owned(),
+        list => format!(
+            "all promises hold that can be checked; not checked: {}",
+            list.join("; ")
+        ),
+    }
+}
+
 /// Names and results of the checks, where there are any, as tables show them.
 pub fn check_table(checks: &Checks) -> [(&'static str, Option<String>); 8] {
     let answer = |b: bool| if b { "yes" } else { "NO" }.to_owned();

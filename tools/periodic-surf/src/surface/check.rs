@@ -1,12 +1,15 @@
 //! What a new surface must have in common with the old one.
 
-use geom::measure::{corners, volume_of_region};
-use mesher::FLATNESS;
+use geom::measure::{corners, triangle_area, volume_of_region};
 use tmesh::{OUTSIDE, Template};
 
-/// Every region closed, with its volume unchanged. `slack`: volume that uneven facets may account
-/// for, model units cubed.
-pub fn same_body(before: &Template, after: &Template, slack: f64) -> Result<(), String> {
+/// Every region closed, with its volume unchanged but for what comes of a surface that is off by `rounding` (model
+/// units). `slack`: volume that uneven facets may account for, model units cubed.
+pub fn same_body(
+    before: &Template,
+    after: &Template,
+    (rounding, slack): (f64, f64),
+) -> Result<(), String> {
     let mut sides: Vec<(u32, [u32; 2], i32)> = Vec::with_capacity(6 * after.triangles.len());
     for t in &after.triangles {
         for i in 0..3 {
@@ -36,13 +39,17 @@ pub fn same_body(before: &Template, after: &Template, slack: f64) -> Result<(), 
         .collect();
     regions.sort_unstable();
     regions.dedup();
-    let extent = before
-        .vertices
-        .iter()
-        .fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
     for region in regions.into_iter().filter(|&r| r != OUTSIDE) {
         let [old, new] = [before, after].map(|t| volume_of_region(&t.vertices, t.faces(), region));
-        let allowed = FLATNESS * old.abs() + slack + 1e-15 * extent.powi(3);
+        let around = before
+            .triangles
+            .iter()
+            .filter(|t| t.front == region || t.back == region);
+        let area: f64 = around
+            .map(|t| corners(&before.vertices, t))
+            .map(|[a, b, c]| triangle_area(a, b, c))
+            .sum();
+        let allowed = area * rounding + slack;
         // False for NaN, too.
         let unchanged = (new - old).abs() <= allowed;
         if !unchanged {

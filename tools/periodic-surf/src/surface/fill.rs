@@ -3,10 +3,10 @@
 use super::features::NONE;
 use super::maker::Maker;
 use super::pairing::facing;
-use super::pieces::{Frame, Patch, STRAIGHT};
+use super::pieces::{Frame, Patch};
 use crate::SurfaceError;
 use glam::{DVec2, DVec3};
-use mesher::{ROUNDING, face_key};
+use mesher::face_key;
 use rustc_hash::FxHashMap;
 use tmesh::{FixedSet, Triangle};
 
@@ -168,8 +168,8 @@ impl Maker<'_> {
         let is_flat = |&t: &u32| {
             let [a, b, c] = guide.triangles[t as usize].map(|v| guide.vertices[v as usize]);
             let (u, v) = (b - a, c - a);
-            let longest = u.length_squared().max(v.length_squared());
-            u.cross(v).length() <= STRAIGHT * longest
+            let longest = u.length().max(v.length());
+            u.cross(v).length() <= guide.rounding * longest
         };
         if master.is_some() || outline.changed || fine.iter().any(is_flat) {
             let normal = guide.facets.facets[facet].normal;
@@ -247,6 +247,7 @@ impl Maker<'_> {
             outline: (outline.edges.iter())
                 .map(|e| e.map(|v| local[&v]))
                 .collect(),
+            rounding: guide.rounding,
         };
         let triangles = patch.triangulate().map_err(|broken| {
             let p = patch.points[broken.0 as usize];
@@ -279,7 +280,7 @@ impl Maker<'_> {
                 .iter()
                 .flat_map(|&t| self.input.triangles[t as usize].vertices);
             let points = corners.map(|v| self.input.vertices[v as usize]);
-            let near = |p: DVec3| (plane.nearest(p) - p).length() <= ROUNDING * p.length();
+            let near = |p: DVec3| (plane.nearest(p) - p).length() <= self.guide.rounding;
             return points.clone().all(near).then_some(plane);
         }
         let wall = (face.checked_sub(1)? / 2) as usize;

@@ -1,9 +1,8 @@
 //! The guide: the surface of a template after TetGen refined it freely, walls included.
 
 use glam::DVec3;
-use mesher::{
-    Answer, Asks, Cells, Climb, Error, Facets, Judged, PROJECTIONS, Place, ROUNDING, label,
-};
+use mesher::{Answer, Asks, Cells, Climb, EASING, Error, Facets, Place, label, settled};
+use std::convert::Infallible;
 
 /// A refined surface.
 pub struct Refined {
@@ -18,24 +17,9 @@ pub struct Refined {
     pub facet: Vec<u32>,
     /// Facets of the template's own triangles.
     pub facets: Facets,
+    /// What computing may lose, model units.
+    pub rounding: f64,
 }
-
-/// How much the radius-edge bound is eased for the guide. What is asked for is reached afterwards, when
-/// the template is filled and its worst elements are improved, and a guide that insists on it only multiplies
-/// points: on wheels of saw teeth (orders 2 to 30, bound 1.4) this takes up to a quarter of the elements away
-/// and leaves at most 1.7 % past the bound.
-pub const EASED: f64 = 1.12;
-
-/// With this part of the guide's tetrahedra past the eased bound and more, the shape does not allow
-/// much better elements near its sharp places, and the bound itself leaves fewer past it ...
-const SHARP: f64 = 0.005;
-
-/// ... up to this part: of such shapes the mesh of the whole body has a tenth of its elements past the
-/// bound too, and insisting only multiplies points.
-const HARD: f64 = 0.05;
-
-/// Fewer tetrahedra past the bound are not worth another guide.
-const FEW: f64 = 4.0;
 
 /// Meshes a template as asked for, but free to put points on every facet, and gives
 /// the surface of that mesh. No facet joins wall faces with anything else, nor the two faces of a
@@ -49,32 +33,21 @@ pub fn refine(climb: &Climb<'_>) -> Result<Refined, Error> {
         ..*climb
     };
     let take = |answer: Answer| {
-        // Bounds that were eased already are not eased once more.
-        let past = match &answer.advice {
-            Some(advice) => {
-                (climb.log)(&format!("template {}: {advice}", climb.template));
-                0.0
-            }
-            None => answer.outside()[0],
-        };
-        let count = answer.mesh.tetrahedra().len();
-        let made = surface_of(climb, answer)?;
-        let many = (SHARP..HARD).contains(&past) && past * (count as f64) >= FEW;
-        let short = many.then(|| {
-            format!(
-                "{:.1} % of the guide's elements are past the radius-edge bound eased by {EASED}",
-                100.0 * past
-            )
-        });
-        Ok(Judged { made, short })
+        if let Some(advice) = &answer.advice {
+            (climb.log)(&format!("template {}: {advice}", climb.piece.index));
+        }
+        surface_of(climb, answer)
     };
-    free.climb(Asks::Eased([EASED, 1.0]), take, |_, _| true)
+    // The mesher is given eased bounds again when it fills this surface, and a guide that insists on more only multiplies
+    // points.
+    let [ratio, angle] = EASING;
+    free.climb(Asks::Eased([ratio * ratio, angle]), take)
 }
 
 /// The surface of the mesher's answer.
 fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
     let unusable = |what: String| Error::Unusable {
-        template: climb.template,
+        template: climb.piece.index,
         what,
     };
     if !answer.keeps_points() {
@@ -85,7 +58,7 @@ fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
         let place = Place(plc.to_model(c.place));
         unusable(format!("there are {} near {place}", c.what))
     })?;
-    let template = &climb.document.templates[climb.template];
+    let template = climb.piece.template;
     let mut refined = Refined {
         vertices: mesh
             .points()
@@ -100,6 +73,7 @@ fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
         facet: surface.iter().map(|s| s.facet as u32).collect(),
         vertex_of_point: plc.vertex_of_point,
         facets: plc.facets,
+        rounding: plc.rounding,
     };
     put_back(&mut refined, plc.shift);
     Ok(refined)
@@ -120,14 +94,13 @@ fn put_back(refined: &mut Refined, shift: f64) {
     }
     pairs.sort_unstable();
     pairs.dedup();
-    let extent = (refined.vertices.iter()).fold(0.0_f64, |m, p| m.max(p.abs().max_element()));
     for of_vertex in pairs.chunk_by(|a, b| a.0 == b.0) {
         // What is on several facets is on an edge.
         let &[(v, f)] = of_vertex else { continue };
         let facet = &refined.facets.facets[f as usize];
         let p = &mut refined.vertices[v as usize];
         let off = (*p - facet.origin).dot(facet.normal);
-        if off.abs() > facet.deviation + ROUNDING * extent {
+        if off.abs() > facet.deviation + refined.rounding {
             *p -= facet.normal * off;
         }
     }
@@ -136,11 +109,13 @@ fn put_back(refined: &mut Refined, shift: f64) {
     }
     // Facets more uneven than the shift have no plane to be put back onto.
     pairs.retain(|&(_, f)| refined.facets.facets[f as usize].deviation <= shift);
-    for _ in 0..PROJECTIONS {
-        for &(v, f) in &pairs {
-            let facet = &refined.facets.facets[f as usize];
-            let p = &mut refined.vertices[v as usize];
-            *p -= facet.normal * (*p - facet.origin).dot(facet.normal);
-        }
+    for of_vertex in pairs.chunk_by(|a, b| a.0 == b.0) {
+        let p = &mut refined.vertices[of_vertex[0].0 as usize];
+        let onto = |i: usize, p: DVec3| -> Result<DVec3, Infallible> {
+            let facet = &refined.facets.facets[of_vertex[i].1 as usize];
+            Ok(p - facet.normal * (p - facet.origin).dot(facet.normal))
+        };
+        let Ok(there) = settled(*p, of_vertex.len(), onto);
+        *p = there;
     }
 }

@@ -7,7 +7,7 @@ use super::guide::refine;
 use super::maker::Maker;
 use super::pairing::Pairing;
 use crate::SurfaceError;
-use mesher::{Climb, face_key};
+use mesher::{Climb, Piece, face_key};
 use tmesh::Template;
 
 /// A new surface.
@@ -26,8 +26,11 @@ pub struct Made {
 /// # Errors
 /// See [`SurfaceError`].
 pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
-    let index = climb.template;
-    let input = &climb.document.templates[index];
+    let Piece {
+        index,
+        template: input,
+        ..
+    } = climb.piece;
     let pairings = Pairing::of(input, index);
     let guide = refine(climb)?;
     let features = Features::new(input, index, &guide)?;
@@ -46,9 +49,11 @@ pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
     made.gluings = gluings;
     let facets = &guide.facets.facets;
     let slack = facets.iter().map(|f| 2.0 * f.area * f.deviation).sum();
-    check::same_body(input, &made, slack).map_err(|what| SurfaceError::Changed {
-        template: index,
-        what,
+    check::same_body(input, &made, (guide.rounding, slack)).map_err(|what| {
+        SurfaceError::Changed {
+            template: index,
+            what,
+        }
     })?;
     let others = face_key(input.gluings.len(), false);
     let shared = (0..face_of.len() as u32).filter(|&t| face_of[t as usize] >= others);

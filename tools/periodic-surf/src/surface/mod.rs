@@ -25,6 +25,5 @@ mod orbits;
 mod pairing;
 mod pieces;
 
-pub use guide::EASED as GUIDE_EASED;
 pub use impose::{Other, impose};
 pub use make::{Made, make};

@@ -2,6 +2,8 @@
 
 use crate::report::defects::Defects;
 use crate::report::detection::{Detection, OrderResidual};
+use heal::Repair;
+use kit::Session;
 use serde::Serialize;
 use tmesh::{Axis, Document, Group, Isometry, OtherAxis, RejectedOrder, Symmetry};
 
@@ -44,6 +46,8 @@ pub struct Report<'a> {
     pub defects: &'a Defects,
     /// What reading the input had to mend or leave, a sentence each.
     pub input: &'a [String],
+    /// What was repaired of the input.
+    pub repairs: Vec<ReportRepair>,
     /// Remarks, a sentence each.
     pub notes: &'a [String],
 }
@@ -91,13 +95,37 @@ pub struct ReportRegion<'a> {
     pub name: &'a str,
 }
 
+/// A kind of repair in the report.
+#[derive(Debug, Serialize)]
+pub struct ReportRepair {
+    /// The kind.
+    pub name: &'static str,
+    /// How many there were.
+    pub count: usize,
+    /// The farthest that a point of the surface was moved, model units.
+    pub largest_gap: f64,
+    /// Where that was, or where the first one was if nothing moved.
+    pub at: [f64; 3],
+}
+
+impl ReportRepair {
+    fn of(repair: &Repair) -> Self {
+        Self {
+            name: repair.name(),
+            count: repair.count,
+            largest_gap: repair.largest,
+            at: repair.place.to_array(),
+        }
+    }
+}
+
 impl<'a> Report<'a> {
     /// The report on a document.
     pub fn new(
         document: &'a Document,
         found: &'a Detection,
         defects: &'a Defects,
-        input: &'a [String],
+        session: &'a Session,
     ) -> Self {
         let symmetry = &found.symmetry;
         Self {
@@ -125,7 +153,8 @@ impl<'a> Report<'a> {
                 .collect(),
             orders: &found.profile,
             defects,
-            input,
+            input: session.notices(),
+            repairs: session.repairs().iter().map(ReportRepair::of).collect(),
             notes: &found.notes,
         }
     }

@@ -6,13 +6,22 @@ use crate::report::drawing::{Segment, Views, views};
 use kit::{number, point};
 use std::f64::consts::PI;
 use std::fmt::Write;
-use tmesh::{Document, Symmetry};
+use tmesh::{Document, OtherAxis, Symmetry};
 
 /// Side of a view, width and height of the plot, and the space around them, pixels.
 const VIEW: f64 = 340.0;
 const PLOT: [f64; 2] = [1080.0, 200.0];
 const MARGIN: f64 = 56.0;
 const HEAD: f64 = 92.0;
+/// First line and distance of lines in the panel of figures, pixels; directions in one line; decimals of them, below which there is noise.
+const FIRST: f64 = 30.0;
+const LINE: f64 = 15.0;
+const ABREAST: usize = 2;
+const DECIMALS: f64 = 1e3;
+/// Height of the bars of what is below the plot, pixels, so that they are seen.
+const LEAST_BAR: f64 = 5.0;
+/// Decades of the plot below the tolerance: what holds is far below it, and how far is the noise of rounding.
+const DECADES_BELOW: f64 = 3.0;
 /// Mirror planes drawn at most.
 const MOST_PLANES: u32 = 128;
 
@@ -32,9 +41,10 @@ pub fn svg(document: &Document, found: &Detection, title: &str) -> String {
     let mut out = String::new();
     let _ = writeln!(
         out,
-        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="11" fill="{INK}">
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" role="img" aria-label="{}" font-family="sans-serif" font-size="11" fill="{INK}">
 <rect width="{width}" height="{height}" fill="#ffffff"/>
 <text x="{MARGIN}" y="28" font-size="16" font-weight="bold">{}: {}</text>"##,
+        escaped(&format!("The symmetry of {title}")),
         escaped(title),
         symmetry.group
     );
@@ -189,20 +199,38 @@ fn facts(out: &mut String, found: &Detection) {
     if symmetry.axisymmetric {
         lines.push("a body of revolution".to_owned());
     }
-    if !search.other_axes.is_empty() {
-        lines.push(format!("other axes: {}", search.other_axes.len()));
-    }
-    for axis in search.other_axes.iter().take(8) {
-        lines.push(format!(
-            "  order {} about {}",
-            axis.order,
-            point(axis.direction)
-        ));
-    }
+    let room = ((VIEW - FIRST) / LINE) as usize + 1 - lines.len();
+    lines.extend(other_axes(&search.other_axes, room));
     for (i, line) in lines.iter().enumerate() {
-        let y = 30.0 + 16.0 * i as f64;
+        let y = FIRST + LINE * i as f64;
         let _ = writeln!(out, r#"<text x="8" y="{y}">{}</text>"#, escaped(line));
     }
+}
+
+/// The other axes by their orders, in so many lines; the last one counts those for which there is no room.
+fn other_axes(axes: &[OtherAxis], room: usize) -> Vec<String> {
+    let mut lines: Vec<(String, usize)> = Vec::new();
+    for same in axes.chunk_by(|a, b| a.order == b.order) {
+        let one = if same.len() == 1 { "axis" } else { "axes" };
+        lines.push((
+            format!("{} other {one} of order {}:", same.len(), same[0].order),
+            0,
+        ));
+        for some in same.chunks(ABREAST) {
+            let directions = some.iter().map(|axis| {
+                let [x, y, z] = axis
+                    .direction
+                    .map(|c| number((c * DECIMALS).round() / DECIMALS + 0.0));
+                format!("({x}, {y}, {z})")
+            });
+            lines.push((directions.collect::<Vec<_>>().join("  "), some.len()));
+        }
+    }
+    if lines.len() > room {
+        let left: usize = lines.drain(room.saturating_sub(1)..).map(|l| l.1).sum();
+        lines.push((format!("and {left} more"), 0));
+    }
+    lines.into_iter().map(|l| l.0).collect()
 }
 
 /// Residual against order, the tolerance as a line.
@@ -213,33 +241,36 @@ fn plot(out: &mut String, found: &Detection) {
     );
     let [width, height] = PLOT;
     let tolerance = found.symmetry.tolerance;
-    let values = found.profile.iter().map(|r| r.residual);
-    let lowest = values.filter(|v| *v > 0.0).fold(0.1 * tolerance, f64::min);
-    let bottom = libm::floor(libm::log10(lowest.max(1e-16)));
+    let bottom = libm::floor(libm::log10(tolerance.max(f64::EPSILON))) - DECADES_BELOW;
     let y = |v: f64| {
-        let share = (libm::log10(v.max(1e-16)) - bottom) / -bottom;
+        let share = (libm::log10(v.max(f64::MIN_POSITIVE)) - bottom) / -bottom;
         height * (1.0 - share.clamp(0.0, 1.0))
     };
     for decade in bottom as i32..=0 {
         let at = y(libm::pow(10.0, f64::from(decade)));
         let _ = writeln!(
             out,
-            r##"<path d="M0 {at:.1} H{width}" stroke="#dddddd"/><text x="-6" y="{:.1}" text-anchor="end">1e{decade}</text>"##,
-            at + 4.0
+            r##"<path d="M0 {at:.1} H{width}" stroke="#dddddd"/><text x="-6" y="{:.1}" text-anchor="end">{}1e{decade}</text>"##,
+            at + 4.0,
+            if f64::from(decade) > bottom {
+                ""
+            } else {
+                "≤ "
+            }
         );
     }
     let count = found.profile.len().max(1) as f64;
     let step = width / count;
     let label_every = (count / 40.0).ceil() as usize;
     for (i, r) in found.profile.iter().enumerate() {
-        let (x, top) = (step * i as f64, y(r.residual));
+        let (x, top) = (step * i as f64, y(r.residual).min(height - LEAST_BAR));
         let colour = if r.holds { HELD } else { NOT_HELD };
         let _ = writeln!(
             out,
             r#"<rect x="{:.2}" y="{top:.1}" width="{:.2}" height="{:.1}" fill="{colour}"><title>order {}: {:.2e}</title></rect>"#,
             x + 0.15 * step,
             0.7 * step,
-            (height - top).max(1.5),
+            height - top,
             r.order,
             r.residual
         );
@@ -256,9 +287,8 @@ fn plot(out: &mut String, found: &Detection) {
     let at = y(tolerance);
     let _ = writeln!(
         out,
-        r#"<path d="M0 {at:.1} H{width}" stroke="{MIRROR}" stroke-width="1.2"/><text x="{width}" y="{:.1}" text-anchor="end" fill="{MIRROR}">tolerance {tolerance:.0e}</text>
-<path d="M0 0 V{height} H{width}" fill="none" stroke="{INK}"/>"#,
-        at - 4.0
+        r#"<path d="M0 {at:.1} H{width}" stroke="{MIRROR}" stroke-width="1.2"/><text x="{width}" y="-12" text-anchor="end" fill="{MIRROR}">red line: tolerance {tolerance:.0e}</text>
+<path d="M0 0 V{height} H{width}" fill="none" stroke="{INK}"/>"#
     );
 }
 
@@ -273,4 +303,30 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_axes_that_are_counted_are_listed_or_said_to_be_left_out() {
+        let axis = |order, x| OtherAxis {
+            direction: [x, -1e-17, 1.0],
+            order,
+            residual: 0.0,
+        };
+        let mut axes = vec![axis(4, 0.0)];
+        axes.extend((0..6).map(|i| axis(2, f64::from(i))));
+        let all = other_axes(&axes, 6);
+        assert_eq!(all[..2], ["1 other axis of order 4:", "(0, 0, 1)"]);
+        assert_eq!(
+            all[2..4],
+            ["6 other axes of order 2:", "(0, 0, 1)  (1, 0, 1)"]
+        );
+        assert_eq!(all.len(), 6);
+        assert_eq!(other_axes(&axes, 5)[4], "and 4 more");
+        assert_eq!(other_axes(&axes, 1), ["and 7 more"]);
+    }
 }

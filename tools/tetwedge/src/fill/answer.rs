@@ -4,8 +4,8 @@ use super::filled::{Filled, NONE};
 use super::preserved::restore_preserved;
 use super::walls::{on_shifted_facets, restore_walls};
 use glam::DVec3;
-use mesher::{Answer, Cells, Elements, Error, Place, Plc, Surface, face_key, label};
-use tmesh::{Document, OUTSIDE, Template, Tet, Triangle};
+use mesher::{Answer, Cells, Elements, Error, Piece, Place, Plc, Surface, face_key, label};
+use tmesh::{OUTSIDE, Template, Tet, Triangle};
 
 /// What is known of a filled template that is not finished.
 pub struct Origin {
@@ -17,14 +17,18 @@ pub struct Origin {
     pub first_new: usize,
 }
 
-/// Makes the filled template `index` from TetGen's mesh of `plc`. What it shares with others is settled then, the
+/// Makes a filled template from TetGen's mesh of `plc`. What it shares with others is settled then, the
 /// rest is for [`finish`].
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
-pub fn fill(document: &Document, index: usize, answer: &Answer) -> Result<(Filled, Origin), Error> {
+pub fn fill(piece: Piece<'_>, answer: &Answer) -> Result<(Filled, Origin), Error> {
     let (plc, mesh) = (&answer.plc, &*answer.mesh);
-    let input = &document.templates[index];
+    let Piece {
+        index,
+        template: input,
+        ..
+    } = piece;
     let unusable = |what: String| Error::Unusable {
         template: index,
         what,

@@ -6,10 +6,7 @@ use super::measures::measures;
 use super::orientations::orientations;
 use glam::DVec3;
 use improve::{Flats, Freedoms, Improved, Wish, improve};
-use mesher::{Climb, Error, Plc, ROUNDING};
-
-/// Part of the tetrahedra that is improved, at most: where more are bad, the shape is.
-const SHARE: f64 = 0.1;
+use mesher::{Climb, Error, Plc};
 
 /// Improves the tetrahedra of a filled template, and checks all of it.
 ///
@@ -21,27 +18,22 @@ pub fn finish(
     filled: &mut Filled,
     origin: &Origin,
 ) -> Result<(), Error> {
-    let Climb {
-        document,
-        template: index,
-        ..
-    } = *climb;
     let unusable = |what: String| Error::Unusable {
-        template: index,
+        template: climb.piece.index,
         what,
     };
     filled.improved = refine(climb, plc, &origin.facets, filled);
-    let reach = document.frame.origin.length() + plc.extent;
+    let reach = climb.piece.document.frame.origin.length() + plc.extent;
     let template = &filled.template;
     orientations(template, origin.first_new, reach).map_err(unusable)?;
-    measures(document, plc, &origin.faces, template).map_err(unusable)
+    measures(climb.piece.template, plc, &origin.faces, template).map_err(unusable)
 }
 
 /// Improves the tetrahedra, as far as elements are to be optimized: the smallest angle to reach is what
 /// remains of a straight angle, halved, and the one asked for at least.
 fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -> Option<Improved> {
     let Climb {
-        document,
+        piece,
         params,
         sizes,
         ..
@@ -55,15 +47,15 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
         .flat_map(|&t| filled.template.triangles[t as usize].vertices)
         .collect();
     let freedoms = Freedoms::new(
-        (&filled.template, climb.template),
+        (&filled.template, piece.index),
         &Flats {
             of_triangle: &of_triangle,
             normals: &normals,
             fixed: &fixed,
-            straight: ROUNDING * plc.extent + 2.0 * plc.shift,
+            straight: plc.rounding + 2.0 * plc.shift,
         },
     );
-    let regions = document.regions.iter().zip(&sizes.of_region);
+    let regions = piece.document.regions.iter().zip(&sizes.of_region);
     let wish = Wish {
         // The mesher was asked for less than `min_dihedral`.
         angle: (0.5 * (180.0 - largest)).max(params.min_dihedral),
@@ -71,7 +63,7 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
         min_dihedral: params.min_dihedral,
         max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),
         scale: plc.scale,
-        share: SHARE,
+        share: 1.0,
     };
     Some(improve(&mut filled.template, &freedoms, &wish))
 }

@@ -1,21 +1,35 @@
 //! What meshing must not change: the volume of each region and the area of each wall.
 
 use geom::measure::{corners, tet_volume, triangle_area};
-use mesher::{FLATNESS, NO_FACE, Plc};
+use mesher::{NO_FACE, Plc};
 use std::collections::BTreeMap;
-use tmesh::{Document, OUTSIDE, Template};
+use tmesh::{OUTSIDE, Template};
+
+/// A measure before and after, and how much it changes for each unit of length that its boundary is off.
+#[derive(Default)]
+struct Measure {
+    before: f64,
+    after: f64,
+    boundary: f64,
+}
+
+impl Measure {
+    /// Whether it is the same but for a boundary that is off by `distance`, and for `slack`; not for NaN.
+    fn is_kept(&self, distance: f64, slack: f64) -> bool {
+        (self.after - self.before).abs() <= self.boundary * distance + slack
+    }
+}
 
 /// Compares the filled template with the surface it was made from.
 ///
 /// Uneven facets (see [`mesher::Facets`]) may be triangulated anew, which moves volume by no more
 /// than their area times their unevenness.
 pub fn measures(
-    document: &Document,
+    input: &Template,
     plc: &Plc,
     faces: &[u32],
     filled: &Template,
 ) -> Result<(), String> {
-    let input = &document.templates[plc.template];
     let slack: f64 = plc
         .facets
         .facets
@@ -23,61 +37,57 @@ pub fn measures(
         .map(|f| 2.0 * f.area * f.deviation)
         .sum();
 
-    let mut volumes: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
+    let mut volumes: BTreeMap<u32, Measure> = BTreeMap::new();
     let origin = input.vertices[plc.vertex_of_point[0] as usize];
     for t in &input.triangles {
         let [a, b, c] = corners(&input.vertices, t);
         let cone = tet_volume(origin, a, b, c);
         for (region, part) in [(t.back, cone), (t.front, -cone)] {
             if region != OUTSIDE {
-                volumes.entry(region).or_default().0 += part;
+                let volume = volumes.entry(region).or_default();
+                volume.before += part;
+                volume.boundary += triangle_area(a, b, c);
             }
         }
     }
     for t in &filled.tets {
         let [a, b, c, d] = t.vertices.map(|v| filled.vertices[v as usize]);
-        volumes.entry(t.region).or_default().1 += tet_volume(a, b, c, d);
+        volumes.entry(t.region).or_default().after += tet_volume(a, b, c, d);
     }
-    for (region, (before, after)) in volumes {
-        let allowed = FLATNESS * before.abs() + slack + rounding(plc, 3);
-        if !within(before, after, allowed) {
+    for (region, volume) in volumes {
+        if !volume.is_kept(plc.rounding, slack) {
             return Err(format!(
-                "region {region} has the volume {after:.12e}, its surface encloses {before:.12e} \
-                 (allowed difference {allowed:.1e})"
+                "region {region} has the volume {:.12e}, its surface encloses {:.12e} \
+                 (allowed difference {:.1e})",
+                volume.after,
+                volume.before,
+                volume.boundary * plc.rounding + slack
             ));
         }
     }
 
-    let mut areas: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
+    let mut areas: BTreeMap<u32, Measure> = BTreeMap::new();
     let keys = plc.faces.of_triangle.iter();
     for (t, &key) in input.triangles.iter().zip(keys) {
         let [a, b, c] = corners(&input.vertices, t);
-        areas.entry(key).or_default().0 += triangle_area(a, b, c);
+        let area = areas.entry(key).or_default();
+        area.before += triangle_area(a, b, c);
+        area.boundary += a.distance(b) + b.distance(c) + c.distance(a);
     }
     for (t, &key) in filled.triangles.iter().zip(faces) {
         let [a, b, c] = corners(&filled.vertices, t);
-        areas.entry(key).or_default().1 += triangle_area(a, b, c);
+        areas.entry(key).or_default().after += triangle_area(a, b, c);
     }
     areas.remove(&NO_FACE);
-    for (key, (before, after)) in areas {
-        let allowed = FLATNESS * before + rounding(plc, 2);
-        if !within(before, after, allowed) {
+    for (key, area) in areas {
+        if !area.is_kept(plc.rounding, 0.0) {
             let wall = input.gluings.get((key as usize - 1) / 2);
             let name = wall.map_or("hub", |w| w.name.as_str());
             return Err(format!(
-                "wall '{name}' has the area {after:.12e}, it had {before:.12e}"
+                "wall '{name}' has the area {:.12e}, it had {:.12e}",
+                area.after, area.before
             ));
         }
     }
     Ok(())
-}
-
-/// False for NaN, too.
-fn within(before: f64, after: f64, allowed: f64) -> bool {
-    (after - before).abs() <= allowed
-}
-
-/// Rounding of a sum of volumes (`power` 3) or areas (2), whatever they cancel to.
-fn rounding(plc: &Plc, power: i32) -> f64 {
-    1e-15 * plc.extent.powi(power)
 }

@@ -6,20 +6,19 @@ use mesher::Place;
 use rayon::prelude::*;
 use tmesh::{Template, Tet};
 
-/// Change of a volume by the rounding of placed coordinates, in roundings of the largest coordinate times the
-/// largest face.
-const TURNED: f64 = 16.0;
-
 /// All tetrahedra positive, exactly, and still so where their copies are placed: coordinates there are up to
 /// `reach` (model units), and rounded.
 pub fn orientations(template: &Template, first_new: usize, reach: f64) -> Result<(), String> {
+    // A placed coordinate is the sum of three terms and is rounded, and a product in each of two terms.
+    let off = 4.0 * f64::EPSILON * reach;
     let bad = |t: &&Tet| {
         let [a, b, c, d] = t.vertices.map(|v| template.vertices[v as usize]);
         let (u, v, w) = (b - a, c - a, d - a);
         let (uv, vw, wu) = (u.cross(v), v.cross(w), w.cross(u));
         let faces = [uv, vw, wu, uv + vw + wu].map(DVec3::length_squared);
         let largest = faces.into_iter().fold(0.0, f64::max).sqrt();
-        let safe = uv.dot(w) > TURNED * f64::EPSILON * reach * largest;
+        // Each of the four corners may be off, across the face opposite to it.
+        let safe = uv.dot(w) > 4.0 * off * largest;
         !safe || orientation(a, b, c, d) <= 0.0
     };
     let count = template.tets.par_iter().filter(bad).count();

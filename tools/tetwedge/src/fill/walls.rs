@@ -3,7 +3,7 @@
 use super::filled::{Filled, NONE};
 use super::touching::{on_segments, touching_edges};
 use glam::DVec3;
-use mesher::{PROJECTIONS, Place, Plc, ROUNDING, face_key};
+use mesher::{Place, Plc, face_key, settled};
 use tmesh::{FixedSet, Gluing, Template};
 
 /// What a new vertex belongs to.
@@ -73,13 +73,6 @@ pub fn restore_walls(
     mut projections: Vec<(u32, Plane)>,
     filled: &mut Filled,
 ) -> Result<(), String> {
-    // A single projection meets a single plane; where planes of facets meet that of a wall, each
-    // leaves the other a little, and a few rounds meet all.
-    let rounds = if projections.is_empty() {
-        1
-    } else {
-        PROJECTIONS
-    };
     let mut on_surface = vec![false; filled.template.vertices.len()];
     for &v in filled.template.triangles.iter().flat_map(|t| &t.vertices) {
         on_surface[v as usize] = true;
@@ -90,7 +83,7 @@ pub fn restore_walls(
         faces,
         first_new,
         on_surface,
-        tolerance: ROUNDING * plc.extent + 2.0 * plc.shift,
+        tolerance: plc.rounding + 2.0 * plc.shift,
     };
     let mut gluings = Vec::with_capacity(input.gluings.len());
     for wall in 0..input.gluings.len() {
@@ -111,19 +104,21 @@ pub fn restore_walls(
             gluing.vertex_pairs.sort_unstable();
         }
     }
-    for _ in 0..rounds {
-        for &(v, plane) in &projections {
-            let p = &mut filled.template.vertices[v as usize];
-            let image = plane.nearest(*p);
-            let distance = (image - *p).length();
+    // Walls stay behind facets, so that points are exactly on them.
+    projections.sort_by_key(|&(v, _)| v);
+    for planes in projections.chunk_by(|a, b| a.0 == b.0) {
+        let p = &mut filled.template.vertices[planes[0].0 as usize];
+        *p = settled(*p, planes.len(), |i, p| {
+            let image = planes[i].1.nearest(p);
+            let distance = (image - p).length();
             if distance > restorer.tolerance {
                 return Err(format!(
                     "a vertex is {distance:.3e} off the wall or facet it belongs to near {}",
-                    Place(*p)
+                    Place(p)
                 ));
             }
-            *p = image;
-        }
+            Ok(image)
+        })?;
     }
     for &v in new_on_axis() {
         let p = &mut filled.template.vertices[v as usize];

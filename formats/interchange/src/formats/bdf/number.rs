@@ -1,6 +1,6 @@
 //! Real numbers of bulk data.
 
-use crate::text::number;
+use crate::text::{number, significant_digits};
 
 /// Columns of a large field, the longest number that programs read.
 const WIDTH: usize = 16;
@@ -35,9 +35,10 @@ pub fn real(x: f64) -> String {
     }
     let nearest = |form: &dyn Fn(usize) -> String| (0..WIDTH).rev().map(form).find(fits);
     let fixed = nearest(&|decimals| fixed(&format!("{x:.decimals$}")));
-    // What an exponent takes is more than the zeros behind the point that it saves.
+    // A point, and a sign and a digit of the exponent, are what the other form has beside digits.
+    let most = WIDTH - usize::from(x < 0.0) - ".-1".len();
     if let Some(fixed) = &fixed
-        && (1e-2..1.0).contains(&x.abs())
+        && significant_digits(fixed.as_bytes()) as usize >= most
     {
         return fixed.clone();
     }

@@ -8,14 +8,7 @@ use glam::DVec3;
 use rustc_hash::FxHashSet;
 use std::collections::BTreeMap;
 use std::io;
-
-/// Smallest part of a unit vector that is not rounding: normals are products of a few rotations, which
-/// are off by some 1e-15, and CalculiX is given 13 digits.
-const ROUNDING: f64 = 1e-12;
-
-/// Smallest part of a unit vector that another direction leaves: the sine of the least angle between two
-/// mirror planes, 180 degrees over the largest order of 32768, is 1e-4.
-const INDEPENDENT: f64 = 1e-6;
+use tmesh::ROUNDING;
 
 /// An equation: the direction it is solved for, and the three coefficients.
 type Row = (usize, [f64; 3]);
@@ -94,10 +87,12 @@ pub fn write(
 }
 
 fn without_rounding(v: DVec3) -> DVec3 {
-    let kept = v
-        .to_array()
-        .map(|x| if x.abs() < ROUNDING { 0.0 } else { x });
-    DVec3::from_array(kept).normalize()
+    DVec3::from_array(v.to_array().map(exact)).normalize()
+}
+
+/// A component of a unit vector, or of what is left of one: zero where it is rounding.
+fn exact(x: f64) -> f64 {
+    if x.abs() < ROUNDING { 0.0 } else { x }
 }
 
 /// Reduced row echelon form with the largest coefficient as pivot: as many rows as directions are
@@ -112,17 +107,14 @@ fn independent(directions: &[DVec3]) -> Vec<Row> {
         let largest =
             |row: &[f64; 3]| (0..3).fold(0, |a, b| if row[b].abs() > row[a].abs() { b } else { a });
         let pivot = largest(&new);
-        if new[pivot].abs() < INDEPENDENT {
+        // Of a direction that depends on the others rounding is left, of another one at least the sine
+        // of the least angle between two mirror planes, 180 degrees over the largest order: 1e-4. The
+        // root of the epsilon lies between them.
+        if new[pivot].abs() < f64::EPSILON.sqrt() {
             continue;
         }
         let scale = new[pivot];
-        new = new.map(|x| {
-            if (x / scale).abs() < ROUNDING {
-                0.0
-            } else {
-                x / scale
-            }
-        });
+        new = new.map(|x| exact(x) / scale);
         for (_, row) in &mut rows {
             subtract(row, &new, pivot);
         }
@@ -135,10 +127,7 @@ fn independent(directions: &[DVec3]) -> Vec<Row> {
 fn subtract(from: &mut [f64; 3], row: &[f64; 3], pivot: usize) {
     let factor = from[pivot];
     for k in 0..3 {
-        from[k] -= factor * row[k];
-        if from[k].abs() < ROUNDING {
-            from[k] = 0.0;
-        }
+        from[k] = exact(from[k] - factor * row[k]);
     }
     from[pivot] = 0.0;
 }
@@ -163,6 +152,11 @@ mod tests {
             assert_eq!(two[1 - i].1[*pivot], 0.0);
             assert!(DVec3::from_array(*row).dot(line).abs() < 1e-15);
         }
+        // Planes at the least angle that there is are two, and planes apart by rounding one.
+        let turned = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let least = std::f64::consts::PI / 32_768.0;
+        assert_eq!(independent(&[DVec3::X, turned(least)]).len(), 2);
+        assert_eq!(independent(&[DVec3::X, turned(1e-15)]).len(), 1);
         // Three fix the point.
         let three = independent(&[tilted, DVec3::Y, DVec3::new(0.6, 0.0, 0.8), DVec3::X]);
         assert_eq!(three.len(), 3);

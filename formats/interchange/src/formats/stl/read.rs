@@ -13,9 +13,6 @@ const FACET: usize = 50;
 /// Facets that sniffing looks at: each has nine numbers that random bytes pass for coordinates with a
 /// chance of about 3 in 4, so that one facet in 13 would do; 64 leave no doubt, and fewer are in the head.
 const LOOKED_AT: usize = 64;
-/// Sizes of coordinates that are expected, in any unit. A choice: bytes of other formats are numbers
-/// beyond it more often than not.
-const SIZES: std::ops::Range<f64> = 1e-30..1e30;
 /// Bytes of a text that are looked at; binary files have zeros among the first hundred.
 const TEXT_HEAD: usize = 1024;
 
@@ -41,11 +38,18 @@ fn looks_binary(head: &[u8]) -> bool {
         .all(|facet| {
             // Normals may be anything, and some writers leave them undefined.
             let [_, corners @ ..] = vectors(facet);
-            corners.iter().all(|c| {
-                let size = c.abs().max_element();
-                c.is_finite() && (size == 0.0 || SIZES.contains(&size))
-            })
+            let largest = corners.map(|c| c.abs().max_element());
+            let largest = largest.into_iter().fold(0.0, f64::max);
+            corners.iter().all(|c| c.is_finite()) && (largest == 0.0 || is_size(largest))
         })
+}
+
+/// Whether a number can be the largest coordinate of a facet, in any unit: single precision, in which
+/// the file is written, holds its square, as an area or the square of a distance needs. Small integers,
+/// of which other formats consist, are far below, and a quarter of random numbers is above.
+fn is_size(largest: f64) -> bool {
+    let squares = f64::from(f32::MIN_POSITIVE)..f64::from(f32::MAX);
+    squares.contains(&(largest * largest))
 }
 
 /// Whether the bytes are those of an ASCII file.
@@ -277,5 +281,21 @@ mod tests {
         assert!(looks_binary(&bytes) && !looks_ascii(&bytes));
         let soup = soup(&bytes).unwrap();
         assert_eq!((soup.points.len(), soup.faces.len()), (12, 4));
+    }
+
+    #[test]
+    fn facets_have_a_size_and_other_bytes_have_none() {
+        let scaled =
+            |scale: f32| TETRAHEDRON.map(|facet| facet.map(|corner| corner.map(|x| x * scale)));
+        for scale in [1e-18, 1.0, 1e18] {
+            assert!(looks_binary(&binary(b"any unit", &scaled(scale))));
+        }
+        // The cosine of a right angle, as programs compute it, times a millimetre.
+        let mut noisy = TETRAHEDRON;
+        noisy[0][0] = [6e-20, -6e-20, 1e-40];
+        assert!(looks_binary(&binary(b"noise at the origin", &noisy)));
+        let integers = [[[f32::from_bits(7), f32::from_bits(1000), 0.0]; 3]; 4];
+        assert!(!looks_binary(&binary(b"small integers", &integers)));
+        assert!(!looks_binary(&binary(b"beyond squares", &scaled(1e20))));
     }
 }

@@ -43,9 +43,9 @@ impl Kind {
 }
 
 /// The type of old files' lists of cells and of cell types.
-const INT: Kind = Kind::Of(Scalar::Signed(4));
+const INT: Kind = Kind::Of(Scalar::Signed(size_of::<i32>()));
 /// The type of colours.
-const BYTE: Kind = Kind::Of(Scalar::Unsigned(1));
+const BYTE: Kind = Kind::Of(Scalar::Unsigned(size_of::<u8>()));
 
 /// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {

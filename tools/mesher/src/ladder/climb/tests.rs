@@ -2,7 +2,7 @@ use super::*;
 use crate::{Elements, LADDER, Mesh, Task};
 use glam::DVec3;
 use std::sync::Mutex;
-use tmesh::{OUTSIDE, Region, Template, Triangle};
+use tmesh::{Document, OUTSIDE, Region, Template, Triangle};
 
 /// A mesher that ends as it is told, one word for each run, and notes what it was asked for.
 struct Scripted {
@@ -93,13 +93,8 @@ fn document() -> Document {
     document
 }
 
-/// Climbs until a mesh is taken that `short` does not complain about; gives the number of the run that was preferred.
-fn climb(
-    mesher: &Scripted,
-    rungs: &[Rung],
-    timeout: Option<Duration>,
-    short: impl Fn(usize) -> bool,
-) -> Result<usize, Error> {
+/// Climbs until a mesh is taken; gives the number of its run.
+fn climb(mesher: &Scripted, rungs: &[Rung], timeout: Option<Duration>) -> Result<usize, Error> {
     let document = document();
     let params = Params {
         timeout,
@@ -107,8 +102,7 @@ fn climb(
     };
     let sizes = Sizes::new(&document);
     let climb = Climb {
-        document: &document,
-        template: 0,
+        piece: Piece::of(&document, 0),
         params: &params,
         sizes: &sizes,
         preserve: false,
@@ -117,20 +111,13 @@ fn climb(
         mesher,
         log: &|_| (),
     };
-    let take = |_: Answer| {
-        let made = mesher.runs();
-        let short = short(made).then(|| "short".to_owned());
-        Ok(Judged { made, short })
-    };
-    climb.climb(Asks::Eased([1.1, 0.5]), take, |_, _| true)
+    climb.climb(Asks::Eased([1.1, 0.5]), |_| Ok(mesher.runs()))
 }
-
-const ALL_GOOD: fn(usize) -> bool = |_| false;
 
 #[test]
 fn the_first_mesh_as_asked_for_is_taken() {
     let mesher = Scripted::new(&[]);
-    assert_eq!(climb(&mesher, &LADDER, None, ALL_GOOD).unwrap(), 1);
+    assert_eq!(climb(&mesher, &LADDER, None).unwrap(), 1);
     let asked = mesher.asked.lock().unwrap();
     let [radius_edge, angle] = asked[0].0.bounds.unwrap();
     assert!((radius_edge - 1.54).abs() < 1e-12 && angle == 5.0);
@@ -139,11 +126,11 @@ fn the_first_mesh_as_asked_for_is_taken() {
 #[test]
 fn failures_by_chance_get_other_descriptions_until_the_ladder_ends() {
     let mesher = Scripted::new(&[FailureKind::Chance; 2]);
-    assert_eq!(climb(&mesher, &LADDER, None, ALL_GOOD).unwrap(), 3);
+    assert_eq!(climb(&mesher, &LADDER, None).unwrap(), 3);
     assert_eq!(mesher.asked.lock().unwrap()[1].1, [3, 2, 1, 0]);
     // Without an end of it, each rung for it is taken once.
     let mesher = Scripted::new(&[FailureKind::Chance; 100]);
-    let error = climb(&mesher, &LADDER, None, ALL_GOOD).unwrap_err();
+    let error = climb(&mesher, &LADDER, None).unwrap_err();
     let descriptions = LADDER.iter().filter(|r| r.after == Ending::Chance).count();
     assert_eq!(mesher.runs(), 1 + descriptions);
     assert!(mesher.runs() <= 1 + LADDER.len());
@@ -153,7 +140,7 @@ fn failures_by_chance_get_other_descriptions_until_the_ladder_ends() {
     );
     // No rungs, no other attempt.
     let mesher = Scripted::new(&[FailureKind::Chance]);
-    assert!(climb(&mesher, &[], None, ALL_GOOD).is_err());
+    assert!(climb(&mesher, &[], None).is_err());
     assert_eq!(mesher.runs(), 1);
 }
 
@@ -167,69 +154,8 @@ fn failures_that_nothing_changes_end_it() {
         FailureKind::NoMemory,
     ] {
         let mesher = Scripted::new(&[kind; 100]);
-        assert!(climb(&mesher, &LADDER, None, ALL_GOOD).is_err());
+        assert!(climb(&mesher, &LADDER, None).is_err());
         assert_eq!(mesher.runs(), 1, "{kind:?}");
-    }
-}
-
-#[test]
-fn a_mesh_that_is_short_is_kept_if_a_better_one_fails() {
-    let always: fn(usize) -> bool = |_| true;
-    let mesher = Scripted::new(&[]);
-    assert_eq!(climb(&mesher, &LADDER, None, always).unwrap(), 2);
-    {
-        let asked = mesher.asked.lock().unwrap();
-        assert_eq!(asked.len(), 2, "the bounds are eased once");
-        assert_eq!(asked[1].0.bounds, Some([1.4, 10.0]));
-    }
-    /// Succeeds first and fails from then on.
-    struct Once(Scripted, FailureKind);
-    impl Mesher for Once {
-        fn mesh(&self, plc: &Plc, task: &Task, l: Limits, log: Log<'_>) -> Result<Mesh, Failure> {
-            let made = self.0.mesh(plc, task, l, log);
-            match self.0.runs() {
-                1 => made,
-                _ => Err(Failure {
-                    kind: self.1,
-                    what: "no more".to_owned(),
-                    step: String::new(),
-                }),
-            }
-        }
-        fn intersections(&self, _: &Plc, _: Limits) -> Vec<[usize; 2]> {
-            Vec::new()
-        }
-    }
-    for (kind, kept) in [
-        (FailureKind::Chance, true),
-        (FailureKind::TimedOut, true),
-        // What was made before must not stand in for what would have been made another time.
-        (FailureKind::Killed, false),
-        (FailureKind::Outside, false),
-    ] {
-        let mesher = Once(Scripted::new(&[]), kind);
-        let document = document();
-        let params = Params::default();
-        let climb = Climb {
-            document: &document,
-            template: 0,
-            params: &params,
-            sizes: &Sizes::new(&document),
-            preserve: false,
-            rungs: &LADDER,
-            deadline: Deadline::start(None),
-            mesher: &mesher,
-            log: &|_| (),
-        };
-        let take = |_| {
-            Ok(Judged {
-                made: mesher.0.runs(),
-                short: Some("short".to_owned()),
-            })
-        };
-        let made = climb.climb(Asks::Eased([1.0; 2]), take, |_, _| true);
-        assert_eq!(made.ok(), kept.then_some(1), "{kind:?}");
-        assert_eq!(mesher.0.runs(), 2);
     }
 }
 
@@ -237,6 +163,6 @@ fn a_mesh_that_is_short_is_kept_if_a_better_one_fails() {
 fn no_rung_is_taken_when_the_time_is_over() {
     let mesher = Scripted::new(&[FailureKind::Chance; 100]);
     let none = Some(Duration::from_nanos(1));
-    assert!(climb(&mesher, &LADDER, none, ALL_GOOD).is_err());
+    assert!(climb(&mesher, &LADDER, none).is_err());
     assert_eq!(mesher.runs(), 1);
 }

@@ -1,7 +1,7 @@
 //! No two vertices in one place.
 
 use crate::check::findings::{Findings, Kind, at};
-use crate::check::tolerances::COINCIDENCE;
+use crate::tolerances::PROMISE;
 use geom::grid::coincident;
 use tmesh::Document;
 
@@ -9,7 +9,7 @@ use tmesh::Document;
 pub fn coincident_vertices(document: &Document, size: f64, findings: &mut Findings) {
     for (index, template) in document.templates.iter().enumerate() {
         let vertices = template.vertices.iter().copied();
-        coincident(vertices, COINCIDENCE * size, |later, earlier| {
+        coincident(vertices, PROMISE * size, |later, earlier| {
             findings.add(Kind::Coincident, || {
                 let [p, q] = [later, earlier].map(|v| template.vertices[v as usize]);
                 format!(

@@ -1,6 +1,6 @@
 //! What a promise of symmetry asks to be checked.
 
-use crate::check::tolerances::FRAME;
+use crate::tolerances::PROMISE;
 use glam::{DMat3, DVec3};
 use kit::number;
 use tmesh::{Frame, Group, Isometry, Promise};
@@ -15,7 +15,7 @@ pub fn frame(promise: &Promise) -> Option<Frame> {
         .to_cols_array()
         .iter()
         .fold(0.0_f64, |m, x| m.max(x.abs()));
-    let proper = off <= FRAME && rotation.determinant() > 0.0 && origin.is_finite();
+    let proper = off <= PROMISE && rotation.determinant() > 0.0 && origin.is_finite();
     let turns = |group: Group| (1..=group.kind.max_order()).contains(&group.order);
     let fits = turns(promise.group)
         && promise.outside.is_none_or(|o| {

@@ -3,18 +3,14 @@
 use super::generators::Generator;
 use super::part::Part;
 use crate::check::findings::{Findings, Kind, at};
-use crate::check::tolerances::{IMAGE, REACH, ROUNDINGS};
+use crate::tolerances::PROMISE;
 use geom::grid::Grid;
+use geom::tree::Tree;
 use glam::DVec3;
 use tmesh::Document;
 
 /// Stands for no image.
 pub const NONE: u32 = u32::MAX;
-
-/// Comparisons per vertex that the search for far images may take: a cell of its grid holds few
-/// vertices of usual meshes, but most of them where a mesh is extremely graded, and a broken mesh is
-/// known to be broken anyway.
-const COMPARISONS: u64 = 1000;
 
 /// Finds the vertices that images fall on.
 pub struct Matcher<'a> {
@@ -24,8 +20,12 @@ pub struct Matcher<'a> {
     size: f64,
     /// Largest distance allowed, model units.
     pub limit: f64,
+    /// How far from an image its vertex is looked for where none is near enough: halfway between the limit and
+    /// the size by order of magnitude. The distance is only reported, and beyond this a vertex is said to
+    /// have no image.
+    reach: f64,
     near: Option<Grid<3>>,
-    far: Option<Grid<3>>,
+    far: Option<Tree>,
 }
 
 impl<'a> Matcher<'a> {
@@ -35,12 +35,16 @@ impl<'a> Matcher<'a> {
         let vertices = document.templates[0].vertices.iter();
         let world = vertices.map(|p| document.frame.to_world(*p).abs().max_element());
         let largest = world.fold(origin.abs().max_element(), f64::max);
+        // World coordinates far from the origin hold less. Half an epsilon is lost when one is stored and as
+        // much when another frame is made of it, in each of three coordinates, of the vertex and of its
+        // image: twice the square root of three, below four.
+        let limit = PROMISE * size + 4.0 * f64::EPSILON * largest;
         Self {
             document,
             points,
             size,
-            // World coordinates far from the origin hold less.
-            limit: IMAGE * size + ROUNDINGS * f64::EPSILON * largest,
+            limit,
+            reach: (limit * size).sqrt(),
             near: None,
             far: None,
         }
@@ -57,8 +61,6 @@ impl<'a> Matcher<'a> {
     ) -> (f64, Vec<u32>) {
         let placed = generator.isometry.placed();
         let (points, limit) = (self.points, self.limit);
-        let mut budget = COMPARISONS * points.len() as u64;
-        let all = |reach: f64| Grid::of(points.iter().copied(), reach);
         let mut residual = 0.0_f64;
         let mut images = Vec::with_capacity(points.len());
         for (v, &p) in points.iter().enumerate() {
@@ -67,15 +69,17 @@ impl<'a> Matcher<'a> {
                 continue;
             }
             let image = placed.apply(p);
-            let near = self.near.get_or_insert_with(|| all(limit));
+            let all = || Grid::of(points.iter().copied(), limit);
+            let near = self.near.get_or_insert_with(all);
             let mut found = near.nearest(image, limit);
             if found.is_none() {
-                let reach = REACH * self.size;
-                let far = self.far.get_or_insert_with(|| all(reach));
-                found = far.nearest_of(image, reach, &mut budget);
+                let all = || Tree::new(points.iter().map(|&p| [p; 3]));
+                let far = self.far.get_or_insert_with(all);
+                let nearest = far.nearest(image, self.reach);
+                found = nearest.map(|n| (n.triangle, n.distance));
                 self.report(v as u32, found, &generator.name, findings);
             }
-            let (image, distance) = found.unwrap_or((NONE, REACH * self.size));
+            let (image, distance) = found.unwrap_or((NONE, self.reach));
             residual = residual.max(distance);
             images.push(image);
         }
@@ -99,9 +103,9 @@ impl<'a> Matcher<'a> {
                 )
             }),
             None => findings.add(Kind::NoImage, || {
-                let reach = REACH * self.size;
                 format!(
-                    "the image of vertex {v} under {name} has no vertex within {reach:.3e} {}",
+                    "the image of vertex {v} under {name} has no vertex within {:.3e} {}",
+                    self.reach,
                     place()
                 )
             }),

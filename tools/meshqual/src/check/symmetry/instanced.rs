@@ -1,8 +1,8 @@
 //! Symmetry of instances: placements instead of coordinates are mapped.
 
 use crate::check::findings::{Findings, Kind};
-use crate::check::tolerances::RADIUS;
 use crate::instances::{Realized, realized};
+use crate::tolerances::PROMISE;
 use kit::number;
 use tmesh::{Document, Outside, Promise};
 
@@ -35,7 +35,7 @@ fn outside_holds(realized: &Realized, promise: &Promise, findings: &mut Findings
     };
     let candidates = [Some(whole), realized.outside];
     let holds = candidates.iter().flatten().any(|o| {
-        promised.group.is_subgroup_of(o.group) && o.radius <= promised.radius * (1.0 + RADIUS)
+        promised.group.is_subgroup_of(o.group) && o.radius <= promised.radius * (1.0 + PROMISE)
     });
     if !holds {
         findings.add(Kind::Instances, || {

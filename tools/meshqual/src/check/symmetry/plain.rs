@@ -5,7 +5,6 @@ use super::generators::{frame, generators};
 use super::images::Matcher;
 use super::part::Part;
 use crate::check::findings::{Findings, Kind};
-use crate::check::tolerances::RADIUS;
 use glam::DVec3;
 use tmesh::{Document, Promise};
 
@@ -72,8 +71,7 @@ pub fn check(
         let part = match generator.beyond {
             None => &Part::default(),
             Some(radius) => outer.get_or_insert_with(|| {
-                let margin = RADIUS * radius + matcher.limit;
-                Part::beyond(radius + margin, &template.tets, &points)
+                Part::beyond(radius + matcher.limit, &template.tets, &points)
             }),
         };
         let (residual, images) = matcher.images(generator, part, findings);

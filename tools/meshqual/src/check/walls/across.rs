@@ -2,8 +2,8 @@
 
 use super::face::Face;
 use crate::check::findings::{Findings, Kind};
-use crate::check::tolerances::COINCIDENCE;
 use crate::instances::Links;
+use crate::tolerances::PROMISE;
 use geom::grid::Grid;
 use rustc_hash::FxHashSet;
 use tmesh::Isometry;
@@ -65,7 +65,7 @@ impl<'a> Across<'a> {
     fn check_vertices(&self, findings: &mut Findings) {
         let mesh = &self.wall.mesh;
         let here = &self.wall.template(self.wall.own).vertices;
-        let reach = COINCIDENCE * mesh.size;
+        let reach = PROMISE * mesh.size;
         let grid = Grid::of(here.iter().copied(), reach);
         let step = self.wall.gluing.step;
         let placed = step.placed();

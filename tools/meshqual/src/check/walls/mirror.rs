@@ -2,7 +2,7 @@
 
 use super::face::Face;
 use crate::check::findings::{Findings, Kind};
-use crate::check::tolerances::COINCIDENCE;
+use crate::tolerances::PROMISE;
 use tmesh::Plane;
 
 /// Checks that everything on the plane is listed, and nothing lies beyond it.
@@ -13,7 +13,7 @@ pub fn check(wall: &Face<'_>, plane: Plane, findings: &mut Findings) {
     let vertices = template.vertices.iter().enumerate();
     for (v, &p) in vertices.filter(|v| !listed[v.0]) {
         let distance = plane.distance(p);
-        let kind = if distance.abs() <= COINCIDENCE * wall.mesh.size {
+        let kind = if distance.abs() <= PROMISE * wall.mesh.size {
             Kind::NearWall
         } else if distance > 0.0 {
             Kind::BeyondWall

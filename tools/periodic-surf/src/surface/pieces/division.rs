@@ -1,7 +1,5 @@
 //! One division for two edges that are images of each other.
 
-use mesher::FLATNESS;
-
 /// A division of the unit interval as dense as the denser of two everywhere, evenly so: inner
 /// points, increasing.
 ///
@@ -36,9 +34,10 @@ pub fn merged(low: &[f64], high: &[f64]) -> Vec<f64> {
     points
 }
 
-/// Whether two divisions are the same but for rounding.
+/// Whether two divisions are the same but for rounding, which may take half of the digits.
 pub fn same(a: &[f64], b: &[f64]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= FLATNESS)
+    let rounding = f64::EPSILON.sqrt();
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= rounding)
 }
 
 /// The same division, seen from the other end.

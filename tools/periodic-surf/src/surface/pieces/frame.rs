@@ -2,10 +2,6 @@
 
 use glam::{DVec2, DVec3};
 
-/// Cosine of the angle to the axis up to which a normal's frame begins with the horizontal direction: beyond, that
-/// direction is the difference of nearly equal numbers. Any value between leaves enough digits.
-const STEEP: f64 = 0.9;
-
 /// An orthonormal frame in a facet's plane; upright and level facets keep exact coordinates.
 pub struct Frame {
     u: DVec3,
@@ -17,7 +13,8 @@ pub struct Frame {
 impl Frame {
     /// The frame of a plane with this unit normal.
     pub fn new(normal: DVec3) -> Self {
-        let across = if normal.z.abs() > STEEP {
+        // Where a normal is nearer to the axis than to the horizontal plane, its horizontal direction loses digits.
+        let across = if normal.z.abs() > normal.truncate().length() {
             DVec3::X - normal * normal.x
         } else {
             DVec3::Z.cross(normal)

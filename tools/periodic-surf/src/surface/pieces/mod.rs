@@ -6,4 +6,4 @@ mod patch;
 
 pub use division::{merged, reversed, same, symmetric};
 pub use frame::Frame;
-pub use patch::{Patch, STRAIGHT};
+pub use patch::Patch;

@@ -8,14 +8,6 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// circumcentres ends for any bound below 30, and takes many more points close to it.
 const MIN_ANGLE: f64 = 27.0;
 
-/// Sine of the turn up to which three points count as on one line: that of points which the mesher has put on a straight
-/// edge, each off by [`mesher::ROUNDING`], at a tenth of the size.
-pub const STRAIGHT: f64 = 1e-10;
-
-/// How far a straight outline is bowed, relative to its length: the geometric mean of the size and of what rounding makes of
-/// it, so that the bow is seen by the triangulation and by nobody else.
-const BOW: f64 = 1e-8;
-
 /// Rounds of removing and inserting points at most. Each inserts one point for every few triangles that are bad, so that
 /// their number halves about every round; what is left after these is outlines that allow nothing better.
 const ROUNDS: usize = 40;
@@ -29,6 +21,8 @@ pub struct Patch {
     /// Outline and inner edges, as pairs of points; the facet is to the left. Edges with the facet
     /// on both sides are listed in both directions.
     pub outline: Vec<[u32; 2]>,
+    /// A point that is no farther from the line between its neighbours is on it.
+    pub rounding: f64,
 }
 
 /// What goes wrong in a plane: the point it happens at.
@@ -88,9 +82,9 @@ impl Patch {
         Ok(Vec::new())
     }
 
-    /// Bows straight runs of the outline inwards, by far less than any detail. Points on a straight edge are on
-    /// one line up to rounding only, and a triangle of three of them would be the facet on the other
-    /// side of the edge as well.
+    /// Bows straight runs of the outline inwards, by the geometric mean of their length and of what rounding makes of it, so
+    /// that the triangulation sees the bow and nobody else. Points on a straight edge are on one line up to rounding
+    /// only, and a triangle of three of them would be the facet on the other side of the edge as well.
     fn bow(&mut self, edges: &FxHashSet<[u32; 2]>) {
         const NONE: u32 = u32::MAX;
         const MANY: u32 = u32::MAX - 1;
@@ -109,8 +103,9 @@ impl Patch {
             }
             let [a, v, b] = [a, v, b].map(|v| points[v as usize]);
             let (p, q) = (v - a, b - v);
-            p.perp_dot(q).abs() <= STRAIGHT * p.length() * q.length() && p.dot(q) > 0.0
+            p.perp_dot(q).abs() <= self.rounding * (p + q).length() && p.dot(q) > 0.0
         };
+        let bow = f64::EPSILON.sqrt();
         let mut bowed: Vec<(u32, DVec2)> = Vec::new();
         for &[start, first] in &self.outline {
             if is_straight(start) || !is_straight(first) {
@@ -125,7 +120,7 @@ impl Patch {
             let along = to - from;
             for &v in &run[1..run.len() - 1] {
                 let s = (at(v) - from).dot(along) / along.length_squared();
-                bowed.push((v, along.perp() * (4.0 * BOW * s * (1.0 - s))));
+                bowed.push((v, along.perp() * (4.0 * bow * s * (1.0 - s))));
             }
         }
         for (v, by) in bowed {
@@ -304,6 +299,7 @@ mod tests {
             points,
             fixed,
             outline,
+            rounding: 1e-10,
         };
         let triangles = patch.triangulate().unwrap();
         assert!(patch.points.len() > fixed + 1);
@@ -337,6 +333,7 @@ mod tests {
             points,
             fixed,
             outline,
+            rounding: 1e-10,
         };
         let triangles = patch.triangulate().unwrap();
         // Points come side by side, each with its first corner.
@@ -360,6 +357,7 @@ mod tests {
                 .to_vec(),
             fixed: 4,
             outline: vec![[0, 1], [1, 2], [2, 3], [3, 0]],
+            rounding: 1e-10,
         };
         assert!(patch.triangulate().is_err());
     }

@@ -1,14 +1,12 @@
 //! How a mesh is looked at in pictures.
 
 use super::layout::LAYOUT;
+use crate::tolerances::PROMISE;
 use glam::{DMat3, DVec3};
 use tmesh::Document;
 
-/// Distance from the cutting plane up to which a vertex counts as on it, samples of the picture:
-/// above the rounding of coordinates placed by an isometry, and far too little to be seen.
-const ON_PLANE: f64 = 1e-9;
-
 /// How the mesh is looked at: from above, with the axis upright.
+#[derive(Clone, Copy)]
 pub struct View {
     rotation: DMat3,
     /// From the frame of the document to that of the axis.
@@ -18,6 +16,8 @@ pub struct View {
     /// Towards the eye, along the ground.
     towards: DVec3,
     centre: DVec3,
+    /// Up to this a vertex beyond the cutting plane counts as on it, model units.
+    on_plane: f64,
 }
 
 impl View {
@@ -45,29 +45,46 @@ impl View {
             scale: 1.0,
             towards: DVec3::new(ca, sa, 0.0),
             centre: origin,
+            on_plane: PROMISE * document.diagonal(),
         };
+        view.fit(document, |_| true);
+        if promise.is_none() && document.is_plain() {
+            // Nothing is known of an axis: cut through the middle.
+            view.centre = rotation.transpose() * view.middle;
+        }
+        view
+    }
+
+    /// The view that shows what is behind the plane through the axis, or all if there is nothing.
+    pub fn behind(document: &Document) -> Self {
+        let mut view = Self::of(document);
+        let all = view;
+        view.fit(document, |p| all.is_behind(p));
+        view
+    }
+
+    /// Makes the placed vertices that are shown fill the picture.
+    fn fit(&mut self, document: &Document, shown: impl Fn(DVec3) -> bool) {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for instance in &document.instances {
             let placed = instance.isometry.placed();
-            for &p in &document.templates[instance.template as usize].vertices {
-                let q = rotation * placed.apply(p);
+            let vertices = document.templates[instance.template as usize]
+                .vertices
+                .iter();
+            for p in vertices.map(|&p| placed.apply(p)).filter(|&p| shown(p)) {
+                let q = self.rotation * p;
                 low = low.min(q);
                 high = high.max(q);
             }
         }
         if low.x <= high.x {
             let size = high - low;
-            view.middle = 0.5 * (low + high);
+            self.middle = 0.5 * (low + high);
             let fit = |pixels: usize, extent: f64| {
                 LAYOUT.fill * (pixels * LAYOUT.samples) as f64 / extent.max(f64::MIN_POSITIVE)
             };
-            view.scale = fit(LAYOUT.width, size.x).min(fit(LAYOUT.height, size.y));
-            if promise.is_none() && document.is_plain() {
-                // Nothing is known of an axis: cut through the middle.
-                view.centre = rotation.transpose() * view.middle;
-            }
+            self.scale = fit(LAYOUT.width, size.x).min(fit(LAYOUT.height, size.y));
         }
-        view
     }
 
     /// Samples to the right, samples down, and depth towards the eye.
@@ -79,6 +96,6 @@ impl View {
 
     /// Whether a point lies behind the plane through the axis that faces the eye, or on it.
     pub fn is_behind(&self, p: DVec3) -> bool {
-        (self.upright * (p - self.centre)).dot(self.towards) <= ON_PLANE / self.scale
+        (self.upright * (p - self.centre)).dot(self.towards) <= self.on_plane
     }
 }

@@ -1,0 +1,159 @@
+//! What is done to a welded surface before its sides are told apart.
+
+use super::closure::{groups_are_closed, odd_edges, open_surface};
+use super::coincident::merge;
+use super::needles;
+use super::stitch::{Closing, close};
+use super::surface::Surface;
+use crate::document::{largest_coordinate, tolerance};
+use crate::{HealError, Repair, RepairKind};
+use geom::edges::Edges;
+use geom::tolerance::Tolerance;
+use glam::DVec3;
+
+/// A surface while it is mended, and what was done.
+pub struct Mending {
+    /// The surface.
+    pub surface: Surface,
+    /// Its edges.
+    pub edges: Edges,
+    /// Edges with an odd number of triangles.
+    pub odd: Vec<usize>,
+    /// What was repaired, a kind each.
+    pub repairs: Vec<Repair>,
+    relative_precision: f64,
+}
+
+impl Mending {
+    /// Nothing is mended yet.
+    pub fn new(surface: Surface, relative_precision: f64) -> Self {
+        let edges = Edges::new(&surface.triangles);
+        Self {
+            odd: odd_edges(&edges),
+            surface,
+            edges,
+            repairs: Vec::new(),
+            relative_precision,
+        }
+    }
+
+    fn update_edges(&mut self) {
+        self.edges = Edges::new(&self.surface.triangles);
+        self.odd = odd_edges(&self.edges);
+    }
+
+    /// Adds a repair that moves nothing to those of its kind.
+    fn repaired(&mut self, kind: RepairKind, count: usize, place: DVec3) {
+        match self.repairs.iter_mut().find(|r| r.kind == kind) {
+            Some(known) => known.count += count,
+            None => self.repairs.push(Repair::in_place(kind, count, place)),
+        }
+    }
+
+    /// Drops triangles with two equal corners.
+    ///
+    /// # Errors
+    /// There are no others.
+    pub fn drop_collapsed(&mut self) -> Result<(), HealError> {
+        if let Some((count, place)) = self.surface.drop_collapsed() {
+            self.repaired(RepairKind::Collapsed, count, place);
+            self.update_edges();
+        }
+        if self.surface.triangles.is_empty() {
+            return Err(HealError::BadSurface(
+                "all its triangles have two equal corners".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    /// Merges triangles with the same corners, of one solid, or `across` solids.
+    ///
+    /// # Errors
+    /// More than two solids at one triangle.
+    pub fn merge(&mut self, across: bool) -> Result<(), HealError> {
+        let merged = merge(&mut self.surface, &self.edges, across)?;
+        if let Some(place) = merged.first {
+            self.repaired(RepairKind::Repeated, merged.dropped, place);
+        }
+        if merged.dropped + merged.interfaces > 0 {
+            self.update_edges();
+        }
+        Ok(())
+    }
+
+    /// Closes cracks of an open surface: of each group where that closes them all, or else of all groups together.
+    ///
+    /// # Errors
+    /// The surface stays open, or would be closed wrongly.
+    pub fn close(&mut self) -> Result<(), HealError> {
+        if self.odd.is_empty() {
+            return Ok(());
+        }
+        let tolerance = tolerance(&self.surface.points, self.relative_precision);
+        let several = self.surface.groups.len() > 1;
+        if !several || !self.close_groups(&tolerance) {
+            let error = |m: &Self| open_surface(&m.surface, &m.edges, &m.odd);
+            let open = error(self);
+            let closing = close(&mut self.surface, &tolerance);
+            self.update_edges();
+            match closing {
+                Closing::Closed(repairs) => self.repairs.extend(repairs),
+                Closing::Open => return error(self).map_or(Ok(()), Err),
+                wrong => {
+                    let reason = wrong.reason(&self.surface);
+                    return open.map_or(Ok(()), |error| Err(error.because(&reason)));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Closes each group by itself; whether that closes all of them.
+    fn close_groups(&mut self, tolerance: &Tolerance) -> bool {
+        let mut closed = Vec::new();
+        for group in 0..self.surface.groups.len() as u32 {
+            let mut part = self.surface.part(group);
+            let edges = Edges::new(&part.triangles);
+            if odd_edges(&edges).is_empty() {
+                continue;
+            }
+            let Closing::Closed(repairs) = close(&mut part, tolerance) else {
+                return false;
+            };
+            closed.push((group, part, repairs));
+        }
+        for (group, part, repairs) in closed {
+            self.surface.take_group(group, part);
+            for repair in repairs {
+                match self.repairs.iter_mut().find(|r| r.kind == repair.kind) {
+                    Some(known) => known.add(&repair),
+                    None => self.repairs.push(repair),
+                }
+            }
+        }
+        self.update_edges();
+        true
+    }
+
+    /// Removes triangles without area.
+    pub fn remove_flat(&mut self) {
+        let rounding = self.relative_precision * largest_coordinate(&self.surface.points);
+        if let Some((removed, place)) = needles::remove(&mut self.surface, rounding) {
+            if removed > 0 {
+                self.repaired(RepairKind::Flat, removed, place);
+            }
+            self.update_edges();
+        }
+    }
+
+    /// The number of solids: groups are solids where each is closed, else all of them are one.
+    pub fn tell_solids(&mut self) -> usize {
+        let several = self.surface.groups.len() > 1;
+        if self.odd.is_empty() && several && groups_are_closed(&self.surface, &self.edges) {
+            return self.surface.groups.len();
+        }
+        self.surface.solid.fill(0);
+        1
+    }
+}

@@ -1,0 +1,25 @@
+//! What is meshed: a template where it stands in its document.
+
+use tmesh::{Document, Template};
+
+/// A template of a document, or a surface that is to take its place there.
+#[derive(Clone, Copy)]
+pub struct Piece<'a> {
+    /// The document, for what surrounds the template.
+    pub document: &'a Document,
+    /// The template's number.
+    pub index: usize,
+    /// The template as it is to be meshed.
+    pub template: &'a Template,
+}
+
+impl<'a> Piece<'a> {
+    /// A template as the document has it.
+    pub fn of(document: &'a Document, index: usize) -> Self {
+        Self {
+            document,
+            index,
+            template: &document.templates[index],
+        }
+    }
+}

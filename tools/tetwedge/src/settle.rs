@@ -1,0 +1,54 @@
+//! The faces that copies share, divided as the elements need before a template is filled.
+
+use mesher::{Error, Log, Params};
+use periodic_surf::{SurfaceError, prepare};
+use tmesh::Document;
+
+/// A document whose surface is to stay, and what there is to say about it.
+pub struct Settled {
+    /// The document.
+    pub document: Document,
+    /// What the user should know, if the surface could not be made.
+    pub advice: Option<String>,
+    /// What was made, a sentence for each template.
+    pub facts: Vec<String>,
+}
+
+/// Makes the surface of templates with seams, as `periodic-surf` does, unless that was done before or is not wanted. A
+/// surface that cannot be made stays as it was cut.
+///
+/// # Errors
+/// What another attempt would not change: time, memory, what is asked for.
+pub fn settle(document: Document, params: &Params, log: Log<'_>) -> Result<Settled, Error> {
+    let kept = |document, advice| Settled {
+        document,
+        advice,
+        facts: Vec::new(),
+    };
+    let filled = document.templates.iter().any(|t| !t.tets.is_empty());
+    if document.wishes.keep_surface() || filled {
+        return Ok(kept(document, None));
+    }
+    // Switches are meant for the tetrahedra.
+    let surface = Params {
+        switches: String::new(),
+        ..params.clone()
+    };
+    match prepare(document.clone(), &surface, log) {
+        Ok((document, report)) => Ok(Settled {
+            document,
+            advice: None,
+            facts: match report.remade {
+                0 => Vec::new(),
+                _ => report.facts,
+            },
+        }),
+        Err(SurfaceError::Mesher(error)) if !error.is_chance() => Err(error),
+        Err(error) => Ok(kept(
+            document,
+            Some(format!(
+                "the faces that copies share stay as they were cut, which costs elements or their quality: {error}"
+            )),
+        )),
+    }
+}
