@@ -13,9 +13,6 @@ use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 use tmesh::{Frame, Group, Isometry, Kind};
 
-/// How many places of a seam are tried, at most: at the fourth, most bodies that cannot be cut have failed for a
-/// reason that holds everywhere.
-const TRIALS: usize = 4;
 /// Harm from which walls on the axes of half turns, which nobody asked for, are given up, since they cannot be elsewhere;
 /// and by how much more a seam at an angle that was asked for harms than at the best place when the user is told. Twenty
 /// thousand tetrahedra in each copy, by the coefficients of the model, the size of a wedge. Of half turns, walls
@@ -105,7 +102,10 @@ impl Places {
             }
             _ => 0.0,
         };
-        if body.tolerance.slide() > 0.0 && body.symmetry.rotation_regions().pairs.is_empty() {
+        // Where the images of a drawing are off by more than its points are moved, sectors are drawn differently.
+        let slide = body.tolerance.slide();
+        let drawn_alike = slide == 0.0 || body.tolerance.drift() <= slide;
+        if !drawn_alike && body.symmetry.rotation_regions().pairs.is_empty() {
             return Self::fixed(body, Self::best_sector(body, group), harm);
         }
         if !Self::has_choice(body, group) {
@@ -181,7 +181,6 @@ impl Places {
             warning = is_harmful(angle, given, list[0])?;
             list = vec![(angle, given)];
         }
-        list.truncate(TRIALS);
         // Turns of the rotation have as many faces as it has sides.
         let sides = if group.kind == Kind::S { 2.0 } else { 1.0 };
         let place = |(angle, harm): (f64, Harm)| {
