@@ -2,6 +2,7 @@
 
 mod meshqual;
 mod messages;
+mod repairs;
 mod rotassemble;
 mod symdetect;
 mod tetwedge;

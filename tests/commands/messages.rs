@@ -1,7 +1,9 @@
 //! Messages as objects, of every tool: `--message-format json`.
 
 use serde_json::Value;
-use support::{TOOLS, run};
+use std::fs::File;
+use std::process::{Command, Stdio};
+use support::{TOOLS, binary, run};
 
 const PYRAMID: &[u8] = include_bytes!("../../formats/tmesh/tests/golden/pyramid.tmesh");
 
@@ -65,4 +67,159 @@ fn other_messages_are_objects_too() {
         assert!(object["message"].is_string() && object["tool"] == "symdetect");
         assert_eq!(object["seconds"].is_number(), object["level"] == "info");
     }
+}
+
+/// The text on standard error of a run that sends standard output to a file.
+#[track_caller]
+fn said_to_file(tool: &str, arguments: &[&str], name: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    let input = folder.path().join("pyramid.tmesh");
+    std::fs::write(&input, PYRAMID).expect("a file");
+    let file = File::create(folder.path().join(name)).expect("a file");
+    let run = Command::new(binary(tool))
+        .args(arguments)
+        .arg(&input)
+        .stdout(Stdio::from(file))
+        .output();
+    let output = run.expect("it runs");
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{errors}");
+    errors
+}
+
+/// `rotassemble > a.vtu` wrote a legacy file, which no reader of `.vtu` opens, without a word.
+#[test]
+fn a_file_of_the_shell_that_is_named_after_another_format_is_pointed_out() {
+    if !cfg!(target_os = "linux") {
+        return;
+    }
+    let said = said_to_file("rotassemble", &[], "a.vtu");
+    assert!(
+        said.contains("a.vtu gets vtk: standard output is vtk"),
+        "{said}"
+    );
+    assert!(said.contains("--to vtu"), "{said}");
+    for (arguments, name) in [
+        (&[][..], "a.vtk"),
+        (&["--to", "vtu"], "a.vtu"),
+        (&[], "mesh"),
+        (&["-q"], "a.vtu"),
+    ] {
+        let said = said_to_file("rotassemble", arguments, name);
+        assert_eq!(said, "", "{arguments:?} {name}");
+    }
+}
+
+#[test]
+fn formats_that_cannot_be_written_are_not_offered() {
+    for to in ["obj", "ply", "odd"] {
+        let said = run("rotassemble", &["--to", to], PYRAMID);
+        assert_eq!(said.code, 2);
+        assert!(said.stderr.contains("vtk, vtu"), "{}", said.stderr);
+        assert!(!said.stderr.contains("smesh"), "{}", said.stderr);
+    }
+    let said = run("rotassemble", &["-o", "a.off"], PYRAMID);
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr.contains("off is not an output format"),
+        "{}",
+        said.stderr
+    );
+    let said = run("rotassemble", &["-o", "a.cgns"], PYRAMID);
+    assert_eq!(said.code, 2);
+    assert!(
+        said.stderr.contains("su2, unv, polymesh"),
+        "{}",
+        said.stderr
+    );
+    let said = run("symdetect", &["--from", "su2"], b"");
+    assert_eq!(said.code, 2);
+    assert!(said.stderr.contains("tmesh, stl, obj"), "{}", said.stderr);
+}
+
+#[test]
+fn a_file_of_a_cad_program_is_told_the_way_to_triangles() {
+    let step = b"ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\n";
+    let said = run("symdetect", &[], step);
+    assert_eq!(said.code, 3);
+    let way = "gmsh -2 part.step -o part.msh";
+    assert!(said.stderr.contains(way), "{}", said.stderr);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("wheel.igs");
+    std::fs::write(&path, "S      1\n").expect("a file");
+    let path = path.to_str().expect("text");
+    let said = run("symdetect", &[path], b"");
+    let way = format!("gmsh -2 {path} -o {}", path.replace(".igs", ".msh"));
+    assert!(said.stderr.contains(&way), "{}", said.stderr);
+    let said = run("symdetect", &[], b"anything");
+    assert!(
+        said.stderr.contains("--from: tmesh, stl"),
+        "{}",
+        said.stderr
+    );
+}
+
+/// A surface written as VTK lost its symmetry, and the next tool asked for symdetect.
+#[test]
+fn what_a_foreign_format_loses_is_said() {
+    let off = b"OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+    let said = run("symdetect", &["--to", "vtk"], off);
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    assert!(
+        said.stderr
+            .contains("vtk holds the mesh, not the symmetry C3v"),
+        "{}",
+        said.stderr
+    );
+    let said = run("symdetect", &["-q", "--to", "vtk"], off);
+    assert_eq!(said.stderr, "");
+    let detected = run("symdetect", &["-q"], off).stdout;
+    let said = run("wedgecut", &["--to", "vtu"], &detected);
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    assert!(
+        said.stderr
+            .contains("vtu holds the pieces, not how they are placed"),
+        "{}",
+        said.stderr
+    );
+}
+
+/// A folder of files that is there is written into; a file in its place is not replaced.
+#[test]
+fn a_format_of_a_folder_is_written_into_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let target = folder.path().join("polyMesh");
+    let path = target.to_str().expect("text");
+    for _ in 0..2 {
+        let said = run("rotassemble", &["-o", path], PYRAMID);
+        assert_eq!(said.code, 0, "{}", said.stderr);
+    }
+    let mut names: Vec<_> = std::fs::read_dir(&target)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name())
+        .collect();
+    names.sort();
+    assert_eq!(
+        names,
+        [
+            "boundary",
+            "cellZones",
+            "faces",
+            "neighbour",
+            "owner",
+            "points"
+        ]
+    );
+    let said = run("rotassemble", &["--to", "polymesh"], PYRAMID);
+    assert_eq!(said.code, 2);
+    assert!(said.stderr.contains("several files"), "{}", said.stderr);
+    let file = folder.path().join("a.polymesh");
+    std::fs::write(&file, "kept").expect("a file");
+    let said = run(
+        "rotassemble",
+        &["-o", file.to_str().expect("text")],
+        PYRAMID,
+    );
+    assert_eq!(said.code, 4);
+    assert_eq!(std::fs::read(&file).expect("a file"), b"kept");
 }

@@ -277,3 +277,26 @@ fn little_memory_is_said_to_be_little() {
     assert!(text.contains("memory"), "{text}");
     assert!(output.stdout.is_empty());
 }
+
+#[test]
+fn bounds_that_are_not_met_are_said() {
+    let folder = TempDir::new().unwrap();
+    let input = save(&folder, &wedge());
+    // More than the angles of a regular tetrahedron's neighbours in a wedge of 45 degrees.
+    let asked = ["--min-dihedral", "60"];
+    let (output, text) = run(&input, &asked);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    assert!(text.contains("of 60 asked for: "), "{text}");
+    assert!(text.contains("element(s) below, most "), "{text}");
+    let (output, text) = run(&input, &[&asked[..], &["--quiet"]].concat());
+    assert!(output.status.success() && text.is_empty(), "{text}");
+    let (output, text) = run(&input, &[&asked[..], &["--strict"]].concat());
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(
+        output.stdout.is_empty() && text.contains("of 60 asked for: "),
+        "{text}"
+    );
+    let (output, text) = run(&input, &["--min-dihedral", "5", "--strict"]);
+    assert!(output.status.success(), "{text}");
+    assert!(!text.contains("asked for"), "{text}");
+}

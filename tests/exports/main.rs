@@ -9,6 +9,7 @@ mod heat;
 mod poisson;
 mod referee;
 mod second_reader;
+mod solvers;
 mod sweep;
 mod tools;
 

@@ -48,6 +48,9 @@ pub enum WriteError {
     /// A surface format, and no surface.
     #[error("the mesh has no surface triangles, so there is nothing to write as {0}")]
     NoSurface(&'static str),
+    /// A format of volumes, and none.
+    #[error("the mesh has no tetrahedra, so there is nothing to write as {0}")]
+    NoVolume(&'static str),
     /// A format of several files, and one place to write to.
     #[error(
         "a mesh in the format {0} is several files; give a path with rotassemble -o, such as mesh.{0}"

@@ -10,8 +10,11 @@ mod msh;
 mod obj;
 mod off;
 mod ply;
+mod polymesh;
 mod stl;
+mod su2;
 mod tetgen;
+mod unv;
 mod vtk;
 mod vtu;
 
@@ -22,7 +25,7 @@ use crate::parsed::Parsed;
 use crate::stream::{MeshStream, Plain};
 use crate::{ReadError, WriteError, WriteOptions};
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tmesh::Document;
 
 /// What is known of one format.
@@ -79,6 +82,8 @@ pub enum Writer {
     Mesh(MeshWriter, SizeEstimate),
     /// A mesh in files with these extensions.
     Parts(&'static [&'static str], PartWriter, SizeEstimate),
+    /// A mesh in files with these names, in a folder of their own.
+    Folder(&'static [&'static str], PartWriter),
     /// A file for every instance of a mesh, and one that lists them.
     Pieces,
 }
@@ -235,6 +240,25 @@ table! {
         second_order: false,
         first_id: 1,
     }
+    /// SU2.
+    Su2 {
+        name: "su2",
+        writer: Writer::Mesh(su2::write, su2::size_estimate),
+        second_order: false,
+    }
+    /// I-DEAS universal file.
+    Unv {
+        name: "unv",
+        writer: Writer::Mesh(unv::write, unv::size_estimate),
+        second_order: false,
+        first_id: 1,
+    }
+    /// OpenFOAM, a folder of files.
+    PolyMesh {
+        name: "polymesh",
+        writer: Writer::Folder(&polymesh::FILES, polymesh::write_file),
+        second_order: false,
+    }
     /// A readable listing of a document.
     Text {
         name: "txt",
@@ -266,9 +290,30 @@ impl Format {
         Self::ALL.into_iter().find(is_called)
     }
 
-    /// The format a path's extension stands for.
+    /// The format a path's extension stands for; of a path without one, that of folders of this name.
     pub fn from_path(path: &Path) -> Option<Self> {
-        Self::from_name(path.extension()?.to_str()?)
+        match path.extension() {
+            Some(extension) => Self::from_name(extension.to_str()?),
+            None => {
+                let named = Self::from_name(path.file_name()?.to_str()?);
+                named.filter(|format| format.is_folder())
+            }
+        }
+    }
+
+    /// Whether a mesh is a folder of files.
+    pub fn is_folder(self) -> bool {
+        matches!(self.entry().writer, Writer::Folder(..))
+    }
+
+    /// Whether it can be read.
+    pub fn is_input(self) -> bool {
+        self.entry().read.is_some()
+    }
+
+    /// Whether it can be written.
+    pub fn is_output(self) -> bool {
+        !matches!(self.entry().writer, Writer::None)
     }
 
     /// Whether its bytes are not text.
@@ -324,7 +369,9 @@ pub fn write(
             check_order(mesh, format)?;
             write(mesh, options, out)
         }
-        Writer::Parts(..) | Writer::Pieces => Err(WriteError::SeveralFiles(format.name())),
+        Writer::Parts(..) | Writer::Folder(..) | Writer::Pieces => {
+            Err(WriteError::SeveralFiles(format.name()))
+        }
         Writer::None | Writer::Document(_) => Err(WriteError::NotAnOutput(format.name())),
     }
 }
@@ -336,12 +383,16 @@ fn check_order(mesh: &dyn MeshStream, format: Format) -> Result<(), WriteError> 
     Ok(())
 }
 
-/// Extensions of the files that a mesh in this format consists of; none for formats that are one
-/// file, or whose files are not known beforehand.
-pub fn file_parts(format: Format) -> &'static [&'static str] {
+/// The files that a mesh in this format, written to `path`, consists of: beside the path with other
+/// extensions, or in the folder that the path names. None for formats that are one file, or whose files are
+/// not known beforehand.
+pub fn file_parts(format: Format, path: &Path) -> Vec<PathBuf> {
     match format.entry().writer {
-        Writer::Parts(extensions, ..) => extensions,
-        _ => &[],
+        Writer::Parts(extensions, ..) => {
+            extensions.iter().map(|e| path.with_extension(e)).collect()
+        }
+        Writer::Folder(names, _) => names.iter().map(|name| path.join(name)).collect(),
+        _ => Vec::new(),
     }
 }
 
@@ -356,7 +407,7 @@ pub fn write_part(
     out: &mut dyn Write,
 ) -> Result<(), WriteError> {
     match format.entry().writer {
-        Writer::Parts(_, write, _) => {
+        Writer::Parts(_, write, _) | Writer::Folder(_, write) => {
             check_order(mesh, format)?;
             write(mesh, part, out)
         }
@@ -415,11 +466,13 @@ mod tests {
                 | Format::Msh2
                 | Format::Medit
                 | Format::Bdf
+                | Format::Su2
+                | Format::Unv
                 | Format::Inp => {
                     result.unwrap();
                     assert!(!bytes.is_empty());
                 }
-                Format::Node | Format::Pvtu => {
+                Format::Node | Format::Pvtu | Format::PolyMesh => {
                     let error = result.unwrap_err().to_string();
                     assert!(error.contains("several files"), "{error}");
                     assert!(bytes.is_empty());

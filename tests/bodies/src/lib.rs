@@ -19,6 +19,7 @@ mod placement;
 pub mod random_solid;
 pub mod structured;
 pub mod swept;
+pub mod torn;
 pub mod wedges;
 
 pub use body::{Body, Face, Material};

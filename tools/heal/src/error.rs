@@ -25,14 +25,14 @@ pub enum HealError {
 }
 
 impl HealError {
-    /// The same with a further reason.
-    pub fn because(self, reason: &str) -> Self {
-        match self {
-            Self::NotClosed { message, edges } => Self::NotClosed {
+    /// The same with a further reason, if there is one.
+    pub fn because(self, reason: Option<&str>) -> Self {
+        match (self, reason) {
+            (Self::NotClosed { message, edges }, Some(reason)) => Self::NotClosed {
                 message: format!("{message}; {reason}"),
                 edges,
             },
-            other => other,
+            (other, _) => other,
         }
     }
 }

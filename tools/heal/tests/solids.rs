@@ -4,6 +4,7 @@ mod common;
 
 use bodies::facets::*;
 use common::*;
+use heal::{RepairKind, Repairing, read_with};
 use interchange::Format::Stl;
 use tmesh::OUTSIDE;
 
@@ -343,4 +344,73 @@ fn any_scale_within_reason_will_do() {
     for s in [1e-100, 1e100] {
         assert!(refused(&ascii_stl(&[("a", scaled(s))]), Stl).contains("too "));
     }
+}
+
+#[test]
+fn cubes_that_cross_at_a_common_edge_are_named_as_the_cause() {
+    // The second cube stands on an edge of the first and leans into it: around that edge their faces take turns.
+    let turned = unit_cube([0.0; 3])
+        .into_iter()
+        .map(|facet| facet.map(|[x, y, z]| [0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z]));
+    let both = [unit_cube([0.0; 3]), turned.collect()].concat();
+    let said = refused(&binary_stl(b"", &both), Stl);
+    assert!(
+        said.contains("pairs of triangles cross or touch, the first at ("),
+        "{said}"
+    );
+    assert!(
+        said.contains("1 edge has more than two triangles, the first from (0, 0, 0) to"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_corner_on_an_edge_is_stitched() {
+    // One triangle has a corner more on its edge than its neighbour, on the edge or a little off it.
+    for off in [0.0, 2e-5] {
+        let mut facets = unit_cube([0.0; 3]);
+        let [a, b, c] = facets[0];
+        let mut middle = [0, 1, 2].map(|i| 0.5 * (a[i] + b[i]));
+        middle[2] += off;
+        facets[0] = [a, middle, c];
+        facets.push([middle, b, c]);
+        let imported = good(&binary_stl(b"", &facets), Stl);
+        let [repair] = &imported.repairs[..] else {
+            panic!("{:?}", imported.repairs);
+        };
+        assert_eq!((repair.kind, repair.count), (RepairKind::Stitched, 1));
+        assert!((repair.largest - off).abs() < 1e-7, "{repair:?}");
+        assert!((imported.document.regions[0].volume.unwrap() - 1.0).abs() < 1e-4);
+        // As it is, it is refused with its open edges.
+        let as_it_is = read_with(&binary_stl(b"", &facets), Stl, Repairing::Off);
+        let said = as_it_is.map(|_| ()).unwrap_err().to_string();
+        assert!(said.contains("3 open edges (the first from"), "{said}");
+    }
+}
+
+#[test]
+fn a_gap_wider_than_the_facets_explain_is_refused_with_its_place() {
+    let mut facets = unit_cube([0.0; 3]);
+    facets[7][1][2] += 0.01;
+    let said = refused(&binary_stl(b"", &facets), Stl);
+    assert!(said.contains("open edges (the first from"), "{said}");
+    assert!(
+        said.contains("1 gap is wider than the facets there explain, 0.00999"),
+        "{said}"
+    );
+}
+
+#[test]
+fn without_repairs_nothing_is_dropped() {
+    let cube = unit_cube([0.0; 3]);
+    let whole = read_with(&binary_stl(b"", &cube), Stl, Repairing::Off).unwrap();
+    assert!(whole.repairs.is_empty());
+    let twice = [cube.clone(), cube[3..5].to_vec()].concat();
+    let said = read_with(&binary_stl(b"", &twice), Stl, Repairing::Off);
+    let said = said.map(|_| ()).unwrap_err().to_string();
+    assert!(
+        said.starts_with("2 triangles that the surface has twice, the first at ("),
+        "{said}"
+    );
+    assert_eq!(good(&binary_stl(b"", &twice), Stl).repairs[0].count, 2);
 }

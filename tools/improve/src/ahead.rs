@@ -32,23 +32,10 @@ pub struct Count {
 /// When nothing was found for a tetrahedron, by its number: nothing will be before something changes at its corners.
 pub type Failed = Vec<Option<u32>>;
 
-/// Whether other threads look ahead, where there are any.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Look {
-    Ahead,
-    OneByOne,
-}
-
 /// Makes tetrahedra better, those that are still there with the same quality when it is their turn.
-pub fn work(
-    mesh: &mut Mesh<'_>,
-    freedoms: &Freedoms,
-    bad: &[Bad],
-    look: Look,
-    failed: &mut Failed,
-) -> Count {
+pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], failed: &mut Failed) -> Count {
     let mut count = Count::default();
-    let ahead = look == Look::Ahead && rayon::current_num_threads() > 1;
+    let ahead = rayon::current_num_threads() > 1;
     // Of so many tetrahedra looked at together, the same few have corners in common with what is changed before them,
     // however large the mesh is.
     let at_once = mesh.positions.len().isqrt();

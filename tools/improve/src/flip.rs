@@ -6,15 +6,12 @@
 //! between two tetrahedra goes for an edge.
 
 use crate::mesh::{Corners, Mesh};
-use crate::quality::{Grade, LEAST};
+use crate::quality::{GAIN, Grade, HALF_DIGITS};
 use arrayvec::ArrayVec;
 use geom::tet::{EDGES, FACES};
 
 /// Tetrahedra around an edge that is removed, at most. Larger rings hardly ever give better ones.
 const RING: usize = 7;
-/// The smallest quality has to grow by this part: more than by a step of [`crate::smooth`], since what is replaced is
-/// looked at anew by everything around it.
-const GAIN: f64 = 1e-2;
 
 /// Most tetrahedra in the place of those around an edge.
 const FILLING: usize = 2 * (RING - 2);
@@ -51,7 +48,7 @@ fn remove_edge(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Flip> {
         return None;
     }
     let (old, ring) = ring(mesh, tet, a, b)?;
-    let (above, most) = mesh.bounds(&old, GAIN, LEAST);
+    let (above, most) = mesh.bounds(&old, GAIN, HALF_DIGITS);
     let region = mesh.region(tet);
     let n = ring.len();
     // The ring runs counter-clockwise seen from b.
@@ -175,7 +172,7 @@ fn remove_face(mesh: &Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> Option<Fl
     let apex = mesh.corners(other).into_iter().find(|v| !face.contains(v));
     let bottom = apex?;
     let old = [tet, other];
-    let (above, most) = mesh.bounds(&old, GAIN, LEAST);
+    let (above, most) = mesh.bounds(&old, GAIN, HALF_DIGITS);
     // The face is counter-clockwise seen from the bottom.
     let mut new = ArrayVec::new();
     for i in 0..3 {

@@ -1,4 +1,4 @@
-//! The order of the work: rounds over the worst tetrahedra, new vertices for what is left, the bounds first in the end.
+//! The order of the work: rounds over the bad tetrahedra, new vertices for the worst of those that are left, and again.
 
 use crate::ahead::{self, Bad, Count, Failed};
 use crate::freedom::Freedoms;
@@ -8,39 +8,6 @@ use crate::quality::Goal;
 use geom::tet::TetMeasures;
 use rustc_hash::FxHashMap;
 use tmesh::Template;
-
-/// Rounds over the worst tetrahedra. Most of what can be done is done in the first three or four; each further one costs as
-/// much as the first and finds what others have made possible.
-const ROUNDS: usize = 6;
-
-/// Further rounds at most, while more than the part [`MANY`] of all tetrahedra is bad, so that each of them still
-/// finds something.
-const MORE_ROUNDS: usize = 14;
-
-/// The part of all tetrahedra that is worth further rounds.
-const MANY: f64 = 0.01;
-
-/// Further rounds end when one leaves more than this part of the bad tetrahedra as they are.
-const STUCK: f64 = 0.98;
-
-/// Tetrahedra that are worked on in each round in any case, whatever part of all they are: small meshes cost nothing.
-const AT_LEAST: usize = 1000;
-
-/// Tetrahedra that get new vertices, at most: looking for the place of a vertex takes a hundred times as long as replacing a
-/// face. In small meshes this many, which take some milliseconds ...
-const FEW: usize = 128;
-
-/// ... and in large ones this part of all, so that new vertices take no longer than the rounds.
-const FEW_PART: f64 = 1.0 / 400.0;
-
-/// In the end, tetrahedra whose smallest angle is below this times the one asked for get new vertices, too, so that the
-/// smallest angles of a mesh are not just those asked for. A larger value adds vertices for little.
-const MARGIN: f64 = 1.5;
-
-/// Times that rounds follow each other, with new vertices in between for what is left; and that what is not as asked for is
-/// worked on alone. What the second pass leaves is mostly the shape's fault; a third one costs little, since what was
-/// tried in vain is not tried again.
-const PASSES: usize = 3;
 
 /// What is asked of the elements.
 pub struct Wish<'a> {
@@ -54,8 +21,6 @@ pub struct Wish<'a> {
     pub max_volume: &'a FxHashMap<u32, f64>,
     /// A power of two that brings coordinates near one.
     pub scale: f64,
-    /// Part of the tetrahedra that is worked on, at most.
-    pub share: f64,
 }
 
 /// What was done.
@@ -81,11 +46,8 @@ pub struct Improved {
 
 /// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay; new vertices have
 /// numbers beyond. The number of threads makes no difference to the result.
-///
-/// At first an element past the radius-edge bound is worth as much as one with two thirds of the angle. When nothing
-/// helps any more, the bounds that were asked for come first.
 pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) -> Improved {
-    let goal = Goal::new(wish.angle, wish.radius_edge);
+    let goal = Goal::new(wish.angle, wish.radius_edge, wish.min_dihedral);
     let cube = 6.0 * wish.scale.powi(3);
     let limits: FxHashMap<u32, f64> = wish
         .max_volume
@@ -97,21 +59,18 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         freedoms,
         wish,
         tried: Tried::default(),
+        looked_at: 0,
         done: Improved::default(),
     };
     work.done.bad = work.bad().len();
-    for pass in 0..PASSES {
+    // Each time new vertices help fewer tetrahedra; with less than half as many as at first, those that are left cannot be
+    // helped.
+    work.rounds();
+    let first = work.add_vertices();
+    let mut added = first;
+    while added > 0 && 2 * added >= first {
         work.rounds();
-        // Where many are not as asked for, the shape is to blame, and other rounds are no use.
-        let last = pass + 1 == PASSES || work.failing(1.0).len() > work.affordable();
-        if last || !work.add_vertices(1.0) {
-            break;
-        }
-    }
-    work.put_bounds_first(goal);
-    // Within the bounds first, then with some room.
-    for margin in [1.0, MARGIN] {
-        work.mend(margin);
+        added = work.add_vertices();
     }
     work.count_what_is_left();
     let Work { mesh, done, .. } = work;
@@ -135,6 +94,8 @@ struct Work<'a> {
     freedoms: &'a Freedoms,
     wish: &'a Wish<'a>,
     tried: Tried,
+    /// Tetrahedra that were worked on, as often as they were.
+    looked_at: usize,
     done: Improved,
 }
 
@@ -166,17 +127,6 @@ impl Work<'_> {
         bad
     }
 
-    /// Those of them that are not as asked for, the worst first; angles count that are less than `margin` times the
-    /// smallest one asked for.
-    fn failing(&self, margin: f64) -> Vec<Bad> {
-        let mut bad = self.bad();
-        bad.retain(|&(_, tet)| {
-            let Failing { past, angle } = self.measured(tet);
-            past || angle < margin * self.wish.min_dihedral
-        });
-        bad
-    }
-
     fn measured(&self, tet: u32) -> Failing {
         let at = |v: u32| self.mesh.positions[v as usize];
         let measures = TetMeasures::of(self.mesh.corners(tet).map(at));
@@ -186,43 +136,31 @@ impl Work<'_> {
         }
     }
 
-    /// How many tetrahedra are worth much work each.
-    fn affordable(&self) -> usize {
-        FEW.max((FEW_PART * self.mesh.len() as f64) as usize)
-    }
-
-    /// Moves vertices and replaces edges and faces for some tetrahedra; returns whether anything was done.
-    fn work_on(&mut self, bad: &[Bad], look: ahead::Look) -> bool {
-        let others = &mut self.tried.others;
-        let count = ahead::work(&mut self.mesh, self.freedoms, bad, look, others);
-        self.done.moved += count.moved;
-        self.done.flipped += count.flipped;
-        count != Count::default()
-    }
-
-    /// Rounds over the worst tetrahedra, as long as they are of use.
+    /// Moves vertices and replaces edges and faces, round after round, until nothing is left to do. All rounds together look at
+    /// no more tetrahedra than there are, so that the work stays linear where the shape is to blame for many of them.
     fn rounds(&mut self) {
-        let most = ((self.mesh.len() as f64 * self.wish.share) as usize).max(AT_LEAST);
-        let mut last = f64::INFINITY;
-        for round in 0..ROUNDS + MORE_ROUNDS {
-            let mut bad = self.bad();
-            let (now, many) = (bad.len() as f64, MANY * self.mesh.len() as f64);
-            if round >= ROUNDS && (now < many || now > STUCK * last) {
-                break;
-            }
-            last = now;
-            bad.truncate(most);
-            if !self.work_on(&bad, ahead::Look::Ahead) {
+        loop {
+            let bad = self.bad();
+            let others = &mut self.tried.others;
+            let count = ahead::work(&mut self.mesh, self.freedoms, &bad, others);
+            self.done.moved += count.moved;
+            self.done.flipped += count.flipped;
+            self.looked_at += bad.len();
+            if count == Count::default() || self.looked_at > self.mesh.len() {
                 break;
             }
         }
     }
 
-    /// Gives what is still not as asked for new vertices, where that helps; returns whether it did.
-    fn add_vertices(&mut self, margin: f64) -> bool {
+    /// Gives the worst tetrahedra new vertices, where that helps; returns how many of them. Looking for the place of a vertex
+    /// takes a hundred times as long as for anything else, so that only the root of the number of all tetrahedra is looked
+    /// at; and those that are nearly good enough are not worth more elements.
+    fn add_vertices(&mut self) -> usize {
+        let mut bad = self.bad();
+        bad.retain(|&(quality, _)| quality < 0.75);
+        bad.truncate(self.mesh.len().isqrt());
         let before = self.done.inserted;
-        let worst = self.failing(margin).into_iter().take(self.affordable());
-        for (quality, tet) in worst {
+        for (quality, tet) in bad {
             let mesh = &mut self.mesh;
             if !ahead::is_there(mesh, quality, tet) {
                 continue;
@@ -237,27 +175,7 @@ impl Work<'_> {
                 self.done.inserted += 1;
             }
         }
-        self.done.inserted > before
-    }
-
-    /// From now on an element past the radius-edge bound is worse than one with the smallest angle asked for.
-    fn put_bounds_first(&mut self, goal: Goal) {
-        let past = self.failing(1.0).into_iter().map(|(_, tet)| tet);
-        self.mesh
-            .change_goal(goal.with_bound_before(self.wish.min_dihedral), past);
-        self.tried = Tried::default();
-    }
-
-    /// Everything that helps against what is not as asked for, and nothing else.
-    fn mend(&mut self, margin: f64) {
-        for _ in 0..PASSES {
-            let mut worst = self.failing(margin);
-            worst.truncate(self.affordable());
-            let changed = self.work_on(&worst, ahead::Look::OneByOne);
-            if !self.add_vertices(margin) && !changed {
-                break;
-            }
-        }
+        self.done.inserted - before
     }
 
     fn count_what_is_left(&mut self) {

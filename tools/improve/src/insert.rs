@@ -7,13 +7,10 @@
 
 use crate::freedom::Freedoms;
 use crate::mesh::{Corners, Mesh};
-use crate::quality::{Grade, LEAST};
+use crate::quality::{GAIN, Grade, HALF_DIGITS};
 use crate::smooth::settle;
 use geom::tet::{EDGES, FACES};
 use glam::DVec3;
-
-/// The smallest quality has to grow by this part for a new vertex: more than for a replacement, since elements are added.
-const GAIN: f64 = 5e-2;
 
 /// Places from which the vertex is moved to where it is best: the best of the thirteen, beyond which the result is hardly ever
 /// better.
@@ -94,7 +91,7 @@ fn places(points: [DVec3; 4]) -> impl Iterator<Item = DVec3> {
 /// The cavity that suits a vertex at `start`.
 fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3) -> Option<Cavity> {
     let region = mesh.region(tet);
-    let (above, _) = mesh.bounds(&[tet], GAIN, LEAST);
+    let (above, _) = mesh.bounds(&[tet], GAIN, HALF_DIGITS);
     let vertex = mesh.positions.len() as u32;
     let mut old = vec![tet];
     // Faces of the cavity, seen from inside, with the tetrahedron inside.
@@ -112,7 +109,7 @@ fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3) -> Option<Cavity> {
             .filter(|_| old.len() < ROOM);
         let Some(other) = other else {
             // The vertex is moved later on.
-            if grade.quality <= LEAST {
+            if grade.quality <= HALF_DIGITS {
                 return None;
             }
             next += 1;
@@ -166,7 +163,7 @@ fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, cavity: Cavity) -> Option<Insertio
     let Cavity {
         start, old, new, ..
     } = cavity;
-    let (above, most) = mesh.bounds(&old, GAIN, LEAST);
+    let (above, most) = mesh.bounds(&old, GAIN, HALF_DIGITS);
     let region = mesh.region(*old.first()?);
     let (at, grades) = settle(mesh, freedoms, start, &new, (region, most));
     let qualities = grades.iter().map(|g| g.quality);

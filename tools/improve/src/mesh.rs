@@ -57,14 +57,6 @@ impl<'a> Mesh<'a> {
         }
     }
 
-    /// Grades some tetrahedra by another goal, which has to be the same for all others.
-    pub fn change_goal(&mut self, goal: Goal, tets: impl Iterator<Item = u32>) {
-        self.goal = goal;
-        for tet in tets {
-            self.grades[tet as usize] = self.of_corners(self.corners(tet));
-        }
-    }
-
     /// Number of places for tetrahedra; all are taken.
     pub fn len(&self) -> usize {
         self.tets.len()

@@ -2,22 +2,15 @@
 
 use glam::DVec3;
 
-/// New tetrahedra have at least this quality: what is so near to flat that rounding could decide is not
-/// touched.
-pub const LEAST: f64 = 1e-4;
+/// The square root of `f64::EPSILON`, half of the digits. Coordinates are near one, so a quality has an error of some
+/// `EPSILON` by the length of an edge: new tetrahedra have at least this quality, and are not flat but for rounding. As a
+/// difference it leaves half of the digits to a gradient.
+pub const HALF_DIGITS: f64 = 1.0 / (1_u64 << (f64::MANTISSA_DIGITS / 2)) as f64;
 
-/// Quality of an element just past the radius-edge bound. Without a step at the bound, elements would be traded for some past
-/// it too readily; the step is to what an element with two thirds of the angle asked for is worth, the part
-/// of the angle that the mesher is asked for.
-const PAST: f64 = 0.62;
-
-/// The power by which the quality falls from there on: that of a volume, so that an element twice past the bound is worth
-/// an eighth.
-const FALL: i32 = 3;
-
-/// How much the smallest angle asked for must be exceeded where it is worth more than the bound, as a factor: little, so
-/// that an angle just as asked for is not given up for the bound by rounding.
-const ABOVE: f64 = 1.02;
+/// The smallest quality has to grow by this part for anything to be done: what is worth the work, for moves, replacements and
+/// new vertices alike. Measured on 67 wedges with `tetwedge`: 0.03 makes no difference, with 0.05 there are 1 % more elements
+/// and the smallest angles are 0.3 degrees less in the mean.
+pub const GAIN: f64 = 1e-2;
 
 /// What every tetrahedron should reach.
 #[derive(Clone, Copy, Debug)]
@@ -41,22 +34,14 @@ pub struct Grade {
 }
 
 impl Goal {
-    /// A smallest dihedral angle in degrees, and a largest radius-edge ratio.
-    pub fn new(angle: f64, radius_edge: f64) -> Self {
+    /// A smallest dihedral angle in degrees, a largest radius-edge ratio, and the smallest dihedral angle that an element may
+    /// have rather than be past that bound.
+    pub fn new(angle: f64, radius_edge: f64, least: f64) -> Self {
+        let tangent = libm::tan(angle.to_radians());
         Self {
-            tangent: libm::tan(angle.to_radians()),
+            tangent,
             radius_edge,
-            past: PAST,
-        }
-    }
-
-    /// The same goal, but that elements past the radius-edge bound are worse than any whose smallest dihedral angle is a
-    /// little above `angle`, degrees.
-    pub fn with_bound_before(self, angle: f64) -> Self {
-        let least = ABOVE * libm::tan(angle.to_radians()) / self.tangent;
-        Self {
-            past: least.clamp(LEAST, PAST),
-            ..self
+            past: (libm::tan(least.to_radians()) / tangent).max(HALF_DIGITS),
         }
     }
 
@@ -101,7 +86,7 @@ impl Goal {
     fn ratio_quality(&self, part: f64) -> f64 {
         match part >= 1.0 {
             true => part,
-            false => self.past * part.powi(FALL),
+            false => self.past * part,
         }
     }
 }
@@ -113,24 +98,23 @@ mod tests {
 
     #[test]
     fn the_bound_is_a_step() {
-        let goal = Goal::new(25.0, 1.4);
+        let goal = Goal::new(25.0, 1.4, 10.0);
         let ratio_quality = |part: f64| goal.ratio_quality(part);
         assert_eq!(ratio_quality(1.0), 1.0);
         assert_eq!(ratio_quality(1.3), 1.3);
-        // An element just past the bound is worth less than one with two thirds of the angle asked for.
+        // An element just past the bound is worth less than one with two thirds of the angle.
         assert!(ratio_quality(1.0 - 1e-9) < 0.66);
         assert!(ratio_quality(0.8) < ratio_quality(0.9) && ratio_quality(0.8) > 0.0);
-        // And less than one with the angle that the mesher is asked for, where the bound comes first.
+        // And as much as one with the angle that was asked for.
         let ten = libm::tan(10_f64.to_radians()) / libm::tan(25_f64.to_radians());
-        let past = goal.with_bound_before(10.0).ratio_quality(1.0 - 1e-9);
-        assert!(past > ten && past < 1.05 * ten, "{past}");
-        assert_eq!(goal.with_bound_before(20.0).past, PAST);
-        assert!(goal.with_bound_before(0.0).past > 0.0);
+        let past = ratio_quality(1.0 - 1e-9);
+        assert!((past - ten).abs() < 1e-8, "{past}");
+        assert!(Goal::new(25.0, 1.4, 0.0).ratio_quality(0.9) > 0.0);
     }
 
     #[test]
     fn grades_agree_with_the_measures() {
-        let goal = Goal::new(20.0, 1.4);
+        let goal = Goal::new(20.0, 1.4, 10.0);
         let mut state = 1_u64;
         let mut random = || {
             state = state

@@ -3,34 +3,19 @@
 //! The smallest quality in the star of a vertex, as a function of its position, is a minimum of smooth
 //! functions. The steepest way up is the shortest vector of the convex hull of the active ones'
 //! gradients; steps along it are halved until the minimum grows (L. Freitag, M. Jones, P. Plassmann,
-//! "An efficient parallel algorithm for mesh smoothing", 1995; L. Freitag, C. Ollivier-Gooch, 1997).
+//! "An efficient parallel algorithm for mesh smoothing", 1995; L. Freitag, C. Ollivier-Gooch, 1997). The search ends
+//! where even the slope itself would not gain enough by the step.
 //! A vertex on a seam has its star on both sides of it: what is at its partner is turned back.
 
 use crate::freedom::{Freedom, Freedoms};
 use crate::mesh::{Corners, Mesh};
-use crate::quality::{Grade, LEAST};
+use crate::quality::{GAIN, Grade, HALF_DIGITS};
+use arrayvec::ArrayVec;
 use glam::DVec3;
 
-/// Steps up, at most. The smallest quality is the minimum of several functions, and its peak is reached by ever smaller
-/// steps; the next round continues where this one ends.
-const STEPS: usize = 6;
-/// Halvings of a step, at most: down to about a hundredth of the distance to the other corners, beyond which nothing is
-/// won.
-const HALVINGS: usize = 5;
-/// First step, as a part of the distance to the other corners of the star: a longer one mostly turns a tetrahedron over.
-const FIRST: f64 = 0.25;
-/// Within this part of the smallest quality above it, others count as active: about as far as a step changes them.
+/// Within this part of the smallest quality above it, others count as active. With none but the smallest, steps would go to and
+/// fro between two tetrahedra; with all, none would lead up.
 const ACTIVE: f64 = 0.1;
-/// The smallest quality has to grow by this part for a step. A smaller one is not worth the work.
-const GAIN: f64 = 1e-3;
-/// With a smaller quality, small steps lead nowhere, since what comes out has to be at least [`LEAST`].
-const FLAT: f64 = 10.0 * LEAST;
-/// There is no way up when the shortest vector is less than this part of the longest gradient: steps along it gain less
-/// than [`GAIN`].
-const NO_WAY: f64 = 1e-2;
-/// Difference for gradients, as a part of the distance to the other corners: between the square root of the rounding, where
-/// half of the digits are left for nearly flat tetrahedra too, and where the functions are not straight.
-const DIFFERENCE: f64 = 1e-6;
 
 /// A vertex, with its partner on a seam, and all tetrahedra that move with it.
 struct Star<'m, 'a> {
@@ -159,8 +144,8 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
     let start = mesh.positions[vertex as usize];
     let qualities: Vec<f64> = grades.iter().map(|g| g.quality).collect();
     let least = smallest(&qualities);
-    let to = match star.middle().filter(|_| least < FLAT) {
-        Some(middle) if let Some(there) = star.qualities(middle, least.max(LEAST)) => {
+    let to = match star.middle().filter(|_| least < HALF_DIGITS) {
+        Some(middle) if let Some(there) = star.qualities(middle, least.max(HALF_DIGITS)) => {
             climb(&star, middle, there, &directions).unwrap_or(middle)
         }
         _ => climb(&star, start, qualities, &directions)?,
@@ -231,12 +216,12 @@ fn climb(
     }
     let mut p = start;
     let mut least = smallest(&qualities);
-    let mut step = FIRST * size;
-    for _ in 0..STEPS {
-        if least >= 1.0 {
-            break;
-        }
-        let difference = DIFFERENCE * size;
+    // Halfway to the next corner; a longer step mostly turns a tetrahedron over.
+    let mut step = 0.5 * size;
+    while least < 1.0 {
+        // The functions fall below their slopes, so that shorter steps than this one and lesser slopes do not gain as much.
+        let worth = GAIN * least.abs();
+        let difference = HALF_DIGITS * size;
         let gradients: Vec<DVec3> = star
             .tets
             .iter()
@@ -244,16 +229,17 @@ fn climb(
             .filter(|&(_, &q)| q <= least + ACTIVE * least.abs())
             .map(|(&t, &q)| star.gradient((t, q), p, directions, difference))
             .collect();
-        let Some(up) = shortest_in_hull(&gradients).and_then(DVec3::try_normalize) else {
+        let Some(steepest) = shortest_in_hull(&gradients, worth / step) else {
             break;
         };
+        let slope = steepest.length();
+        let up = steepest / slope;
         // Rounding must not lead away from where the vertex belongs.
         let up: DVec3 = directions.iter().map(|&d| d * d.dot(up)).sum();
         let mut better = None;
-        for _ in 0..HALVINGS {
+        while slope * step > worth {
             let q = star.freedoms.place(star.vertex, p + up * step);
-            let above = (least + GAIN * least.abs()).max(LEAST);
-            if let Some(list) = star.qualities(q, above) {
+            if let Some(list) = star.qualities(q, (least + worth).max(HALF_DIGITS)) {
                 better = Some((q, list));
                 break;
             }
@@ -267,30 +253,56 @@ fn climb(
     (p != start).then_some(p)
 }
 
-/// The shortest vector in the convex hull of some, unless it is next to nothing, by Gilbert's algorithm (E.
-/// Gilbert, "An iterative procedure for computing the minimum of a quadratic form on a convex set", 1966).
-fn shortest_in_hull(list: &[DVec3]) -> Option<DVec3> {
-    /// Iterations; more precision than this is of no use.
-    const ROUNDS: usize = 20;
-    let mut x = list
-        .iter()
-        .copied()
-        .min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
-    for _ in 0..ROUNDS {
-        let lowest = list
-            .iter()
-            .copied()
-            .min_by(|a, b| a.dot(x).total_cmp(&b.dot(x)))?;
-        let gap = x.length_squared() - lowest.dot(x);
-        if gap.is_nan() || gap <= 1e-3 * x.length_squared() {
+/// The shortest vector in the convex hull of some, but for [`GAIN`], if it is longer than `least`. It is in the hull of three of
+/// them at most, which are exchanged for better ones while there are any (P. Wolfe, "Finding the nearest point in a polytope",
+/// 1976).
+fn shortest_in_hull(list: &[DVec3], least: f64) -> Option<DVec3> {
+    let along = |x: DVec3| {
+        let all = list.iter().copied();
+        all.min_by(|a, b| a.dot(x).total_cmp(&b.dot(x)))
+    };
+    let shorter = |a: &DVec3, b: &DVec3| a.length_squared().total_cmp(&b.length_squared());
+    let mut x = list.iter().copied().min_by(shorter)?;
+    let mut simplex = ArrayVec::<DVec3, 3>::from_iter([x]);
+    while x.length_squared() > least * least {
+        let lowest = along(x)?;
+        if lowest.dot(x) >= (1.0 - GAIN) * x.length_squared() {
+            return Some(x);
+        }
+        let (nearer, corners) = nearest(&simplex, lowest);
+        // Otherwise the origin is inside.
+        if nearer.length_squared() >= x.length_squared() {
             break;
         }
-        let along = lowest - x;
-        let t = (-x.dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        x += along * t;
+        (x, simplex) = (nearer, corners);
     }
-    let longest = list.iter().map(|g| g.length_squared()).fold(0.0, f64::max);
-    (x.length_squared() > NO_WAY * NO_WAY * longest).then_some(x)
+    None
+}
+
+/// The point nearest to the origin on the edges and triangles at `p` of a simplex with that and other corners, and the
+/// corners of the edge or triangle.
+fn nearest(others: &[DVec3], p: DVec3) -> (DVec3, ArrayVec<DVec3, 3>) {
+    let mut best = (p, ArrayVec::from_iter([p]));
+    let mut offer = |x: DVec3, corners: &[DVec3]| {
+        if x.length_squared() < best.0.length_squared() {
+            best = (x, corners.iter().copied().collect());
+        }
+    };
+    for (i, &a) in others.iter().enumerate() {
+        let u = a - p;
+        let t = (-p.dot(u) / u.length_squared()).clamp(0.0, 1.0);
+        offer(p + u * t, &[p, a]);
+        for &b in &others[..i] {
+            let (v, normal) = (b - p, u.cross(b - p));
+            // Barycentric coordinates of the origin's foot, times the square of the normal.
+            let (s, t) = (v.cross(p).dot(normal), p.cross(u).dot(normal));
+            let square = normal.length_squared();
+            if s > 0.0 && t > 0.0 && s + t < square {
+                offer(normal * (p.dot(normal) / square), &[p, a, b]);
+            }
+        }
+    }
+    best
 }
 
 #[cfg(test)]
@@ -299,11 +311,20 @@ mod tests {
 
     #[test]
     fn the_shortest_vector_is_found() {
-        let found = shortest_in_hull(&[DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)]);
+        let shortest = |list: &[DVec3]| shortest_in_hull(list, 1e-3);
+        let found = shortest(&[DVec3::new(1.0, 1.0, 0.0), DVec3::new(1.0, -1.0, 0.0)]);
         assert!((found.unwrap() - DVec3::X).length() < 1e-2);
         let around = [DVec3::X, DVec3::NEG_X, DVec3::Y];
-        assert_eq!(shortest_in_hull(&around), None);
-        assert_eq!(shortest_in_hull(&[DVec3::Z]), Some(DVec3::Z));
-        assert_eq!(shortest_in_hull(&[]), None);
+        assert_eq!(shortest(&around), None);
+        assert_eq!(shortest(&[DVec3::Z]), Some(DVec3::Z));
+        assert_eq!(shortest(&[]), None);
+        // Inside of a triangle, one of whose corners is found last.
+        let above = [[3.0, 0.0], [-1.0, 2.0], [-1.0, -2.0]].map(|[x, y]| DVec3::new(x, y, 1.0));
+        let list = [&above[..], &[DVec3::Z * 7.0]].concat();
+        assert!((shortest(&list).unwrap() - DVec3::Z).length() < 1e-12);
+        // The origin inside of a tetrahedron, and a vector that is too short.
+        let inside = [&above[..], &[DVec3::NEG_Z]].concat();
+        assert_eq!(shortest(&inside), None);
+        assert_eq!(shortest_in_hull(&above, 1.5), None);
     }
 }

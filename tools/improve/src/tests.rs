@@ -57,7 +57,7 @@ fn volume(template: &Template, tets: &[Tet]) -> f64 {
 
 #[test]
 fn long_edges_are_removed() {
-    let goal = Goal::new(30.0, 1.4);
+    let goal = Goal::new(30.0, 1.4, 10.0);
     let limits = FxHashMap::default();
     for n in [3, 4, 5, 6, 7] {
         let template = ring(n, 4.0);
@@ -85,7 +85,7 @@ fn long_edges_are_removed() {
 
 #[test]
 fn faces_of_the_surface_and_sizes_are_respected() {
-    let goal = Goal::new(30.0, 1.4);
+    let goal = Goal::new(30.0, 1.4, 10.0);
     let mut template = ring(4, 4.0);
     let none = FxHashMap::default();
     // Faces inside of a region that are part of the surface.
@@ -173,7 +173,7 @@ fn freedoms(template: &Template, of_triangle: &[u32], normals: &[DVec3]) -> Free
 
 #[test]
 fn inner_vertices_go_to_the_middle() {
-    let goal = Goal::new(54.0, 1.4);
+    let goal = Goal::new(54.0, 1.4, 10.0);
     let limits = FxHashMap::default();
     let template = octahedron(DVec3::new(0.5, 0.2, -0.2));
     let (of_triangle, normals) = facets(&template);
@@ -199,7 +199,7 @@ fn inner_vertices_go_to_the_middle() {
 /// Steps that are small against what is next to the vertex would never make a good tetrahedron.
 #[test]
 fn a_vertex_next_to_another_one_goes_to_the_middle() {
-    let goal = Goal::new(25.0, 1.4);
+    let goal = Goal::new(25.0, 1.4, 10.0);
     let limits = FxHashMap::default();
     for distance in [1e-3, 1e-6, 1e-9] {
         let template = octahedron(DVec3::X * (1.0 - distance));
@@ -214,7 +214,7 @@ fn a_vertex_next_to_another_one_goes_to_the_middle() {
 #[test]
 fn new_vertices_come_where_nothing_else_helps() {
     // A long edge in the middle makes long radii.
-    let goal = Goal::new(25.0, 1.4);
+    let goal = Goal::new(25.0, 1.4, 10.0);
     let limits = FxHashMap::default();
     let template = ring(4, 2.0);
     let before = volume(&template, &template.tets);
@@ -380,7 +380,6 @@ fn partners_on_a_seam_move_as_one() {
             min_dihedral: 10.0,
             max_volume: &FxHashMap::default(),
             scale: 1.0,
-            share: 1.0,
         },
     );
     assert!(done.moved > 0 && done.bad > 0, "{done:?}");
@@ -471,12 +470,11 @@ fn threads_make_no_difference() {
         },
     );
     let wish = Wish {
-        angle: 25.0,
+        angle: 40.0,
         radius_edge: 1.4,
-        min_dihedral: 19.0,
+        min_dihedral: 25.0,
         max_volume: &FxHashMap::default(),
         scale: 1.0,
-        share: 0.1,
     };
     let mut one = cubes.clone();
     let done = on_threads(1, || improve(&mut one, &freedoms, &wish));

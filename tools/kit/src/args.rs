@@ -17,12 +17,12 @@ pub struct CommonArgs {
     pub output: Option<PathBuf>,
 
     /// Format of the input, instead of what its content shows
-    #[arg(long, value_name = "FMT", value_parser = format)]
+    #[arg(long, value_name = "FMT", value_parser = input)]
     pub from: Option<Format>,
 
     /// Format of the output, instead of what the output's extension says; `txt` is a readable
     /// listing of the document
-    #[arg(long, value_name = "FMT", value_parser = format)]
+    #[arg(long, value_name = "FMT", value_parser = output)]
     pub to: Option<Format>,
 
     /// No messages but errors
@@ -44,9 +44,28 @@ pub struct CommonArgs {
     pub message_format: MessageFormat,
 }
 
-fn format(name: &str) -> Result<Format, String> {
-    Format::from_name(name).ok_or_else(|| {
-        let known: Vec<_> = Format::ALL.iter().map(|f| f.name()).collect();
-        format!("known formats are {}", known.join(", "))
-    })
+fn input(name: &str) -> Result<Format, String> {
+    let found = Format::from_name(name).filter(|format| format.is_input());
+    found.ok_or_else(|| format!("known formats are {}", inputs()))
+}
+
+fn output(name: &str) -> Result<Format, String> {
+    let found = Format::from_name(name).filter(|format| format.is_output());
+    found.ok_or_else(|| format!("known formats are {}", outputs()))
+}
+
+/// The formats that are read, as a list in a message.
+pub fn inputs() -> String {
+    list(Format::is_input)
+}
+
+/// The formats that are written, as a list in a message.
+pub fn outputs() -> String {
+    list(Format::is_output)
+}
+
+fn list(which: fn(Format) -> bool) -> String {
+    let found = Format::ALL.into_iter().filter(|f| which(*f));
+    let names: Vec<_> = found.map(Format::name).collect();
+    names.join(", ")
 }

@@ -1,5 +1,6 @@
 //! Reading the one input document.
 
+use crate::args::inputs;
 use crate::{Failure, Session};
 use heal::{HealError, Imported, Repairing};
 use interchange::{Format, sniff};
@@ -92,9 +93,7 @@ impl Session {
         let format = match from.or_else(|| sniff(&head, path)) {
             Some(format) => format,
             None => {
-                return Err(
-                    "the format is not recognized from the content; name it with --from".to_owned(),
-                );
+                return Err(unrecognized(&head, path));
             }
         };
         if format == Format::Tmesh {
@@ -124,4 +123,29 @@ impl Session {
         let _ = self.repairs.set(repairs);
         Ok(document)
     }
+}
+
+/// What to do about a file of no known format. CAD programs write surfaces of their own kinds, which have to be
+/// divided into triangles first.
+fn unrecognized(head: &[u8], path: Option<&Path>) -> String {
+    let is_step = head.trim_ascii_start().starts_with(b"ISO-10303-21");
+    let extension = path.and_then(|p| p.extension()).unwrap_or_default();
+    let is_cad = |known: &&&str| extension.eq_ignore_ascii_case(known);
+    let named = ["step", "stp", "iges", "igs", "brep"].iter().find(is_cad);
+    if is_step || named.is_some() {
+        let name = match path {
+            Some(path) => path.display().to_string(),
+            None => "part.step".to_owned(),
+        };
+        let mesh = Path::new(&name).with_extension("msh");
+        return format!(
+            "it holds curved surfaces of a CAD program, not triangles; make some first, as with \
+             `gmsh -2 {name} -o {}`",
+            mesh.display()
+        );
+    }
+    format!(
+        "the format is not recognized from the content; name it with --from: {}",
+        inputs()
+    )
 }

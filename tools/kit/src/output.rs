@@ -1,5 +1,6 @@
 //! Writing the one output: to standard output, or to a file that appears only when it is whole.
 
+use crate::args::outputs;
 use crate::{Failure, Session, unfinished};
 use interchange::{Format, WriteError, write_document, write_text};
 use std::fs::File;
@@ -138,6 +139,16 @@ fn refuse_folder(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
+fn refuse_file(path: &Path) -> Result<(), Failure> {
+    if path.exists() && !path.is_dir() {
+        return Err(Failure::Output(format!(
+            "cannot write {}: the format is a folder, and this is a file",
+            path.display()
+        )));
+    }
+    Ok(())
+}
+
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(p) if !p.as_os_str().is_empty() => p,
@@ -189,13 +200,19 @@ impl Session {
             .filter(|p| *p != Path::new("-"))
         {
             None => Ok(default),
-            Some(path) if path.extension().is_none() => Ok(default),
             Some(path) => match Format::from_path(path) {
-                Some(format) => Ok(format),
+                Some(format) if format.is_output() => Ok(format),
+                Some(format) => Err(Failure::Usage(format!(
+                    "{} is not an output format; add --to with one of {}",
+                    format.name(),
+                    outputs()
+                ))),
+                None if path.extension().is_none() => Ok(default),
                 None if !path.is_file() && path.exists() => Ok(default),
                 None => Err(Failure::Usage(format!(
-                    "the extension of {} names no known format; add --to FMT",
-                    path.display()
+                    "the extension of {} names no known format; add --to with one of {}",
+                    path.display(),
+                    outputs()
                 ))),
             },
         }
@@ -210,13 +227,55 @@ impl Session {
     pub fn check_output_in(&self, format: Format) -> Result<(), Failure> {
         let path = self.common.output.as_deref();
         let Some(path) = path.filter(|p| *p != Path::new("-")) else {
+            self.note_other_format(format);
             return refuse_terminal(format.is_binary());
         };
+        if format.is_folder() {
+            return refuse_file(path);
+        }
         refuse_folder(path)?;
         let folder = folder_of(path).metadata();
         folder
             .map(|_| ())
             .map_err(|e| Failure::writing(&path.display().to_string(), &e))
+    }
+
+    /// Says which format standard output gets where the shell sends it to a file that is named after another
+    /// one: `rotassemble > a.vtu`.
+    fn note_other_format(&self, format: Format) {
+        // The name is known where the system shows open files as links.
+        let path =
+            std::fs::read_link("/proc/self/fd/1").or_else(|_| std::fs::read_link("/dev/fd/1"));
+        let Ok(path) = path else { return };
+        let named = Format::from_path(&path).filter(|named| *named != format && path.is_file());
+        if let Some(named) = named {
+            let (name, own) = (path.display(), format.name());
+            let other = named.name();
+            self.note(&format!(
+                "{name} gets {own}: standard output is {own} whatever the file is called; add --to {other}, or \
+                 use -o"
+            ));
+        }
+    }
+
+    /// Says what a document loses in a foreign format that the next tool would look for.
+    fn note_what_is_lost(&self, document: &Document, format: Format) {
+        if format.holds_document() {
+            return;
+        }
+        let name = format.name();
+        if document.instances.len() > 1 {
+            self.note(&format!(
+                "{name} holds the pieces, not how they are placed and glued: it is for looking at, and the next \
+                 tool needs tmesh"
+            ));
+        } else if let Some(symmetry) = &document.symmetry {
+            self.note(&format!(
+                "{name} holds the mesh, not the symmetry {} that was found: it is for looking at, and the next \
+                 tool needs tmesh",
+                symmetry.group
+            ));
+        }
     }
 
     /// Opens the output named on the command line.
@@ -227,7 +286,9 @@ impl Session {
     /// Writes a document as the command line asks, `tmesh` by default. Foreign formats get each
     /// template once, with its walls: what is seen is what the next tool would read.
     pub fn write(&self, document: &Document) -> Result<(), Failure> {
-        self.write_in(document, self.output_format(Format::Tmesh)?)
+        let format = self.output_format(Format::Tmesh)?;
+        self.note_what_is_lost(document, format);
+        self.write_in(document, format)
     }
 
     /// As [`Session::write`], in the given format.

@@ -22,8 +22,9 @@ use tmesh::Document;
 /// stored walls: no coordinates are compared. The mesh is written as it is made, in the memory of
 /// the wedge.
 ///
-/// The default output is a legacy VTK file (binary, unstructured grid) with the cell array
-/// `region`; its title names the symmetry that the mesh has by construction. A document without
+/// The default output, and that of standard output whatever file it goes to, is a legacy VTK file
+/// (binary, unstructured grid) with the cell array `region`; its title names the symmetry that the mesh
+/// has by construction. Other formats are chosen by the extension of `-o` or by `--to`. A document without
 /// tetrahedra gives the whole surface.
 #[derive(clap::Parser, Debug)]
 #[command(name = "rotassemble", version, after_help = EXAMPLES)]
@@ -90,6 +91,8 @@ Examples:
       For solutions that are symmetric at all mirror planes of the wedge.
   rotassemble a.tet.tmesh -o a.msh
       For Gmsh and what reads its files: regions and markers are physical groups.
+  rotassemble a.tet.tmesh --sector -o case/constant/polyMesh
+      For OpenFOAM: a folder, with patches, cell zones, and cyclic or symmetry patches of a sector.
   rotassemble a.tet.tmesh -o a.pvtu
       For parallel readers: a file per instance in the folder a, with ids of the whole mesh.
   rotassemble a.wedge.tmesh -o whole.stl

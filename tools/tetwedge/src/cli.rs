@@ -1,5 +1,6 @@
 //! The command line of `tetwedge`.
 
+use crate::shortfall::shortfalls;
 use crate::tetrahedralize;
 use kit::{Command, CommonArgs, Failure, Session, ThreadArgs, WishArgs};
 use mesher::Params;
@@ -38,6 +39,10 @@ pub struct Cli {
     /// TetGen switches to append to ours
     #[arg(long, value_name = "STR", default_value = "", value_parser = switches, allow_hyphen_values = true, hide_default_value = true)]
     switches: String,
+
+    /// Fail where elements do not meet the bounds asked for, rather than say so and go on
+    #[arg(long)]
+    strict: bool,
 
     #[command(flatten)]
     threads: ThreadArgs,
@@ -81,7 +86,14 @@ impl Command for Cli {
             session.note(sentence);
         }
         let mut document = meshed.document;
-        let notes = [meshed.advice, meshed.facts].concat();
+        let short = shortfalls(&document, &params);
+        if self.strict && !short.is_empty() {
+            return Err(Failure::Impossible(short.join("; ")));
+        }
+        for sentence in &short {
+            session.note(sentence);
+        }
+        let notes = [meshed.advice, short, meshed.facts].concat();
         document.history.push(session.history_entry(notes));
         session.write(&document)
     }

@@ -12,6 +12,7 @@ mod fill;
 mod follow;
 mod leads;
 mod settle;
+mod shortfall;
 mod template;
 
 pub use cli::Cli;

@@ -1,5 +1,6 @@
 //! What writers see of a mesh: blocks of points and elements, labels, couplings.
 
+mod boundary;
 mod couplings;
 mod mesh_stream;
 mod middles;
@@ -10,6 +11,7 @@ pub mod sides;
 mod tags;
 mod walls;
 
+pub(crate) use boundary::{BoundaryFace, boundary};
 pub use mesh_stream::{
     Coupling, Label, MeshStream, Patch, PatchBlock, PatchSink, PointSink, Side, TetBlock,
     TetRegionBlock, TetRegionSink, TetSink, TriangleBlock, TriangleSink,
@@ -18,4 +20,5 @@ pub use middles::{Middles, TooManyPoints, second_order};
 pub use plain::{Plain, placed_side};
 #[cfg(test)]
 pub use sample::test_document;
+pub(crate) use sides::FACES;
 pub(crate) use tags::{Run, Tags, runs};

@@ -9,7 +9,7 @@ use tmesh::{OUTSIDE, Template};
 pub const NONE: u32 = u32::MAX;
 
 /// Corners of the faces of a tetrahedron, by the vertex that each lies opposite to; outward normals.
-const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+pub(crate) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// For each triangle of a template the tetrahedron behind it, or in front of it where there is none
 /// behind, and the position of the vertex opposite to it; ([`NONE`], 0) when it is no face.

@@ -1,11 +1,13 @@
 //! Words and numbers of text files.
 
 mod decimal;
+mod names;
 mod precision;
 mod tokens;
 mod words;
 
 pub(crate) use decimal::significant_digits;
+pub(crate) use names::fitting;
 pub(crate) use precision::TextPrecision;
 pub use precision::{DOUBLE, SINGLE};
 pub(crate) use tokens::{Tokens, number, shown};

@@ -3,7 +3,7 @@
 use super::closure::{groups_are_closed, odd_edges, open_surface};
 use super::coincident::merge;
 use super::needles;
-use super::stitch::{Closing, close};
+use super::stitch::close;
 use super::surface::Surface;
 use crate::document::{largest_coordinate, tolerance};
 use crate::{HealError, Repair, RepairKind};
@@ -92,21 +92,20 @@ impl Mending {
         }
         let tolerance = tolerance(&self.surface.points, self.relative_precision);
         let several = self.surface.groups.len() > 1;
-        if !several || !self.close_groups(&tolerance) {
-            let error = |m: &Self| open_surface(&m.surface, &m.edges, &m.odd);
-            let open = error(self);
-            let closing = close(&mut self.surface, &tolerance);
-            self.update_edges();
-            match closing {
-                Closing::Closed(repairs) => self.repairs.extend(repairs),
-                Closing::Open => return error(self).map_or(Ok(()), Err),
-                wrong => {
-                    let reason = wrong.reason(&self.surface);
-                    return open.map_or(Ok(()), |error| Err(error.because(&reason)));
-                }
+        if several && self.close_groups(&tolerance) {
+            return Ok(());
+        }
+        match close(&mut self.surface, &tolerance) {
+            Ok(repairs) => {
+                self.repairs.extend(repairs);
+                self.update_edges();
+                Ok(())
+            }
+            Err(reason) => {
+                let open = open_surface(&self.surface, &self.edges, &self.odd);
+                open.map_or(Ok(()), |error| Err(error.because(reason.as_deref())))
             }
         }
-        Ok(())
     }
 
     /// Closes each group by itself; whether that closes all of them.
@@ -118,7 +117,7 @@ impl Mending {
             if odd_edges(&edges).is_empty() {
                 continue;
             }
-            let Closing::Closed(repairs) = close(&mut part, tolerance) else {
+            let Ok(repairs) = close(&mut part, tolerance) else {
                 return false;
             };
             closed.push((group, part, repairs));

@@ -1,10 +1,40 @@
-//! What the user is told of triangles that were turned over.
+//! What the user is told of triangles that were turned over, and of what keeps sides from being told apart.
 
 use super::surface::{NONE, Surface};
+use crate::meeting::meetings;
 use crate::words::place;
 use geom::cells::Cells;
+use geom::edges::Edges;
 use interchange::text::counted;
 use rustc_hash::FxHashMap;
+
+/// What keeps inside and outside from being told apart: where the surface crosses itself, and edges with more than two
+/// triangles; to be put before what follows from it.
+pub fn causes(surface: &Surface, edges: &Edges) -> String {
+    let met = meetings(&surface.points, &surface.triangles, |t| t, |_| true);
+    let mut causes = Vec::new();
+    if let Some(first) = met.lowest {
+        let (one, many) = (
+            "pair of triangles crosses or touches",
+            "pairs of triangles cross or touch",
+        );
+        let what = counted(met.count, one, many);
+        causes.push(format!("{what}, the first at {}", place(first.point)));
+    }
+    let mut crowded = (0..edges.len()).filter(|&e| edges.around(e).len() > 2);
+    if let Some(first) = crowded.next() {
+        let (one, many) = ("edge has", "edges have");
+        let what = counted(1 + crowded.count(), one, many);
+        let [a, b] = edges.ends[first].map(|v| place(surface.points[v as usize]));
+        causes.push(format!(
+            "{what} more than two triangles, the first from {a} to {b}"
+        ));
+    }
+    match causes.is_empty() {
+        true => String::new(),
+        false => format!("{}; so ", causes.join(" and ")),
+    }
+}
 
 /// Triangles of a solid or a shell: how many were turned, and how many there are.
 #[derive(Clone, Copy, Default)]

@@ -5,7 +5,7 @@
 //! shells surround it, whatever the orientation of the triangles, and a cell in two solids is an
 //! overlap.
 
-use super::notices::explain_turned;
+use super::notices::{causes, explain_turned};
 use super::surface::{NONE, Surface};
 use crate::HealError;
 use crate::meeting::meetings;
@@ -45,7 +45,7 @@ pub fn label(surface: &Surface, edges: &Edges, solids: usize) -> Result<Labels, 
         return as_oriented(surface, edges, notices);
     }
     let cells = Cells::new(&surface.points, &surface.triangles, edges);
-    let content = contents(surface, &cells)?;
+    let content = contents(surface, edges, &cells)?;
     let mut labels = Labels {
         front: Vec::with_capacity(shell.len()),
         back: Vec::with_capacity(shell.len()),
@@ -151,7 +151,7 @@ fn check_contacts(
 }
 
 /// The solid in each cell.
-fn contents(surface: &Surface, cells: &Cells<'_>) -> Result<Vec<u32>, HealError> {
+fn contents(surface: &Surface, edges: &Edges, cells: &Cells<'_>) -> Result<Vec<u32>, HealError> {
     // Each different pair of neighbouring cells once, with a triangle between them.
     let mut neighbours: Vec<Vec<(u32, u32)>> = vec![Vec::new(); cells.count()];
     let mut known: FxHashMap<[u32; 4], ()> = FxHashMap::default();
@@ -175,8 +175,9 @@ fn contents(surface: &Surface, cells: &Cells<'_>) -> Result<Vec<u32>, HealError>
     if let Some(t) = ambiguous {
         let [a, b, c] = surface.corners(t as u32);
         return Err(HealError::BadSurface(format!(
-            "inside and outside cannot be told apart: {} the same space on both sides, the first \
+            "inside and outside cannot be told apart: {}{} the same space on both sides, the first \
              at {}",
+            causes(surface, edges),
             counted(ambiguities, "triangle has", "triangles have"),
             place((a + b + c) / 3.0)
         )));
@@ -196,8 +197,9 @@ fn contents(surface: &Surface, cells: &Cells<'_>) -> Result<Vec<u32>, HealError>
             } else if content[next as usize] != there {
                 let [a, b, c] = surface.corners(t);
                 return Err(HealError::BadSurface(format!(
-                    "inside and outside cannot be told apart at {}: the surface crosses itself, or \
-                     edges with more than two triangles are not closed on both sides",
+                    "inside and outside cannot be told apart: {}what lies behind the triangle at {} \
+                     is told in two ways",
+                    causes(surface, edges),
                     place((a + b + c) / 3.0)
                 )));
             }

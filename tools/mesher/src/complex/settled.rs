@@ -23,7 +23,9 @@ pub fn settled<E>(
             point = onto(plane, point)?;
         }
         let moved = point.distance(before);
-        if count < 2 || moved >= 0.5 * last || moved == 0.0 {
+        // False for NaN, too.
+        let goes_on = count > 1 && moved > 0.0 && moved < 0.5 * last;
+        if !goes_on {
             return Ok(point);
         }
         last = moved;

@@ -136,7 +136,6 @@ impl Climb<'_> {
         Ok(Answer {
             plc,
             mesh,
-            bounds: attempt.bounds(self.params),
             advice: attempt.advice(self.params),
             meshed,
             failed,

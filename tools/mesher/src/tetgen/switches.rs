@@ -3,17 +3,14 @@
 use crate::{Plc, Task};
 use std::fmt::Write;
 
-/// Dihedral angle, degrees, above which TetGen merges two triangles with one marker into a facet. Only triangles that
-/// were found coplanar share a marker (see [`crate::Facets`]), so any angle between a fold and a plane does.
-const FACET_ANGLE: f64 = 170.0;
-
 /// TetGen's switches.
 ///
-/// `p` with the angle above which facets of one marker are merged, `q` the bounds, `a` the volumes, `A` makes TetGen read
+/// `p` with the dihedral angle above which triangles of one marker are merged into a facet: only those that were found coplanar
+/// share a marker (see [`crate::Facets`]), so that the middle between a fold and a plane does. `q` the bounds, `a` the volumes, `A` makes TetGen read
 /// region seeds, `Y` preserves the surface, `nn` asks for adjacency, `J` keeps input points at their numbers, `S` limits
 /// the points that are added, `b` says from how many points on they are inserted in random rounds.
 pub fn switches(plc: &Plc, task: &Task) -> String {
-    let mut text = format!("p{FACET_ANGLE}");
+    let mut text = "p90".to_owned();
     let mut add = |part: std::fmt::Arguments<'_>| {
         // Writing to a string cannot fail.
         let _ = text.write_fmt(part);
@@ -58,13 +55,13 @@ mod tests {
             rounds_from: None,
             switches: String::new(),
         };
-        assert_eq!(switches(&plc, &task), "p170q1.4/10a0.000000000001AaYnnJ");
+        assert_eq!(switches(&plc, &task), "p90q1.4/10a0.000000000001AaYnnJ");
         task.most_points = Some(5e4);
         task.rounds_from = Some(4);
         plc.per_region = false;
         assert_eq!(
             switches(&plc, &task),
-            "p170q1.4/10a0.000000000001YnnJS50000b4"
+            "p90q1.4/10a0.000000000001YnnJS50000b4"
         );
         let plain = Task {
             bounds: None,
@@ -74,6 +71,6 @@ mod tests {
             ..task
         };
         plc.max_volume = None;
-        assert_eq!(switches(&plc, &plain), "p170nnJS7b4");
+        assert_eq!(switches(&plc, &plain), "p90nnJS7b4");
     }
 }

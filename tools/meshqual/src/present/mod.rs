@@ -4,7 +4,6 @@ mod drawing;
 mod html;
 mod svg;
 mod text;
-mod ticks;
 mod words;
 
 pub use html::{Pictures, html};

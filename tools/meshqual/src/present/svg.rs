@@ -1,6 +1,6 @@
 //! The histograms as an SVG image: two rows of three panels.
 
-use super::ticks::Ticks;
+use super::drawing::Ticks;
 use crate::measure::{Histogram, Metric, Statistics};
 use crate::report::Report;
 use geom::number::significant;

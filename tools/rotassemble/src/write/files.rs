@@ -1,9 +1,9 @@
 //! The mesh as one file, or as several side by side.
 
-use interchange::{Format, MeshStream, WriteError, WriteOptions, file_parts, write_part};
+use interchange::{Format, MeshStream, WriteError, WriteOptions, Writer, file_parts, write_part};
 use kit::{Failure, Progress, Session};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The path to write several files beside.
 pub fn output_path(session: &Session, format: Format) -> Result<&Path, Failure> {
@@ -23,15 +23,38 @@ pub fn write_mesh(
     options: &WriteOptions,
 ) -> Result<(), Failure> {
     let size = interchange::size_estimate(mesh, format, options);
-    let parts = file_parts(format);
-    if !parts.is_empty() {
+    let several = !matches!(format.entry().writer, Writer::Mesh(..));
+    if several {
         let path = output_path(session, format)?;
-        let paths: Vec<PathBuf> = parts.iter().map(|p| path.with_extension(p)).collect();
-        return session.write_files(&paths, |i, out| write_part(mesh, format, i, out));
+        let paths = file_parts(format, path);
+        let write = || session.write_files(&paths, |i, out| write_part(mesh, format, i, out));
+        return match format.is_folder() {
+            true => in_folder(path, write),
+            false => write(),
+        };
     }
     write_stream(session, format, size, |out| {
         interchange::write(mesh, format, options, out)
     })
+}
+
+/// Writes files into a folder, which is made where it is missing, and taken away again where that fails.
+///
+/// # Errors
+/// Folders that cannot be made, and those of `write`.
+pub fn in_folder(
+    folder: &Path,
+    write: impl FnOnce() -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let fresh = !folder.exists();
+    std::fs::create_dir_all(folder)
+        .map_err(|e| Failure::writing(&folder.display().to_string(), &e))?;
+    let written = write();
+    if written.is_err() && fresh {
+        // Empty unless something else put files there.
+        let _ = std::fs::remove_dir(folder);
+    }
+    written
 }
 
 /// Writes with a progress bar; `size` is the number of bytes expected.

@@ -1,6 +1,6 @@
 //! A file that lists pieces, and a file per instance.
 
-use super::files::output_path;
+use super::files::{in_folder, output_path};
 use crate::mesh::{Assembled, Piece};
 use interchange::{Format, WriteOptions, write_pieces};
 use kit::{Failure, Session};
@@ -56,26 +56,19 @@ pub fn write_pvtu(
     options: &WriteOptions,
 ) -> Result<(), Failure> {
     let pieces = Pieces::of(document, output_path(session, Format::Pvtu)?)?;
-    let folder = &pieces.folder;
-    let fresh = !folder.exists();
-    std::fs::create_dir_all(folder)
-        .map_err(|e| Failure::writing(&folder.display().to_string(), &e))?;
     let count = pieces.sources.len();
     let progress = session.progress(pieces.paths.len() as u64, "writing");
-    let written = session.write_files(&pieces.paths, |i, out| {
-        progress.set(i as u64);
-        let piece = Piece::new(mesh, i.min(count - 1));
-        if i < count {
-            interchange::write(&piece, Format::Vtu, options, out)
-        } else {
-            write_pieces(&piece, options.boundary, &pieces.sources, out)
-        }
-    });
-    if written.is_err() && fresh {
-        // Empty unless something else put files there.
-        let _ = std::fs::remove_dir(folder);
-    }
-    written
+    in_folder(&pieces.folder, || {
+        session.write_files(&pieces.paths, |i, out| {
+            progress.set(i as u64);
+            let piece = Piece::new(mesh, i.min(count - 1));
+            if i < count {
+                interchange::write(&piece, Format::Vtu, options, out)
+            } else {
+                write_pieces(&piece, options.boundary, &pieces.sources, out)
+            }
+        })
+    })
 }
 
 /// Instances in an order in which those of each template are spread evenly: parallel readers give

@@ -63,7 +63,6 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
         min_dihedral: params.min_dihedral,
         max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),
         scale: plc.scale,
-        share: 1.0,
     };
     Some(improve(&mut filled.template, &freedoms, &wish))
 }

@@ -3,6 +3,7 @@
 use crate::soup::surface::Surface;
 use geom::edges::Edges;
 use geom::measure::double_area_vector;
+use geom::tolerance::Tolerance;
 use glam::DVec3;
 
 /// Angle between facets up to which they may stand for one smooth surface, radians: 30 degrees. A choice: CAD programs
@@ -25,15 +26,48 @@ pub struct Before {
     pub corners: Vec<[DVec3; 3]>,
     /// The farthest that a corner or an edge was moved.
     pub moved: Vec<f64>,
+    /// Where the rim of the open surface bends.
+    pub rims: Vec<Bend>,
 }
 
-/// For each vertex of a closed surface, the largest sagitta of a facet at it.
+/// Two edges of a rim, one after the other.
+pub struct Bend {
+    /// The triangles that have them.
+    pub sources: [u32; 2],
+    /// Their ends.
+    pub points: [DVec3; 3],
+}
+
+/// For each vertex of a closed surface, the largest sagitta of a facet at it, and of an edge of the rim at it.
 ///
 /// Facets that turn by an angle `a` against each other over a width `w` stand for an arc of radius `w / a`, whose
-/// sagitta is `w a / 8`; where one of the two is flat, the other turns by all of that at its one side, which makes up for
-/// twice of it. The narrower of the two counts, as the wider one may be flat. What the movement
-/// of corners can have turned the facets by is no part of the angle: a gap does not explain itself.
+/// sagitta is `w a / 8`; so do edges of a rim of length `w`, which a flat face may have along a curve. The narrower of
+/// the two counts, as the wider one may be flat. What the movement of corners can have turned them by is no part of the
+/// angle: a gap does not explain itself.
 pub fn sagittas(surface: &Surface, before: &Before) -> Vec<f64> {
+    let mut of_source = vec![0.0_f64; before.corners.len()];
+    of_facets(surface, before, &mut of_source);
+    of_rims(before, &mut of_source);
+    let mut at_vertex = vec![0.0_f64; surface.points.len()];
+    for (t, corners) in surface.triangles.iter().enumerate() {
+        let sagitta = of_source[surface.source[t] as usize];
+        for &v in corners {
+            at_vertex[v as usize] = at_vertex[v as usize].max(sagitta);
+        }
+    }
+    at_vertex
+}
+
+/// The sagitta of arcs that turn by an angle, of which some is uncertain, over the narrower of two widths; 0 for what is
+/// not smooth.
+fn sagitta(angle: f64, uncertain: f64, widths: [f64; 2]) -> f64 {
+    if angle.is_nan() || angle > SMOOTH {
+        return 0.0;
+    }
+    0.125 * (angle - uncertain).max(0.0) * widths[0].min(widths[1])
+}
+
+fn of_facets(surface: &Surface, before: &Before, of_source: &mut [f64]) {
     let edges = Edges::new(&surface.triangles);
     let normals: Vec<DVec3> = before
         .corners
@@ -43,36 +77,40 @@ pub fn sagittas(surface: &Surface, before: &Before) -> Vec<f64> {
     let tilt: Vec<f64> = (before.corners.iter().zip(&normals).zip(&before.moved))
         .map(|((corners, normal), moved)| tilt(corners, normal.length(), *moved))
         .collect();
-    let mut of_source = vec![0.0_f64; before.corners.len()];
     for e in 0..edges.len() {
         let [u, v] = edges.around(e) else { continue };
         let sources = [u, v].map(|u| surface.source[u.triangle as usize] as usize);
         let [s, t] = sources;
-        let alike = if u.forward == v.forward { -1.0 } else { 1.0 };
-        let angle = normals[s].angle_between(normals[t] * alike);
-        if s == t || !(angle <= SMOOTH) {
+        if s == t {
             continue;
         }
+        let alike = if u.forward == v.forward { -1.0 } else { 1.0 };
+        let angle = normals[s].angle_between(normals[t] * alike);
         let [a, b] = edges.ends[e].map(|v| surface.points[v as usize]);
         let along = (b - a).normalize_or_zero();
-        let width = |s: usize| {
+        let widths = sources.map(|s| {
             let across = before.corners[s].map(|p| (p - a).cross(along).length());
             across.into_iter().fold(0.0, f64::max)
-        };
-        let turn = (angle - tilt[s] - tilt[t]).max(0.0);
-        let sagitta = 0.25 * turn * width(s).min(width(t));
+        });
+        let sagitta = sagitta(angle, tilt[s] + tilt[t], widths);
         for s in sources {
             of_source[s] = of_source[s].max(sagitta);
         }
     }
-    let mut at_vertex = vec![0.0_f64; surface.points.len()];
-    for (t, corners) in surface.triangles.iter().enumerate() {
-        let sagitta = of_source[surface.source[t] as usize];
-        for &v in corners {
-            at_vertex[v as usize] = at_vertex[v as usize].max(sagitta);
+}
+
+fn of_rims(before: &Before, of_source: &mut [f64]) {
+    for bend in &before.rims {
+        let [a, b, c] = bend.points;
+        let sources = bend.sources.map(|s| s as usize);
+        let lengths = [a.distance(b), b.distance(c)];
+        let uncertain =
+            before.moved[sources[0]] / lengths[0] + before.moved[sources[1]] / lengths[1];
+        let sagitta = sagitta((b - a).angle_between(c - b), uncertain, lengths);
+        for s in sources {
+            of_source[s] = of_source[s].max(sagitta);
         }
     }
-    at_vertex
 }
 
 /// The angle by which moving a corner turns a triangle: the movement over its smallest height.
@@ -93,12 +131,17 @@ pub struct TooWide {
     pub worst: (Gap, f64),
 }
 
-/// Looks for gaps that are wider than twice the sagitta there, one for either side of the gap, and `flat`, which is allowed
-/// where facets hide nothing.
-pub fn too_wide(gaps: &[Gap], sagitta: &[f64], flat: f64) -> Option<TooWide> {
+/// How wide a gap may be: twice the sagitta there, once for either side of it, and as far as points are moved onto planes,
+/// too, which does not bend flat faces.
+pub fn widest(sagitta: f64, tolerance: &Tolerance) -> f64 {
+    2.0 * sagitta + tolerance.on_plane()
+}
+
+/// Looks for gaps that are wider than allowed at their vertex.
+pub fn too_wide(gaps: &[Gap], allowed: impl Fn(u32) -> f64) -> Option<TooWide> {
     let mut found: Option<TooWide> = None;
     for &gap in gaps {
-        let allowed = 2.0 * sagitta[gap.vertex as usize] + flat;
+        let allowed = allowed(gap.vertex);
         if gap.width <= allowed {
             continue;
         }

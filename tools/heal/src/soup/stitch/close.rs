@@ -1,10 +1,10 @@
 //! Closing of a surface: proposed round by round, then measured.
 
-use super::allowance::{Before, Gap, TooWide, sagittas, too_wide};
+use super::allowance::{Before, Bend, Gap, sagittas, too_wide, widest};
 use super::join::{To, joins};
-use super::rim::Rim;
+use super::rim::{Rim, Within};
 use super::split::{Stitch, split};
-use crate::meeting::{Meetings, meetings};
+use crate::meeting::meetings;
 use crate::repair::{Repair, RepairKind};
 use crate::soup::closure::odd_edges;
 use crate::soup::coincident::merge;
@@ -13,71 +13,30 @@ use crate::words::{place, short};
 use geom::edges::Edges;
 use geom::tolerance::Tolerance;
 use interchange::text::counted;
+use rustc_hash::FxHashMap;
 
-/// How the closing of a surface ended.
-pub enum Closing {
-    /// It is closed.
-    Closed(Vec<Repair>),
-    /// It is open still: no corners near each other are left.
-    Open,
-    /// It was closed, but across gaps that are wider than allowed.
-    TooWide(TooWide),
-    /// It was closed, but crosses itself there now.
-    Crossing(Meetings),
-}
-
-/// Closes a surface that has edges with an odd number of triangles, or leaves it as far as it came.
-pub fn close(surface: &mut Surface, tolerance: &Tolerance) -> Closing {
-    let mut work = Work::new(surface);
-    if !work.propose(tolerance.equal()) {
-        return Closing::Open;
-    }
-    let gaps = work.gaps();
-    let before = work.before();
-    // Points are moved as far as this onto planes, too: it does not bend flat faces.
-    let flat = tolerance.on_plane();
-    let sagitta = sagittas(work.surface, &before);
-    if let Some(found) = too_wide(&gaps, &sagitta, flat) {
-        return Closing::TooWide(found);
-    }
-    let changed = |t: u32| before.moved[work.surface.source[t as usize] as usize] > 0.0;
-    let met = meetings(
-        &work.surface.points,
-        &work.surface.triangles,
-        |t| t,
-        |contact| contact.triangles.iter().any(|&t| changed(t)),
-    );
-    if met.count > 0 {
-        return Closing::Crossing(met);
-    }
-    Closing::Closed(work.repairs(&gaps))
-}
-
-impl Closing {
-    /// Why the surface is not closed that way, for the end of a sentence.
-    pub fn reason(&self, surface: &Surface) -> String {
-        match self {
-            Self::Closed(_) | Self::Open => String::new(),
-            Self::TooWide(TooWide { count, worst }) => {
-                let (gap, allowed) = *worst;
-                format!(
-                    "to close it {} wider than the facets beside it explain, {} at {}, where that is {}",
-                    counted(*count, "gap is", "gaps are"),
-                    short(gap.width),
-                    place(surface.points[gap.vertex as usize]),
-                    short(allowed)
-                )
-            }
-            Self::Crossing(met) => format!(
-                "closing its cracks would make it cross itself: {}{}",
-                counted(met.count, "pair of triangles", "pairs of triangles"),
-                met.lowest.map_or(String::new(), |c| format!(
-                    ", the first at {}",
-                    place(c.point)
-                ))
-            ),
+/// Closes a surface that has edges with an odd number of triangles: what was repaired.
+///
+/// # Errors
+/// Why it cannot be closed, for the end of a sentence, or nothing where nothing lies beside the edges; the surface is as
+/// it was.
+pub fn close(surface: &mut Surface, tolerance: &Tolerance) -> Result<Vec<Repair>, Option<String>> {
+    let whole = surface.clone();
+    let mut reason = None;
+    // What is farther off than allowed is looked for as well: what is allowed may turn out to be more once cracks are
+    // closed, and if it does not, it is the reason.
+    for within in [Within::Allowed, Within::Any] {
+        let mut work = Work::new(surface);
+        let left = work.propose(tolerance, within);
+        let gaps = work.gaps();
+        let wrong = work.wrong(&gaps, &left, tolerance);
+        if wrong.is_empty() && left.is_empty() {
+            return Ok(work.repairs(&gaps));
         }
+        reason = (!gaps.is_empty()).then(|| wrong.join(" and "));
+        surface.clone_from(&whole);
     }
+    Err(reason)
 }
 
 /// A surface while it is being closed.
@@ -85,6 +44,8 @@ struct Work<'a> {
     surface: &'a mut Surface,
     /// Corners of the triangles as they were.
     corners: Vec<[u32; 3]>,
+    /// Edges with one triangle as they were: by that triangle and the corner that they begin at.
+    open: Vec<(u32, u8)>,
     /// What each point has become.
     becomes: Vec<u32>,
     stitches: Vec<Stitch>,
@@ -95,7 +56,13 @@ struct Work<'a> {
 impl<'a> Work<'a> {
     fn new(surface: &'a mut Surface) -> Self {
         surface.source = (0..surface.triangles.len() as u32).collect();
+        let edges = Edges::new(&surface.triangles);
+        let open = (0..edges.len()).filter_map(|e| match edges.around(e) {
+            [only] => Some((only.triangle, only.corner)),
+            _ => None,
+        });
         Self {
+            open: open.collect(),
             corners: surface.triangles.clone(),
             becomes: (0..surface.points.len() as u32).collect(),
             stitches: Vec::new(),
@@ -104,35 +71,116 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Joins and divides until the surface is closed; whether it is.
-    fn propose(&mut self, equal: f64) -> bool {
+    /// Joins and divides until the surface is closed; the ends of the edges that are left.
+    ///
+    /// What is nearest goes first: where gaps of any width are closed, the reach begins with what counts as equal and is
+    /// doubled until nothing reaches farther.
+    fn propose(&mut self, tolerance: &Tolerance, within: Within) -> Vec<[u32; 2]> {
+        let equal = tolerance.equal();
+        let mut most = match within {
+            Within::Allowed => f64::INFINITY,
+            Within::Any => equal,
+        };
         let mut fewest = usize::MAX;
         loop {
             let edges = Edges::new(&self.surface.triangles);
             let odd = odd_edges(&edges);
             if odd.is_empty() {
-                return true;
+                return Vec::new();
             }
-            let rim = Rim::new(self.surface, &edges, &odd, equal);
-            if self.join(&rim, To::Rim) {
+            let allowed = self.allowed(&edges, tolerance);
+            let rim = Rim::new(self.surface, &edges, &odd, (equal, allowed, within));
+            if self.join(&rim, To::Rim, most) {
                 continue;
             }
             // Each round of dividing leaves fewer open edges, or none will.
             if odd.len() < fewest {
                 fewest = odd.len();
-                if self.split(&rim, equal) {
+                if self.split(&rim, most) {
                     continue;
                 }
             }
-            if !self.join(&rim, To::All) {
-                return false;
+            if self.join(&rim, To::All, most) {
+                continue;
             }
+            if rim.is_within(most) {
+                return odd.iter().map(|&e| edges.ends[e]).collect();
+            }
+            most *= 2.0;
+            fewest = usize::MAX;
         }
     }
 
+    /// What gaps may be wide at each vertex, as far as is known while there are cracks: nothing is known of triangles
+    /// without neighbours.
+    fn allowed(&self, edges: &Edges, tolerance: &Tolerance) -> Vec<f64> {
+        let mut allowed = sagittas(self.surface, &self.before());
+        allowed.iter_mut().for_each(|s| *s = widest(*s, tolerance));
+        let mut open = vec![0; self.surface.triangles.len()];
+        for e in 0..edges.len() {
+            if let [only] = edges.around(e) {
+                open[only.triangle as usize] += 1;
+            }
+        }
+        for (t, corners) in self.surface.triangles.iter().enumerate() {
+            if open[t] == corners.len() {
+                corners
+                    .iter()
+                    .for_each(|&v| allowed[v as usize] = f64::INFINITY);
+            }
+        }
+        allowed
+    }
+
+    /// What is wrong with the surface as it is now: edges left open, gaps that are too wide, crossings.
+    fn wrong(&self, gaps: &[Gap], left: &[[u32; 2]], tolerance: &Tolerance) -> Vec<String> {
+        let at = |v: u32| place(self.surface.points[v as usize]);
+        let mut wrong = Vec::new();
+        if let Some(&[a, b]) = left.first() {
+            let what = counted(left.len(), "edge has", "edges have");
+            wrong.push(format!(
+                "{what} no other one beside it, the first from {} to {}",
+                at(a),
+                at(b)
+            ));
+        }
+        let before = self.before();
+        let sagitta = sagittas(self.surface, &before);
+        let allowed = |v: u32| widest(sagitta[v as usize], tolerance);
+        if let Some(found) = too_wide(gaps, allowed) {
+            let (gap, allowed) = found.worst;
+            wrong.push(format!(
+                "{} wider than the facets there explain, {} at {}, where that is {}",
+                counted(found.count, "gap is", "gaps are"),
+                short(gap.width),
+                at(gap.vertex),
+                short(allowed)
+            ));
+        }
+        if !wrong.is_empty() {
+            return wrong;
+        }
+        let surface = &*self.surface;
+        let changed = |t: u32| before.moved[surface.source[t as usize] as usize] > 0.0;
+        let met = meetings(
+            &surface.points,
+            &surface.triangles,
+            |t| t,
+            |contact| contact.triangles.iter().any(|&t| changed(t)),
+        );
+        if let Some(first) = met.lowest {
+            wrong.push(format!(
+                "closing its cracks would make it cross itself at {}, {} in all",
+                place(first.point),
+                counted(met.count, "pair of triangles", "pairs of triangles")
+            ));
+        }
+        wrong
+    }
+
     /// Joins corners; whether there were any to join.
-    fn join(&mut self, rim: &Rim, to: To) -> bool {
-        let pairs = joins(self.surface, rim, to).unwrap_or_default();
+    fn join(&mut self, rim: &Rim, to: To, most: f64) -> bool {
+        let pairs = joins(self.surface, rim, to, most).unwrap_or_default();
         if pairs.is_empty() {
             return false;
         }
@@ -155,8 +203,8 @@ impl<'a> Work<'a> {
     }
 
     /// Divides edges; whether there were any to divide.
-    fn split(&mut self, rim: &Rim, equal: f64) -> bool {
-        let stitches = split(self.surface, rim, equal).unwrap_or_default();
+    fn split(&mut self, rim: &Rim, most: f64) -> bool {
+        let stitches = split(self.surface, rim, most).unwrap_or_default();
         self.stitches.extend(&stitches);
         !stitches.is_empty()
     }
@@ -184,12 +232,36 @@ impl<'a> Work<'a> {
             moved: (self.corners.iter())
                 .map(|t| t.map(moved).into_iter().fold(0.0, f64::max))
                 .collect(),
+            rims: self.rims(),
         };
         for stitch in &self.stitches {
             let moved = &mut before.moved[stitch.source as usize];
             *moved = moved.max(stitch.gap);
         }
         before
+    }
+
+    /// Each open edge with the next one where its end has just one, as they were.
+    fn rims(&self) -> Vec<Bend> {
+        let ends = |(t, corner): (u32, u8)| {
+            let corners = self.corners[t as usize];
+            [0, 1].map(|i| corners[(corner as usize + i) % 3])
+        };
+        let place = |v: u32| self.surface.points[v as usize];
+        let mut next: FxHashMap<u32, Option<(u32, u8)>> = FxHashMap::default();
+        for &edge in &self.open {
+            let known = next.entry(ends(edge)[0]);
+            known.and_modify(|e| *e = None).or_insert(Some(edge));
+        }
+        let bends = self.open.iter().filter_map(|&edge| {
+            let [a, b] = ends(edge);
+            let other = (*next.get(&b)?)?;
+            Some(Bend {
+                sources: [edge.0, other.0],
+                points: [place(a), place(b), place(ends(other)[1])],
+            })
+        });
+        bends.collect()
     }
 
     fn repairs(&self, gaps: &[Gap]) -> Vec<Repair> {

@@ -15,9 +15,9 @@ pub enum To {
     All,
 }
 
-/// Joins corners of the rim, nearest ones first, to the one among those joined that most triangles have: pairs (corner,
+/// Joins corners of the rim that are at most `most` apart, nearest ones first, to the one among those joined that most triangles have: pairs (corner,
 /// the corner that it becomes). `None` if too many are near each other.
-pub fn joins(surface: &Surface, rim: &Rim, to: To) -> Option<Vec<(u32, u32)>> {
+pub fn joins(surface: &Surface, rim: &Rim, to: To, most: f64) -> Option<Vec<(u32, u32)>> {
     let mut corners = rim.vertices.clone();
     let of_rim = corners.len();
     if to == To::All {
@@ -30,7 +30,7 @@ pub fn joins(surface: &Surface, rim: &Rim, to: To) -> Option<Vec<(u32, u32)>> {
         );
     }
     let point = |i: u32| surface.points[corners[i as usize] as usize];
-    let reach = |i: u32| rim.reach[corners[i as usize] as usize];
+    let reach = |i: u32| rim.reach(corners[i as usize], most);
     let boxes: Vec<_> = (0..corners.len() as u32)
         .map(|i| half_box(point(i), point(i), reach(i)))
         .collect();
@@ -41,7 +41,8 @@ pub fn joins(surface: &Surface, rim: &Rim, to: To) -> Option<Vec<(u32, u32)>> {
         |i| i.min(others),
         |i, j| {
             let apart = point(i).distance(point(j));
-            if apart <= reach(i).min(reach(j)) {
+            let ends = [i, j].map(|i| corners[i as usize]);
+            if apart <= reach(i).min(reach(j)) && rim.may_close(&ends, apart) {
                 found.push((apart, i, j));
             }
         },

@@ -13,4 +13,4 @@ mod near;
 mod rim;
 mod split;
 
-pub use close::{Closing, close};
+pub use close::close;

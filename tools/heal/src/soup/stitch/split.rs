@@ -2,11 +2,9 @@
 
 use super::near::near;
 use super::rim::{Rim, half_box};
-use crate::facet::triangles_of;
 use crate::soup::surface::Surface;
-use geom::measure::double_area_vector;
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
 /// A corner at which an edge of a triangle is divided.
@@ -30,10 +28,11 @@ struct Beside {
     along: f64,
 }
 
-/// Divides edges of the rim at corners of it that lie beside them; the nearest one for each corner. `None` if too many are
+/// Divides edges of the rim at corners of it that lie beside them, at most `most` away; the nearest edge for each corner that
+/// may not be joined to another one. `None` if too many are
 /// near each other.
-pub fn split(surface: &mut Surface, rim: &Rim, equal: f64) -> Option<Vec<Stitch>> {
-    let nearest = nearest_edges(surface, rim, equal)?;
+pub fn split(surface: &mut Surface, rim: &Rim, most: f64) -> Option<Vec<Stitch>> {
+    let nearest = nearest_edges(surface, rim, most)?;
     // Of each triangle and corner: the corners on the edge that begins there.
     let mut on: BTreeMap<u32, [Vec<(f64, u32)>; 3]> = BTreeMap::new();
     let mut stitches = Vec::new();
@@ -50,49 +49,63 @@ pub fn split(surface: &mut Surface, rim: &Rim, equal: f64) -> Option<Vec<Stitch>
             gap: beside.gap,
         });
     }
-    for (t, chains) in on {
-        let corners = surface.triangles[t as usize];
-        let whole = (0..3).find(|&i| chains[i].is_empty()).unwrap_or(0);
-        let mut polygon = Vec::new();
-        // The edge that begins at the first corner is whole, if there is one, so that a fan has no flat triangle there.
-        for i in (0..3).map(|i| (whole + 1 + i) % 3) {
-            let mut chain = chains[i].clone();
+    for (t, mut chains) in on {
+        for chain in &mut chains {
             chain.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            polygon.push(corners[i]);
-            polygon.extend(chain.into_iter().map(|(_, v)| v));
         }
-        let parts = triangles_of(&surface.points, &polygon);
-        surface.replace(t, &parts);
+        let chains = chains.map(|chain| chain.into_iter().map(|(_, v)| v).collect());
+        surface.replace(t, &fans(surface.triangles[t as usize], chains));
     }
     Some(stitches)
 }
 
+/// The parts of a triangle whose edges are divided at chains of corners, given for the edge that begins at each corner.
+///
+/// Each chain is seen from one point: none of the parts lies in a chain, where it would be a fold between what is on
+/// either side of it.
+fn fans(corners: [u32; 3], chains: [Vec<u32>; 3]) -> Vec<[u32; 3]> {
+    let Some(first) = (0..3).find(|&i| !chains[i].is_empty()) else {
+        return vec![corners];
+    };
+    let [a, b, c] = [0, 1, 2].map(|i| corners[(first + i) % 3]);
+    let [ab, bc, ca] = [0, 1, 2].map(|i| &chains[(first + i) % 3]);
+    let fan = |apex: u32, from: u32, chain: &[u32], to: u32| -> Vec<[u32; 3]> {
+        let whole = [&[from], chain, &[to]].concat();
+        whole.windows(2).map(|w| [apex, w[0], w[1]]).collect()
+    };
+    let mut parts = fan(c, a, ab, b);
+    // The other two edges belong to the last and the first of these.
+    let (p, q) = (ab[0], ab[ab.len() - 1]);
+    if !bc.is_empty() {
+        parts.pop();
+        parts.extend(fan(q, b, bc, c));
+    }
+    if !ca.is_empty() {
+        parts.remove(0);
+        parts.extend(fan(p, c, ca, a));
+    }
+    parts
+}
+
 /// For each corner of the rim, the nearest edge of it in reach that runs the other way.
-fn nearest_edges(surface: &Surface, rim: &Rim, equal: f64) -> Option<FxHashMap<u32, Beside>> {
+fn nearest_edges(surface: &Surface, rim: &Rim, most: f64) -> Option<FxHashMap<u32, Beside>> {
     let ends = |edge: u32| {
         let open = rim.open[edge as usize];
         let t = surface.triangles[open.triangle as usize];
         [0, 1, 2].map(|i| t[(open.corner as usize + i) % 3])
     };
     let point = |v: u32| surface.points[v as usize];
-    // An edge is moved by less than its triangle is high.
-    let reach = |edge: u32| {
-        let [a, b, c] = ends(edge).map(point);
-        let base = (b - a).length();
-        let height = double_area_vector(a, b, c).length() / base;
-        (0.5 * height.min(base)).max(equal)
-    };
     let count = rim.open.len() as u32;
-    let reaches: Vec<f64> = (0..count).map(reach).collect();
     let mut boxes = Vec::with_capacity(rim.open.len() + rim.vertices.len());
     for edge in 0..count {
         let [a, b, _] = ends(edge).map(point);
-        boxes.push(half_box(a.min(b), a.max(b), reaches[edge as usize]));
+        boxes.push(half_box(a.min(b), a.max(b), rim.edge_reach(edge, most)));
     }
     for &v in &rim.vertices {
-        boxes.push(half_box(point(v), point(v), rim.reach[v as usize]));
+        boxes.push(half_box(point(v), point(v), rim.reach(v, most)));
     }
     let runs = directions(surface, rim);
+    let waiting = waiting(surface, rim)?;
     let mut nearest: FxHashMap<u32, Beside> = FxHashMap::default();
     let complete = near(
         &boxes,
@@ -100,19 +113,27 @@ fn nearest_edges(surface: &Surface, rim: &Rim, equal: f64) -> Option<FxHashMap<u
         |edge, i| {
             let vertex = rim.vertices[(i - count) as usize];
             let corners = ends(edge);
-            let [a, b, _] = corners.map(point);
+            let [a, b, c] = corners.map(point);
             let along = b - a;
             let opposed = runs
                 .get(&vertex)
                 .is_some_and(|r| r.iter().any(|d| d.dot(along) < 0.0));
-            if corners.contains(&vertex) || !opposed {
+            if corners.contains(&vertex) || !opposed || waiting.contains(&vertex) {
                 return;
             }
             let off = point(vertex) - a;
             let f = off.dot(along) / along.length_squared();
-            let gap = (off - along * f).length();
-            let reach = rim.reach[vertex as usize].min(reaches[edge as usize]);
-            if !(f > 0.0 && f < 1.0 && gap <= reach) {
+            let across = off - along * f;
+            let gap = across.length();
+            let reach = rim.reach(vertex, most).min(rim.edge_reach(edge, most));
+            // Towards its apex, a triangle's edge is moved by less than the triangle is high.
+            let up = (c - a).reject_from(along);
+            let passes =
+                gap > rim.edge_reach(edge, 0.0) && across.dot(up) > 0.5 * up.length_squared();
+            if !(f > 0.0 && f < 1.0 && gap <= reach)
+                || passes
+                || !rim.may_close(&[vertex, corners[0], corners[1]], gap)
+            {
                 return;
             }
             let beside = Beside {
@@ -129,6 +150,29 @@ fn nearest_edges(surface: &Surface, rim: &Rim, equal: f64) -> Option<FxHashMap<u
     complete.then_some(nearest)
 }
 
+/// Corners that may be joined to another one of the rim, and are no corners on edges.
+fn waiting(surface: &Surface, rim: &Rim) -> Option<FxHashSet<u32>> {
+    let point = |i: u32| surface.points[rim.vertices[i as usize] as usize];
+    let boxes: Vec<_> = (0..rim.vertices.len() as u32)
+        .map(|i| {
+            let reach = rim.reach(rim.vertices[i as usize], f64::INFINITY);
+            half_box(point(i), point(i), reach)
+        })
+        .collect();
+    let mut waiting = FxHashSet::default();
+    let complete = near(
+        &boxes,
+        |i| i,
+        |i, j| {
+            let corners = [i, j].map(|i| rim.vertices[i as usize]);
+            if rim.may_join(corners, point(i).distance(point(j))) {
+                waiting.extend(corners);
+            }
+        },
+    );
+    complete.then_some(waiting)
+}
+
 /// The directions in which open edges run through each corner.
 fn directions(surface: &Surface, rim: &Rim) -> FxHashMap<u32, Vec<DVec3>> {
     let mut runs: FxHashMap<u32, Vec<DVec3>> = FxHashMap::default();
@@ -141,4 +185,18 @@ fn directions(surface: &Surface, rim: &Rim) -> FxHashMap<u32, Vec<DVec3>> {
         }
     }
     runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chains_are_seen_from_one_point_each() {
+        assert_eq!(fans([0, 1, 2], Default::default()), [[0, 1, 2]]);
+        let one = fans([0, 1, 2], [vec![], vec![3, 4], vec![]]);
+        assert_eq!(one, [[0, 1, 3], [0, 3, 4], [0, 4, 2]]);
+        let all = fans([0, 1, 2], [vec![3, 4], vec![5], vec![6]]);
+        assert_eq!(all, [[2, 3, 4], [4, 1, 5], [4, 5, 2], [3, 2, 6], [3, 6, 0]]);
+    }
 }

@@ -5,12 +5,10 @@ use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Triangles with smaller angles are improved where the outline allows it, degrees. Insertion of
-/// circumcentres ends for any bound below 30, and takes many more points close to it.
+/// circumcentres ends for any bound below 30, and takes many more points close to it. Measured with `tetwedge` on bodies of `body`
+/// without mirrors: with 21 degrees, where a triangle has the radius-edge ratio that is asked of tetrahedra by default, there are up
+/// to 12 % fewer elements, but the first percentile of the angles of twisted bodies falls by a degree.
 const MIN_ANGLE: f64 = 27.0;
-
-/// Rounds of removing and inserting points at most. Each inserts one point for every few triangles that are bad, so that
-/// their number halves about every round; what is left after these is outlines that allow nothing better.
-const ROUNDS: usize = 40;
 
 /// A flat facet in its own plane.
 pub struct Patch {
@@ -55,10 +53,12 @@ impl Patch {
         // Triangles whose circumcentres were inserted in vain.
         let mut hopeless: FxHashSet<[u32; 3]> = FxHashSet::default();
         let mut author: FxHashMap<u32, [u32; 3]> = FxHashMap::default();
-        for round in 0..=ROUNDS {
+        // Each round inserts one point for every few triangles that are bad, so that their number halves about every
+        // round; what is left when no bit of it can be is outlines that allow nothing better.
+        for round in 0..=usize::BITS {
             let mesh = self.mesh(&used, &borders, &edges)?;
             let triangles = mesh.triangles();
-            if round == ROUNDS {
+            if round == usize::BITS {
                 return Ok(triangles);
             }
             let removed = self.encroaching(&triangles, &edges);

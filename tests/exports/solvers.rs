@@ -1,0 +1,161 @@
+//! Meshes for solvers: SU2, I-DEAS universal files, OpenFOAM.
+
+use crate::referee::{close, is_there, python};
+use crate::tools::{coarse_mesh, rotassemble};
+use crate::via;
+use bodies::Body;
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+use support::{EXACT_STL, encode};
+
+const SCRIPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/exports/solvers.py");
+
+#[track_caller]
+fn read(kind: &str, path: &Path) -> Value {
+    let mut command = Command::new(python().expect("looked for before"));
+    let output = command.arg("-B").arg(SCRIPT).arg(kind).arg(path).output();
+    let output = output.expect("Python runs");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{kind}: {errors}");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let last = text.lines().last().unwrap_or_default();
+    serde_json::from_str(last).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+#[track_caller]
+fn export(input: &Path, output: &Path, options: &[&str]) {
+    let path = output.to_str().expect("text");
+    rotassemble(input, &[&["-o", path], options].concat());
+}
+
+fn volume(body: &Body) -> f64 {
+    (0..body.materials.len()).map(|i| body.volume(i)).sum()
+}
+
+/// Area of a named piece of the boundary in the input.
+#[track_caller]
+fn area(document: &tmesh::Document, name: &str) -> f64 {
+    let marker = document.markers.iter().find(|m| m.name == name);
+    marker.and_then(|m| m.area).expect("a marker with an area")
+}
+
+#[test]
+fn solvers_find_the_whole_mesh() {
+    if !is_there() {
+        return;
+    }
+    let body = via();
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let cut = ["--order", "8", "--hub", "none"];
+    let input = coarse_mesh(folder, &encode(&body, EXACT_STL), &cut);
+    let document = tmesh::read(std::fs::read(&input).expect("a file").as_slice()).expect("valid");
+    let tets: usize = document.templates.iter().map(|t| t.tets.len()).sum();
+    let tets = tets * document.instances.len();
+    let case = folder.join("case");
+    let files = [
+        ("su2", folder.join("a.su2"), folder.join("a.su2")),
+        ("unv", folder.join("a.unv"), folder.join("a.unv")),
+        ("polymesh", case.join("constant/polyMesh"), case.clone()),
+    ];
+    let mut points = None;
+    for (kind, output, seen) in &files {
+        export(&input, output, &[]);
+        let found = read(kind, seen);
+        assert_eq!(found["tetrahedra"], tets, "{kind}");
+        let points = points.get_or_insert(found["points"].clone());
+        assert_eq!(&found["points"], points, "{kind}");
+        assert!(found["least"].as_f64() > Some(0.0), "{kind}");
+        // VTK's reader has points in single precision.
+        close(&found["volume"], volume(&body), 1e-6, kind);
+        for material in &body.materials {
+            let name = &material.name;
+            let index = body.materials.iter().position(|m| m.name == *name);
+            let own = body.volume(index.expect("it is one of them"));
+            match *kind {
+                "su2" => close(&found["areas"][name], area(&document, name), 1e-6, kind),
+                "unv" => {
+                    close(&found["groups"][name], own, 1e-9, kind);
+                    let surface = &found["groups"][&format!("{name}-2")];
+                    assert!(surface.as_f64() > Some(0.0), "{found}");
+                }
+                _ => {
+                    let patch = &found["patches"][name];
+                    assert_eq!(patch["type"], "patch");
+                    close(&patch["area"], area(&document, name), 1e-6, kind);
+                    let zone = format!("zones/cellZones/{name}");
+                    assert!(found["counts"][zone].as_u64() > Some(0), "{found}");
+                    let shown = format!("boundary/{name}");
+                    assert_eq!(found["counts"][shown], patch["faces"]);
+                }
+            }
+        }
+        if *kind == "polymesh" {
+            assert!(found["open"].as_f64() < Some(1e-12), "{found}");
+            close(&found["volume_by_faces"], volume(&body), 1e-9, kind);
+            assert!(found["least_by_faces"].as_f64() > Some(0.0));
+        }
+    }
+}
+
+#[test]
+fn a_sector_has_cyclic_patches() {
+    if !is_there() {
+        return;
+    }
+    let body = via();
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let cut = ["--domain", "rotation", "--order", "8", "--hub", "none"];
+    let cut = [&cut[..], &["--horizontal-mirror", "off"]].concat();
+    let input = coarse_mesh(folder, &encode(&body, EXACT_STL), &cut);
+    let case = folder.join("case");
+    export(&input, &case.join("constant/polyMesh"), &["--sector"]);
+    let found = read("polymesh", &case);
+    let [a, b] = ["wall-a", "wall-b"].map(|name| &found["patches"][name]);
+    for (patch, other, turn) in [(a, "wall-b", 0.125), (b, "wall-a", -0.125)] {
+        assert_eq!(
+            (&patch["type"], &patch["other"]),
+            (&"cyclic".into(), &other.into())
+        );
+        close(&patch["turn"], turn, 1e-12, "the turn");
+    }
+    // The body is ten units large: the faces are images corner by corner.
+    assert!(found["off"].as_f64() < Some(1e-12), "{}", found["off"]);
+    assert!(found["open"].as_f64() < Some(1e-12));
+    close(
+        &found["volume_by_faces"],
+        volume(&body) / 8.0,
+        1e-9,
+        "the sector",
+    );
+    let deck = folder.join("a.su2");
+    export(&input, &deck, &["--sector"]);
+    let found = read("su2", &deck);
+    close(
+        &found["areas"]["wall-a"],
+        found["areas"]["wall-b"].as_f64().expect("an area"),
+        1e-12,
+        "both faces",
+    );
+    let text = std::fs::read_to_string(deck).expect("a file");
+    assert!(text.contains("\n% wall-b is wall-a turned by 1/8\n"));
+}
+
+#[test]
+fn mirror_planes_of_a_sector_are_symmetry_planes() {
+    if !is_there() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let cut = ["--order", "8", "--hub", "none"];
+    let input = coarse_mesh(folder, &encode(&via(), EXACT_STL), &cut);
+    let case = folder.join("case");
+    export(&input, &case.join("constant/polyMesh"), &["--sector"]);
+    let found = read("polymesh", &case);
+    for wall in ["wall-a", "wall-b"] {
+        assert_eq!(found["patches"][wall]["type"], "symmetryPlane", "{found}");
+    }
+}
