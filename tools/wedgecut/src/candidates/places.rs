@@ -14,10 +14,9 @@ use std::f64::consts::{PI, TAU};
 use tmesh::{Frame, Group, Isometry, Kind};
 
 /// Harm from which walls on the axes of half turns, which nobody asked for, are given up, since they cannot be elsewhere;
-/// and by how much more a seam at an angle that was asked for harms than at the best place when the user is told. Twenty
-/// thousand tetrahedra in each copy, by the coefficients of the model, the size of a wedge. Of half turns, walls
-/// that harm by up to 205 give as good elements as a seam (gears), and from 217 on slivers (knots), so that
-/// the value lies between.
+/// and by how much more a seam at an angle that was asked for harms than at the best place when the user is told. A
+/// choice between what was found: half turns of helical gears harm by up to 205 and are kept, those of a knot and of
+/// a twisted bar, whose walls cut slivers, by 217 to 240. It is some ten thousand tetrahedra in each copy.
 pub const HARMFUL: f64 = 210.0;
 /// Harm from which a seam at an angle that was asked for is refused: each copy would get as many elements as a whole
 /// body usually has. A choice; only angles that pass an edge by a hundred-thousandth of the body reach it.
