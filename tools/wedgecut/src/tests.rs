@@ -733,3 +733,23 @@ fn a_start_angle_that_no_half_turn_has_gives_a_seam() {
         check(&body, &params, copies);
     }
 }
+
+#[test]
+fn the_sector_is_cut_whose_drawing_a_mirror_plane_does_not_sliver() {
+    // A circle of 24 facets in which points beside two of the mirror planes of C4v are off them by a hundredth.
+    let mut body = Body::regular(24, &[1.0]);
+    for k in [0, 3] {
+        let angle = std::f64::consts::TAU * k as f64 / 24.0 + 0.01;
+        body.rings[0][k] = [angle.cos(), angle.sin()];
+    }
+    let mut document = body.document((4, true), None, 1.0);
+    document.symmetry.as_mut().unwrap().residual = 1e-2;
+    let (wedge, _) = cut(document, &DEFAULT).unwrap();
+    let template = &wedge.templates[0];
+    let lengths = template.triangles.iter().flat_map(|t| {
+        let corners = geom::measure::corners(&template.vertices, t);
+        (0..3).map(move |k| corners[k].distance(corners[(k + 1) % 3]))
+    });
+    let shortest = lengths.fold(f64::INFINITY, f64::min);
+    assert!(shortest > 0.1, "{shortest}");
+}

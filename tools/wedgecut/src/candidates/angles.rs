@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// Parts of the wedge's opening of which each has an angle to try: the place that harms least is told from its
 /// neighbours to a sixteenth of the opening, which is less than two of the elements that fit between the sides.
-const PLACES: usize = 16;
+pub const PLACES: usize = 16;
 
 /// Angles for the first side of a wedge whose sides may be anywhere, radians, best first: the middle of the largest
 /// gap between the angles of the vertices modulo the wedge's `opening`, so that the sides cut edges cleanly

@@ -1,6 +1,6 @@
 //! Where the first side of a wedge may lie.
 
-use super::angles::clear_angles;
+use super::angles::{PLACES, clear_angles};
 use crate::body::Body;
 use crate::cell::angle;
 use crate::cutting::Place;
@@ -10,17 +10,13 @@ use estimate::harm::sliced::Harm;
 use estimate::harm::{halved, sliced};
 use geom::number::number;
 use glam::DVec3;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use tmesh::{Frame, Group, Isometry, Kind};
 
-/// How many places of a seam are tried, at most: at the fourth, most bodies that cannot be cut have failed for a
-/// reason that holds everywhere.
-const TRIALS: usize = 4;
 /// Harm from which walls on the axes of half turns, which nobody asked for, are given up, since they cannot be elsewhere;
-/// and by how much more a seam at an angle that was asked for harms than at the best place when the user is told. Twenty
-/// thousand tetrahedra in each copy, by the coefficients of the model, the size of a wedge. Of half turns, walls
-/// that harm by up to 205 give as good elements as a seam (gears), and from 217 on slivers (knots), so that
-/// the value lies between.
+/// and by how much more a seam at an angle that was asked for harms than at the best place when the user is told. A
+/// choice between what was found: half turns of helical gears harm by up to 205 and are kept, those of a knot and of
+/// a twisted bar, whose walls cut slivers, by 217 to 240. It is some ten thousand tetrahedra in each copy.
 pub const HARMFUL: f64 = 210.0;
 /// Harm from which a seam at an angle that was asked for is refused: each copy would get as many elements as a whole
 /// body usually has. A choice; only angles that pass an edge by a hundred-thousandth of the body reach it.
@@ -105,6 +101,12 @@ impl Places {
             }
             _ => 0.0,
         };
+        // Where the images of a drawing are off by more than its points are moved, sectors are drawn differently.
+        let slide = body.tolerance.slide();
+        let drawn_alike = slide == 0.0 || body.tolerance.drift() <= slide;
+        if !drawn_alike && body.symmetry.rotation_regions().pairs.is_empty() {
+            return Self::fixed(body, Self::best_sector(body, group), harm);
+        }
         if !Self::has_choice(body, group) {
             return Self::fixed(body, 0, harm);
         }
@@ -118,6 +120,24 @@ impl Places {
         let alike = (given - other).abs() <= f64::EPSILON.sqrt() * given.max(other);
         let is_better = if alike { less < cut } else { other < given };
         Self::fixed(body, i64::from(is_better), harm)
+    }
+
+    /// The sector, as a number of half steps, whose sides harm the drawing least, where that does not share the symmetry:
+    /// of all of them, or of [`PLACES`] all around.
+    fn best_sector(body: &Body<'_>, group: Group) -> i64 {
+        let sectors = 2 * body.symmetry.group.order as usize;
+        let step = TAU / sectors as f64;
+        let slicing = slicing(body);
+        let harm = |k: usize| {
+            let first = k as f64 * step;
+            slicing(first).total() + slicing(first + angle(group)).total()
+        };
+        let places = (0..sectors).step_by(sectors.div_ceil(PLACES));
+        let all = places.map(|k| (harm(k), k as i64));
+        // The first of those that differ by less than an element.
+        let elements = |harm: f64| (CostModel::CALIBRATED.sliced * harm).round();
+        let best = all.min_by(|a, b| elements(a.0).total_cmp(&elements(b.0)));
+        best.map_or(0, |(_, k)| k)
     }
 
     /// The sides lie along axes of half turns.
@@ -160,7 +180,6 @@ impl Places {
             warning = is_harmful(angle, given, list[0])?;
             list = vec![(angle, given)];
         }
-        list.truncate(TRIALS);
         // Turns of the rotation have as many faces as it has sides.
         let sides = if group.kind == Kind::S { 2.0 } else { 1.0 };
         let place = |(angle, harm): (f64, Harm)| {

@@ -227,7 +227,11 @@ impl Cutter<'_> {
                 collapsed.points, collapsed.faces
             ));
         }
-        let near = self.tolerance.detail_at_planes();
+        // Edges longer than what is moved along the surface are no detail: they are those of narrow facets.
+        let near = match (self.tolerance.detail_at_planes(), self.tolerance.slide()) {
+            (near, 0.0) => near,
+            (near, slide) => near.min(slide),
+        };
         if near > 0.0 && !self.cell.faces.is_empty() {
             let joined = collapse_at_sides(surface, self.cell, near);
             notes.push(format!(
