@@ -138,7 +138,7 @@ impl Work<'_> {
 
     /// Moves vertices and replaces edges and faces, round after round, until nothing is left to do. All rounds together look at
     /// no more than half as many tetrahedra as there are, so that the work stays linear where the shape is to blame for many of
-    /// them: with twice as many, the first percentile rises by 0.02 degrees in the mean and the time by a quarter.
+    /// them.
     fn rounds(&mut self) {
         loop {
             let bad = self.bad();
