@@ -114,7 +114,7 @@ manual: setup ## write man pages and shell completions into target/manual
 
 install: build manual ## install the tools, their man pages and completions under PREFIX (default /usr/local)
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1
-	install -m 755 $(TOOLS:%=$(TARGET)/release/%) $(DESTDIR)$(PREFIX)/bin
+	install -m 755 $(TOOLS:%=$(TARGET)/release/%) tools/symtet/symtet $(DESTDIR)$(PREFIX)/bin
 	install -m 644 $(TOOLS:%=$(MANUAL)/man1/%.1) $(DESTDIR)$(PREFIX)/share/man/man1
 	install -d $(DESTDIR)$(PREFIX)/share/bash-completion/completions
 	install -m 644 $(TOOLS:%=$(MANUAL)/bash/%) $(DESTDIR)$(PREFIX)/share/bash-completion/completions

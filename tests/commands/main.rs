@@ -5,4 +5,5 @@ mod messages;
 mod repairs;
 mod rotassemble;
 mod symdetect;
+mod symtet;
 mod tetwedge;
