@@ -137,8 +137,8 @@ impl Work<'_> {
     }
 
     /// Moves vertices and replaces edges and faces, round after round, until nothing is left to do. All rounds together look at
-    /// no more tetrahedra than there are, so that the work stays linear where the shape is to blame for many of
-    /// them.
+    /// no more than half as many tetrahedra as there are, so that the work stays linear where the shape is to blame
+    /// for many of them.
     fn rounds(&mut self) {
         loop {
             let bad = self.bad();
@@ -147,7 +147,7 @@ impl Work<'_> {
             self.done.moved += count.moved;
             self.done.flipped += count.flipped;
             self.looked_at += bad.len();
-            if count == Count::default() || self.looked_at > self.mesh.len() {
+            if count == Count::default() || 2 * self.looked_at > self.mesh.len() {
                 break;
             }
         }
