@@ -1,5 +1,6 @@
 //! The command line of each tool: options, exit codes, messages, reports, what happens to files.
 
+mod bounds;
 mod meshqual;
 mod messages;
 mod repairs;

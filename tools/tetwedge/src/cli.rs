@@ -1,8 +1,7 @@
 //! The command line of `tetwedge`.
 
-use crate::shortfall::shortfalls;
 use crate::tetrahedralize;
-use kit::{Command, CommonArgs, Failure, Session, ThreadArgs, WishArgs};
+use kit::{Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs};
 use mesher::Params;
 use periodic_surf::{MemoryArgs, failure};
 use tmesh::Wishes;
@@ -40,9 +39,8 @@ pub struct Cli {
     #[arg(long, value_name = "STR", default_value = "", value_parser = switches, allow_hyphen_values = true, hide_default_value = true)]
     switches: String,
 
-    /// Fail where elements do not meet the bounds asked for, rather than say so and go on
-    #[arg(long)]
-    strict: bool,
+    #[command(flatten)]
+    strict: StrictArgs,
 
     #[command(flatten)]
     threads: ThreadArgs,
@@ -86,13 +84,7 @@ impl Command for Cli {
             session.note(sentence);
         }
         let mut document = meshed.document;
-        let short = shortfalls(&document, &params);
-        if self.strict && !short.is_empty() {
-            return Err(Failure::Impossible(short.join("; ")));
-        }
-        for sentence in &short {
-            session.note(sentence);
-        }
+        let short = self.strict.judge(session, &document)?;
         let notes = [meshed.advice, short, meshed.facts].concat();
         document.history.push(session.history_entry(notes));
         session.write(&document)

@@ -12,7 +12,6 @@ mod fill;
 mod follow;
 mod leads;
 mod settle;
-mod shortfall;
 mod template;
 
 pub use cli::Cli;

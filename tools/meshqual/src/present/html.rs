@@ -229,6 +229,9 @@ fn checks(out: &mut String, report: &Report) {
     for failure in &failures {
         let _ = writeln!(out, "<p class=\"broken\">{}</p>", escaped(failure));
     }
+    for short in &report.shortfalls {
+        let _ = writeln!(out, "<p class=\"broken\">{}</p>", escaped(short));
+    }
     if failures.is_empty() {
         let verdict = verdict(&report.checks);
         let _ = writeln!(out, "<p>No limit is broken; {}.</p>", escaped(&verdict));
