@@ -3,6 +3,7 @@
 mod bounds;
 mod meshqual;
 mod messages;
+mod readme;
 mod repairs;
 mod rotassemble;
 mod symdetect;
