@@ -33,7 +33,7 @@ build: setup ## build the tools, release profile, into target/release
 	$(BUILD)
 
 demo: setup ## mesh a through-silicon via of three materials, stage by stage, and report its quality
-	@echo "Building takes some minutes the first time, meshing a few seconds."
+	@echo "Building takes about three minutes on two cores the first time, meshing a few seconds."
 	$(BUILD) -p body
 	mkdir -p $(TARGET)/demo
 	$(MAKE) --no-print-directory -C $(TARGET)/demo -f $(CURDIR)/examples/flows/tsv.mk --always-make BIN=$(TARGET)/release/ \
