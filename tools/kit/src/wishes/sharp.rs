@@ -4,6 +4,7 @@
 use super::place::Place;
 use geom::edges::{EdgeUse, Edges, apex_of};
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use tmesh::{OUTSIDE, Template};
 
 /// An edge between two faces of one region.
@@ -21,6 +22,7 @@ pub struct Sharp {
 pub fn sharp_edges((index, template): (usize, &Template), asked: f64) -> Vec<Sharp> {
     let triangles: Vec<_> = template.triangles.iter().map(|t| t.vertices).collect();
     let edges = Edges::new(&triangles);
+    let mut walls: Option<Walls> = None;
     let mut sharp = Vec::new();
     for edge in 0..edges.len() {
         let around = edges.sorted_around(edge, &triangles, &template.vertices);
@@ -36,10 +38,13 @@ pub fn sharp_edges((index, template): (usize, &Template), asked: f64) -> Vec<Sha
             });
             let angle = turn(ends, a, b).to_degrees();
             if angle < asked {
+                // Few surfaces have such angles.
+                let walls = walls.get_or_insert_with(|| walls_of((index, template)));
+                let faces = [here, there].map(|of| of.triangle);
                 sharp.push(Sharp {
                     angle,
                     middle: 0.5 * (ends[0] + ends[1]),
-                    place: place((index, template), edges.ends[edge], [here, there]),
+                    place: place(template, walls, edges.ends[edge], faces),
                 });
             }
         }
@@ -70,20 +75,26 @@ fn turn([from, to]: [DVec3; 2], a: DVec3, b: DVec3) -> f64 {
     }
 }
 
+/// The glued face that a triangle is part of.
+type Walls = FxHashMap<u32, Place>;
+
+fn walls_of((index, template): (usize, &Template)) -> Walls {
+    let gluings = template.gluings.iter().enumerate();
+    let of_gluings = gluings.flat_map(|(i, gluing)| {
+        let triangles = gluing.triangles_of(index);
+        triangles.map(move |t| (t, Place::Wall(index, i)))
+    });
+    of_gluings.collect()
+}
+
 /// What the two faces at an edge are: on the axis, one of them a glued face, or surface.
-fn place((index, template): (usize, &Template), ends: [u32; 2], faces: [&EdgeUse; 2]) -> Place {
+fn place(template: &Template, walls: &Walls, ends: [u32; 2], faces: [u32; 2]) -> Place {
     if ends.iter().all(|v| template.axis.binary_search(v).is_ok()) {
         return Place::Axis;
     }
-    let is_face = |t: u32| faces.iter().any(|f| f.triangle == t);
-    let glued = template
-        .gluings
-        .iter()
-        .position(|gluing| gluing.triangles_of(index).any(is_face));
-    match glued {
-        Some(gluing) => Place::Wall(index, gluing),
-        None => Place::Surface(template.triangles[faces[0].triangle as usize].marker),
-    }
+    let glued = faces.iter().filter_map(|face| walls.get(face)).min();
+    let surface = Place::Surface(template.triangles[faces[0] as usize].marker);
+    glued.copied().unwrap_or(surface)
 }
 
 #[cfg(test)]
