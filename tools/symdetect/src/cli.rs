@@ -88,7 +88,9 @@ impl From<RepairArg> for Repairing {
     }
 }
 
-/// Triangles up to which a surface is checked without a report being asked for.
+/// Triangles up to which a surface is checked without a report being asked for. Measured with surfaces of 336,084 and
+/// 454,852 triangles: the check takes 0.5 and 0.65 s of processor time, beside 3.3 and 1.8 s for the search. A larger
+/// limit makes such bodies wait for what they seldom need; a smaller one leaves crossings to the mesher to find.
 const ALWAYS_CHECKED: usize = 200_000;
 /// Half a step must still be a turn that can be stored.
 const MAX_ORDER: u32 = MAX_TURN_DENOMINATOR / 4;

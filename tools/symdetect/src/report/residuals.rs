@@ -11,6 +11,10 @@ use tmesh::{Frame, RejectedOrder};
 /// be told apart.
 const MOST_PLOTTED: usize = FULL / REPORTED;
 
+/// Rejected orders listed at most: a quarter of other lists, because each entry has to be measured. A test far off the
+/// surface takes longest: on a body of 336,084 triangles, 62 orders took 0.8 s, 16 take 0.3 s.
+const MOST_REJECTED: usize = LISTED / 4;
+
 impl Query<'_> {
     /// Residuals of the orders up to twice the one that holds, and at least some.
     pub fn profile(&self, frame: &Frame, holds: u32) -> Vec<OrderResidual> {
@@ -50,7 +54,7 @@ impl Query<'_> {
             let nearest = a.residual.total_cmp(&b.residual);
             first.then(nearest).then(a.order.cmp(&b.order))
         });
-        ranked.truncate(LISTED);
+        ranked.truncate(MOST_REJECTED);
         let mut kept = threads::map(&ranked, |r| measure(r.order, SCAN));
         // As far as the tests can tell, these hold as well.
         kept.retain(|r| r.residual > self.params.tolerance);
