@@ -8,8 +8,8 @@
 //! candidates to the next, dearer stage.
 
 /// Tests of one order where hundreds are ranked for a list: flaws of a third of the surface. The first step, a choice
-/// that all others follow from: with four times as many everywhere, the search takes about four times as long; with a
-/// quarter, a scan would overlook a missing tooth among three.
+/// that all others follow from: with four times as many, all that is sampled takes four times as long; with a quarter,
+/// already a scan would overlook flaws of less than a third of the surface.
 pub const GLANCE: usize = 16;
 /// Tests of one of hundreds of orders or angles in a scan, and corners by which the width of a flat is measured: flaws
 /// of 8 % of the surface.
@@ -31,7 +31,8 @@ pub const SURVEY: usize = 4 * FIT;
 pub const FULL: usize = 4 * SURVEY;
 
 /// Next best candidates (orders, angles) that are adjusted and verified when the best one does not hold: candidates are
-/// local optima of a scan, of which equivalent ones have been merged, so that others are chance.
+/// local optima of a scan, of which equivalent ones have been merged, so that others are chance. A choice: each takes an
+/// adjustment and a quick verification; with fewer, one that holds may be passed over.
 pub const NEXT_BEST: usize = 6;
 /// Entries of a list in a report at most: axes, places of a defect, lines of a table. A choice: more than the 30 other
 /// axes of an icosahedron, and still looked through by eye.
