@@ -2,6 +2,7 @@
 
 use crate::{MemoryArgs, prepare};
 use kit::{Command, CommonArgs, Failure, Session, WishArgs};
+use mesher::Log;
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk
@@ -35,9 +36,10 @@ impl Command for Cli {
         let mut document = session.read()?;
         self.wishes.apply(&mut document)?;
         let params = self.memory.params(&document.wishes);
-        let log = |text: &str| session.info(text);
+        let detail = |text: &str| session.info(text);
+        let log = Log::new(&detail);
         let (mut document, report) =
-            prepare(document, &params, &log).map_err(|error| error.failure())?;
+            prepare(document, &params, log).map_err(|error| error.failure())?;
         report.facts.iter().for_each(|fact| session.info(fact));
         document.history.push(session.history_entry(report.facts));
         session.write(&document)

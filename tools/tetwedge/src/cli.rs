@@ -3,7 +3,7 @@
 use crate::shortfall::shortfalls;
 use crate::tetrahedralize;
 use kit::{Command, CommonArgs, Failure, Session, ThreadArgs, WishArgs};
-use mesher::Params;
+use mesher::{Log, Params};
 use periodic_surf::{MemoryArgs, failure};
 use tmesh::Wishes;
 
@@ -78,9 +78,10 @@ impl Command for Cli {
             document.wishes.keep_surface = Some(true);
         }
         let params = self.params(&document.wishes);
-        let log = |text: &str| session.info(text);
+        let detail = |text: &str| session.info(text);
+        let log = Log::new(&detail);
         let meshed = on_threads(self.threads.count(), || {
-            tetrahedralize(document, &params, &log).map_err(|e| failure(&e))
+            tetrahedralize(document, &params, log).map_err(|e| failure(&e))
         })?;
         for sentence in &meshed.advice {
             session.note(sentence);

@@ -74,7 +74,11 @@ fn done<B: Send>(
     answer: Answer,
     beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
 ) -> Result<(Done, Option<B>), Error> {
-    let say = |text: &str| (climb.log)(&format!("template {}: {text}", climb.piece.index));
+    let say = |text: &str| {
+        climb
+            .log
+            .detail(&format!("template {}: {text}", climb.piece.index))
+    };
     let (mut filled, origin) = fill(climb.piece, &answer)?;
     let made = match beside {
         Some(beside) => {
