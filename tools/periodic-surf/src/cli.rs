@@ -1,8 +1,7 @@
 //! The command line of `periodic-surf`.
 
-use crate::{MemoryArgs, prepare};
+use crate::{MemoryArgs, prepare, watched};
 use kit::{Command, CommonArgs, Failure, Session, WishArgs};
-use mesher::Log;
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk
@@ -36,10 +35,8 @@ impl Command for Cli {
         let mut document = session.read()?;
         self.wishes.apply(&mut document)?;
         let params = self.memory.params(&document.wishes);
-        let detail = |text: &str| session.info(text);
-        let log = Log::new(&detail);
-        let (mut document, report) =
-            prepare(document, &params, log).map_err(|error| error.failure())?;
+        let made = watched(session, None, |log| prepare(document, &params, log));
+        let (mut document, report) = made.map_err(|error| error.failure())?;
         report.facts.iter().for_each(|fact| session.info(fact));
         document.history.push(session.history_entry(report.facts));
         session.write(&document)
