@@ -59,7 +59,12 @@ fn text(step: &str, [points, tetrahedra]: [f64; 2], expected: Option<f64>) -> St
         Some(expected) => format!(" tetrahedra (about {} expected)", about(expected)),
         None => " tetrahedra".to_owned(),
     };
-    format!("{step}: {so_far}{of_expected}, {} points", about(points))
+    // Of few points none may have been counted.
+    let points = match points {
+        0.0 => String::new(),
+        points => format!(", {} points", about(points)),
+    };
+    format!("{step}: {so_far}{of_expected}{points}")
 }
 
 #[cfg(test)]
@@ -77,6 +82,10 @@ mod tests {
         assert_eq!(
             refining(Some(1e5)),
             "refining mesh: 120 000 tetrahedra (about 100 000 expected), 12 000 points"
+        );
+        assert_eq!(
+            text("refining mesh", [0.0, 30.0], None),
+            "refining mesh: 30 tetrahedra"
         );
         assert_eq!(
             refining(None),
