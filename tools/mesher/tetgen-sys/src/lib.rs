@@ -12,21 +12,14 @@ mod error;
 mod ffi;
 mod input;
 mod mesh;
+mod news;
 
 pub use child::Child;
 pub use counts::Counts;
 pub use error::{Error, Failure};
 pub use input::{Complex, Limits, RegionSeed};
 pub use mesh::Mesh;
-
-/// What is heard of TetGen while it works.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum News<'a> {
-    /// What it printed, in pieces of any length.
-    Printed(&'a [u8]),
-    /// How far it is.
-    Counted(Counts),
-}
+pub use news::News;
 
 /// Meshes a piecewise linear complex with the given TetGen switches.
 ///
