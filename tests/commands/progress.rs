@@ -56,7 +56,7 @@ fn a_terminal_sees_how_far_the_mesh_is() {
     let folder = TempDir::new().unwrap();
     let input = folder.path().join("wedge.tmesh");
     let made = folder.path().join("mesh.tmesh");
-    fs::write(&input, wedge("prism --order 4", &["--max-volume", "4e-6"])).unwrap();
+    fs::write(&input, wedge("prism --order 4", &["--max-volume", "2e-6"])).unwrap();
     let arguments = ["--output", made.to_str().unwrap()];
     let (code, text) = at_terminal("tetwedge", &arguments, &input);
     assert_eq!(code, 0, "{text}");
@@ -65,12 +65,12 @@ fn a_terminal_sees_how_far_the_mesh_is() {
     let watched = fs::read(&made).unwrap();
     let count = tetrahedra(&watched);
     assert!((0.5..2.0).contains(&(count / expected)), "{count}: {text}");
-    // Elements become more until the mesh is improved.
+    // Elements become more until the mesh is improved. How often that is said depends on how busy the machine is.
     let refining = lines.iter().filter(|line| line.contains("refining mesh: "));
     let refining: Vec<f64> = refining
         .filter_map(|line| number_before(line, " of about"))
         .collect();
-    assert!(refining.len() > 2 && refining.is_sorted(), "{text}");
+    assert!(!refining.is_empty() && refining.is_sorted(), "{text}");
     assert!(text.contains(" %, "), "{text}");
     assert!(text.contains(" points"), "{text}");
     assert!(text.contains("improving elements: "), "{text}");
