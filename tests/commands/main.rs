@@ -2,6 +2,7 @@
 
 mod meshqual;
 mod messages;
+mod progress;
 mod repairs;
 mod rotassemble;
 mod symdetect;
