@@ -1,6 +1,6 @@
 //! Axes beside the main one.
 
-use crate::budget::MOST_AXES;
+use crate::budget::LISTED;
 use crate::group::{Found, forward};
 use crate::rotation::{Query, Rotation};
 use crate::shape::Motion;
@@ -15,7 +15,7 @@ impl Query<'_> {
         let mut axes: Vec<OtherAxis> = Vec::new();
         let mut add = |d: DVec3, order: u32, residual: f64| {
             let same = |a: &OtherAxis| self.same_axis(DVec3::from_array(a.direction), d);
-            if !axes.iter().any(same) && !self.same_axis(d, z) && axes.len() < MOST_AXES {
+            if !axes.iter().any(same) && !self.same_axis(d, z) && axes.len() < LISTED {
                 axes.push(OtherAxis {
                     direction: forward(d).to_array(),
                     order,
