@@ -3,6 +3,7 @@
 mod bounds;
 mod meshqual;
 mod messages;
+mod progress;
 mod readme;
 mod repairs;
 mod rotassemble;

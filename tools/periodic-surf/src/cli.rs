@@ -1,6 +1,6 @@
 //! The command line of `periodic-surf`.
 
-use crate::{MemoryArgs, prepare};
+use crate::{MemoryArgs, prepare, watched};
 use kit::{Command, CommonArgs, Failure, Session, StrictArgs, WishArgs};
 
 const EXAMPLES: &str = "Examples:
@@ -38,9 +38,8 @@ impl Command for Cli {
         let mut document = session.read()?;
         self.wishes.apply(&mut document)?;
         let params = self.memory.params(&document.wishes);
-        let log = |text: &str| session.info(text);
-        let (mut document, report) =
-            prepare(document, &params, &log).map_err(|error| error.failure())?;
+        let made = watched(session, None, |log| prepare(document, &params, log));
+        let (mut document, report) = made.map_err(|error| error.failure())?;
         report.facts.iter().for_each(|fact| session.info(fact));
         let short = self.strict.judge(session, &document)?;
         let notes = [report.facts, short].concat();

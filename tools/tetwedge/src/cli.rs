@@ -1,16 +1,19 @@
 //! The command line of `tetwedge`.
 
+use crate::forecast::{Forecast, forecast};
 use crate::tetrahedralize;
-use kit::{Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs};
+use kit::{
+    Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs, about, duration,
+};
 use mesher::Params;
-use periodic_surf::{MemoryArgs, failure};
-use tmesh::Wishes;
+use periodic_surf::{MemoryArgs, failure, watched};
+use tmesh::{Document, Wishes};
 
 /// Fills a wedge, or any closed surface, with tetrahedra
 ///
 /// The mesher is TetGen. Mirror walls may be refined. Faces that copies share by a rotation or a half turn get the surface mesh
 /// that the elements need, as periodic-surf makes it, unless that was there before. Regions come from the surface's
-/// triangles.
+/// triangles. At a terminal it says before it starts about how many tetrahedra there will be, and then how far it is.
 #[derive(clap::Parser, Debug)]
 #[command(
     name = "tetwedge",
@@ -61,6 +64,29 @@ impl Cli {
             ..self.memory.params(wishes)
         }
     }
+
+    /// Says what to expect of the work to those who watch it.
+    fn announce(
+        &self,
+        session: &Session,
+        document: &Document,
+        params: &Params,
+    ) -> Option<Forecast> {
+        if !session.is_watched() && !session.is_verbose() {
+            return None;
+        }
+        let expected = forecast(document, params, self.threads.count())?;
+        let text = format!(
+            "about {} tetrahedra, about {}",
+            about(expected.tetrahedra),
+            duration(expected.time)
+        );
+        match session.is_verbose() {
+            true => session.info(&text),
+            false => session.note(&text),
+        }
+        Some(expected)
+    }
 }
 
 impl Command for Cli {
@@ -76,9 +102,11 @@ impl Command for Cli {
             document.wishes.keep_surface = Some(true);
         }
         let params = self.params(&document.wishes);
-        let log = |text: &str| session.info(text);
-        let meshed = on_threads(self.threads.count(), || {
-            tetrahedralize(document, &params, &log).map_err(|e| failure(&e))
+        let expected = self.announce(session, &document, &params);
+        let meshed = watched(session, expected.map(|e| e.tetrahedra), |log| {
+            on_threads(self.threads.count(), || {
+                tetrahedralize(document, &params, log).map_err(|e| failure(&e))
+            })
         })?;
         for sentence in &meshed.advice {
             session.note(sentence);
@@ -108,7 +136,7 @@ fn on_threads<T: Send>(
 mod tests {
     use super::*;
     use clap::{CommandFactory, Parser};
-    use tmesh::{Document, Template};
+    use tmesh::Template;
 
     fn parse(arguments: &[&str]) -> Result<Params, clap::Error> {
         let all = std::iter::once("tetwedge").chain(arguments.iter().copied());

@@ -10,6 +10,7 @@ mod cli;
 mod document;
 mod fill;
 mod follow;
+mod forecast;
 mod leads;
 mod settle;
 mod template;

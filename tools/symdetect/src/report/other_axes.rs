@@ -1,6 +1,6 @@
 //! Axes beside the main one.
 
-use crate::budget::MOST_AXES;
+use crate::budget::LISTED;
 use crate::group::{Found, forward};
 use crate::rotation::{Query, Rotation};
 use crate::shape::Motion;
@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 use tmesh::{Isometry, OtherAxis};
 
 impl Query<'_> {
-    /// Further axes, those of a polyhedral group and half turns across the main one, up to [`MOST_AXES`]; and how many
+    /// Further axes, those of a polyhedral group and half turns across the main one, up to [`LISTED`]; and how many
     /// there are in all.
     pub fn other_axes(&self, found: &Found, rotations: &[Rotation]) -> (Vec<OtherAxis>, usize) {
         let axis = |d: DVec3, order: u32, residual: f64| OtherAxis {
@@ -45,7 +45,7 @@ impl Query<'_> {
             }
         }
         let count = axes.len();
-        axes.truncate(MOST_AXES);
+        axes.truncate(LISTED);
         (axes, count)
     }
 

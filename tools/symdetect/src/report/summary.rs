@@ -1,13 +1,12 @@
 //! What was found, in words and as a table of residuals.
 
+use crate::budget::LISTED;
 use crate::report::detection::Detection;
 use kit::point;
 use std::fmt::Write;
 
 /// Width of the longest bar of the table, characters.
 const BAR: usize = 32;
-/// Orders listed in the table at most.
-const LISTED: usize = 48;
 
 impl Detection {
     /// A few sentences: mirror planes, further axes, the orders nearest to holding.
