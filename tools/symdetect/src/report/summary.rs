@@ -29,10 +29,11 @@ impl Detection {
         } else {
             "none lies across it"
         };
-        let others = match self.search.other_axes.len() {
-            0 => "no other axes".to_owned(),
-            1 => "one other axis".to_owned(),
-            n => format!("{n} other axes"),
+        let others = match (self.axes, self.search.other_axes.len()) {
+            (0, _) => "no other axes".to_owned(),
+            (1, _) => "one other axis".to_owned(),
+            (n, listed) if listed < n => format!("{n} other axes, {listed} of them listed"),
+            (n, _) => format!("{n} other axes"),
         };
         lines.push(format!("{along}, {across}; {others}"));
         let mut rejected = self.search.rejected.clone();
