@@ -37,11 +37,13 @@ fn stages(folder: &Path, surface: &[u8], cut: &[&str], graded: bool) -> PathBuf 
     let input = path("surface");
     std::fs::write(&input, surface).expect("a file");
     let mut before = input;
+    // As cut, so that a solver is done with the whole in seconds.
+    let faces: &[&str] = if graded { &[] } else { &["--keep-surface"] };
     for (tool, arguments, name) in [
         ("symdetect", &[][..], "detected.tmesh"),
         ("wedgecut", cut, "wedge.tmesh"),
         ("periodic-surf", &[], "surface.tmesh"),
-        ("tetwedge", &[], "mesh.tmesh"),
+        ("tetwedge", faces, "mesh.tmesh"),
     ] {
         if tool == "periodic-surf" && !graded {
             continue;

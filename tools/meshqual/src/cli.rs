@@ -178,7 +178,7 @@ impl Cli {
     fn check_outputs(&self) -> Result<(), Failure> {
         if let Some(second) = &self.second {
             return Err(Failure::Usage(format!(
-                "one mesh is measured; --compare {} measures a second one beside it",
+                "unexpected argument '{0}': one mesh is measured; --compare {0} measures a second one beside it",
                 second.display()
             )));
         }
