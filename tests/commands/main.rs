@@ -2,6 +2,7 @@
 
 mod meshqual;
 mod messages;
+mod packages;
 mod progress;
 mod repairs;
 mod rotassemble;
