@@ -127,7 +127,7 @@ VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
 RELEASE := symtet-$(VERSION)-$(shell uname -m)-$(shell uname -s | tr A-Z a-z)
 
 # What README.md names, with the paths that it has there.
-NAMED := README.md ARCHITECTURE.md CHANGELOG.md SECURITY.md LICENSE-APACHE LICENSE-MIT LICENSE-AGPL formats/tmesh/SPEC.md \
+NAMED := README.md ARCHITECTURE.md CHANGELOG.md SECURITY.md LICENSE-APACHE LICENSE-MIT LICENSE-AGPL formats/tmesh/SPEC.md tests/fuzz/README.md \
 	$(wildcard formats/tmesh/python/*.py examples/flows/* examples/benchmark/README.md examples/benchmark/results/*)
 STAGE := $(TARGET)/dist/$(RELEASE)
 
