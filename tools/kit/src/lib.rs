@@ -21,4 +21,4 @@ pub use output::{Closed, Output};
 pub use run::{Command, main};
 pub use session::{Progress, Session, Status, duration};
 pub use threads::{ThreadArgs, available_threads, both, in_parallel};
-pub use wishes::WishArgs;
+pub use wishes::{StrictArgs, WishArgs, shortfalls};

@@ -1,9 +1,10 @@
 //! The command line of `tetwedge`.
 
 use crate::forecast::{Forecast, forecast};
-use crate::shortfall::shortfalls;
 use crate::tetrahedralize;
-use kit::{Command, CommonArgs, Failure, Session, ThreadArgs, WishArgs, about, duration};
+use kit::{
+    Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs, about, duration,
+};
 use mesher::Params;
 use periodic_surf::{MemoryArgs, failure, watched};
 use tmesh::{Document, Wishes};
@@ -41,9 +42,8 @@ pub struct Cli {
     #[arg(long, value_name = "STR", default_value = "", value_parser = switches, allow_hyphen_values = true, hide_default_value = true)]
     switches: String,
 
-    /// Fail where elements do not meet the bounds asked for, rather than say so and go on
-    #[arg(long)]
-    strict: bool,
+    #[command(flatten)]
+    strict: StrictArgs,
 
     #[command(flatten)]
     threads: ThreadArgs,
@@ -112,13 +112,7 @@ impl Command for Cli {
             session.note(sentence);
         }
         let mut document = meshed.document;
-        let short = shortfalls(&document, &params);
-        if self.strict && !short.is_empty() {
-            return Err(Failure::Impossible(short.join("; ")));
-        }
-        for sentence in &short {
-            session.note(sentence);
-        }
+        let short = self.strict.judge(session, &document)?;
         let notes = [meshed.advice, short, meshed.facts].concat();
         document.history.push(session.history_entry(notes));
         session.write(&document)

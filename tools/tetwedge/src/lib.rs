@@ -13,7 +13,6 @@ mod follow;
 mod forecast;
 mod leads;
 mod settle;
-mod shortfall;
 mod template;
 
 pub use cli::Cli;
