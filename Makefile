@@ -17,7 +17,7 @@ FUZZ := tests/fuzz
 # Cargo's own tools, where make installs them when they are missing.
 TOOLBOX := $(TARGET)/tools/bin
 
-.PHONY: help setup calibrate build build-body demo test check readme check-docs readme-update fmt lint fuzz fuzz-tool audit soak faults bench bench-quick bench-publish bench-programs manual install dist clean
+.PHONY: help setup calibrate build build-body demo test check readme check-docs readme-update fmt lint fuzz fuzz-tool audit soak faults bench bench-quick bench-publish bench-programs manual install dist deb wheel clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -152,12 +152,37 @@ install: build manual ## install the tools, their man pages and completions unde
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
 RELEASE := symtet-$(VERSION)-$(shell uname -m)-$(shell uname -s | tr A-Z a-z)
 
-dist: ## pack the tools, man pages and completions into target/dist
-	rm -rf $(TARGET)/dist/$(RELEASE)
-	$(MAKE) --no-print-directory install PREFIX= DESTDIR=$(TARGET)/dist/$(RELEASE)
-	install -m 644 README.md CHANGELOG.md LICENSE-APACHE LICENSE-MIT LICENSE-AGPL $(TARGET)/dist/$(RELEASE)
-	tar --sort=name --owner=0 --group=0 --numeric-owner -C $(TARGET)/dist -czf $(TARGET)/dist/$(RELEASE).tar.gz $(RELEASE)
-	@echo "$(TARGET)/dist/$(RELEASE).tar.gz"
+# What README.md names, with the paths that it has there.
+NAMED := README.md ARCHITECTURE.md CHANGELOG.md SECURITY.md LICENSE-APACHE LICENSE-MIT LICENSE-AGPL formats/tmesh/SPEC.md tests/fuzz/README.md \
+	$(wildcard formats/tmesh/python/*.py examples/flows/* examples/benchmark/README.md examples/benchmark/results/*)
+STAGE := $(TARGET)/dist/$(RELEASE)
+
+dist: setup ## pack the tools, TetGen's library and what README.md names as an archive, into target/dist
+	rm -rf $(STAGE)
+	$(BUILD) -p body
+	$(MAKE) --no-print-directory install PREFIX= DESTDIR=$(STAGE)
+	install -m 755 $(TARGET)/release/body $(STAGE)/bin
+	packaging/library $(STAGE)
+	for file in $(NAMED); do install -D -m 644 $$file $(STAGE)/$$file; done
+	tar --sort=name --owner=0 --group=0 --numeric-owner -C $(TARGET)/dist -czf $(STAGE).tar.gz $(RELEASE)
+	@echo "$(STAGE).tar.gz"
+
+deb: setup ## pack the tools as a Debian package that takes TetGen from Debian's, into target/dist
+	rm -rf $(STAGE)-deb
+	$(BUILD) -p body
+	$(MAKE) --no-print-directory install PREFIX=/usr DESTDIR=$(STAGE)-deb
+	install -m 755 -T $(TARGET)/release/body $(STAGE)-deb/usr/bin/symtet-body
+	install -d $(STAGE)-deb/usr/share/doc/symtet
+	for file in $(NAMED); do install -D -m 644 $$file $(STAGE)-deb/usr/share/doc/symtet/$$file; done
+	install -m 644 packaging/copyright $(STAGE)-deb/usr/share/doc/symtet/copyright
+	packaging/deb $(STAGE)-deb $(VERSION) $(TARGET)/dist/symtet_$(VERSION)_$$(dpkg --print-architecture).deb
+
+wheel: setup ## pack the tools, TetGen's library and the Python reader for pip, into target/dist
+	rm -rf $(STAGE)-wheel
+	$(MAKE) --no-print-directory install PREFIX= DESTDIR=$(STAGE)-wheel
+	packaging/library $(STAGE)-wheel
+	install -m 644 README.md LICENSE-APACHE LICENSE-MIT LICENSE-AGPL $(STAGE)-wheel
+	python3 packaging/wheel.py $(STAGE)-wheel $(VERSION) $(TARGET)/dist $(wildcard formats/tmesh/python/*.py)
 
 clean: ## remove everything built
 	$(CARGO) clean

@@ -3,6 +3,7 @@
 mod bounds;
 mod meshqual;
 mod messages;
+mod packages;
 mod progress;
 mod readme;
 mod repairs;
