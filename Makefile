@@ -17,7 +17,7 @@ FUZZ := tests/fuzz
 # Cargo's own tools, where make installs them when they are missing.
 TOOLBOX := $(TARGET)/tools/bin
 
-.PHONY: help setup calibrate build demo test check fmt lint fuzz fuzz-tool audit soak faults bench bench-quick bench-publish bench-programs manual install dist clean
+.PHONY: help setup calibrate build build-body demo test check readme check-docs readme-update fmt lint fuzz fuzz-tool audit soak faults bench bench-quick bench-publish bench-programs manual install dist clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -33,10 +33,18 @@ build: setup ## build the tools, release profile, into target/release
 	$(BUILD)
 
 demo: setup ## mesh a through-silicon via of three materials, stage by stage, and report its quality
+	@echo "Building takes about three minutes on two cores the first time, meshing a few seconds."
 	$(BUILD) -p body
 	mkdir -p $(TARGET)/demo
-	$(MAKE) --no-print-directory -C $(TARGET)/demo -f $(CURDIR)/examples/flows/tsv.mk --always-make BIN=$(TARGET)/release/
-	@echo "The mesh is in $(TARGET)/demo/tsv.vtk, the stages beside it."
+	$(MAKE) --no-print-directory -C $(TARGET)/demo -f $(CURDIR)/examples/flows/tsv.mk --always-make BIN=$(TARGET)/release/ \
+	  MESHQUAL_FLAGS='--check --html tsv.html'
+	@echo
+	@echo "In $(TARGET)/demo there are now:"
+	@echo "  tsv.stl          the surface that the pipe read"
+	@echo "  tsv.*.tmesh      what each stage handed to the next; \`rotassemble --to txt FILE\` lists one"
+	@echo "  tsv.vtk          the mesh, for ParaView: paraview $(TARGET)/demo/tsv.vtk"
+	@echo "  tsv.html         its quality, with pictures, for a browser: xdg-open $(TARGET)/demo/tsv.html"
+	@echo "  tsv.quality.txt  the same as text, as above"
 
 test: setup ## run every test
 	@.ci/referee $(REFEREE)
@@ -51,7 +59,25 @@ lint: setup ## run clippy, warnings are errors
 	$(CARGO) clippy --workspace --all-targets -- -D warnings
 	$(CARGO) clippy --manifest-path $(FUZZ)/Cargo.toml --target-dir $(TARGET) --all-targets -- -D warnings
 
-check: fmt lint test ## what CI runs: formatting, lints, every test
+check: fmt lint test readme ## what CI runs: formatting, lints, every test, what README shows
+
+# Snakemake is there.
+README := PATH=$$PATH:$(REFEREE)/bin .ci/readme
+
+readme: setup ## run what README shows without other programs, and compare; after `make test`, whose binaries it takes
+	$(CARGO) build --workspace --bins
+	$(README) check --quick --binaries $(TARGET)/debug
+
+check-docs: build-body ## run all that README shows, with CalculiX, Snakemake and dolfinx where they are; minutes
+	@.ci/referee $(REFEREE)
+	$(README) check --binaries $(TARGET)/release
+
+readme-update: build-body ## the same, and write what comes out into README
+	@.ci/referee $(REFEREE)
+	$(README) update --binaries $(TARGET)/release
+
+build-body: setup
+	$(BUILD) -p body
 
 # Seconds per fuzz target.
 SECONDS ?= 60

@@ -6,6 +6,7 @@
     bench.py direct             only the long direct runs, ahead of `run`, which then takes them over
     bench.py scaling            time against order, triangles and size of the output
     bench.py report             tables and plots of what has been measured so far
+    bench.py summary            the main figures of the published report, in a few lines
 
 Needs nothing but Python 3.9, the release binaries and `tetgen`.
 """
@@ -267,7 +268,7 @@ def open_direct(options):
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", choices=("run", "direct", "scaling", "report"))
+    parser.add_argument("command", choices=("run", "direct", "scaling", "report", "summary"))
     parser.add_argument("--quick", action="store_true", help="two parameter sets, one run of what takes long")
     parser.add_argument("--out", help="folder for results [default: target/bench/quick or full]")
     parser.add_argument("--binaries", default=os.path.join(ROOT, "target", "release"), help="folder of the programs")
@@ -307,6 +308,9 @@ def main():
         results = open_results(options)
         scaling.run(options, results, make_body, quick=options.quick)
         report.write(results.lines, options.out)
+    elif options.command == "summary":
+        with open(os.path.join(ROOT, "examples", "benchmark", "results", "results.json")) as file:
+            print("\n".join(report.summary(json.load(file))))
     else:
         report.write(report.load(os.path.join(options.out, "results.jsonl")), options.out)
 

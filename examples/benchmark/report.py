@@ -119,6 +119,35 @@ def aggregate(rows):
     return table
 
 
+def summary(results):
+    """The main figures of a report, lines of text: the mean over the sets of the order where it is least and most."""
+    lines = [f"{'':<14}{'times as fast, mean of an order':<36}{'of a set, at least':<22}elements over the direct mesh's"]
+    for category, name in (("A", "plain prisms"), ("B", "coated holes"), ("C", "vias"), ("P", "practical via")):
+        rows = sorted((r for r in results["table"] if r["category"] == category), key=lambda r: r["speedup"]["geomean"])
+        if not rows:
+            continue
+        ends = rows[:1] + rows[1:][-1:]
+        means = " to ".join(f"{r['speedup']['geomean']:.1f} (order {r['order']})" for r in ends)
+        least = min(r["speedup"]["min"] for r in rows)
+        counts = [min(r["count_ratio"]["min"] for r in rows), max(r["count_ratio"]["max"] for r in rows)]
+        lines.append(f"{name:<14}{means:<36}{least:<22.1f}{counts[0]:.2f} to {counts[1]:.2f}")
+    cells = results["cells"]
+    both = [c for c in cells if c["p01_dihedral_pipe"] is not None and c["p01_dihedral_direct"] is not None]
+    gains = [[c[f"{name}_pipe"] - c[f"{name}_direct"] for c in both] for name in ("p01_dihedral", "min_dihedral")]
+    lines.append(f"smallest dihedral angle, first percentile: {min(gains[0]):.1f} to {max(gains[0]):.1f} degrees above the direct mesh's")
+    lines.append(f"smallest dihedral angle of all: {min(gains[1]):.1f} to {max(gains[1]):.1f} degrees above it")
+    past = [sum((c[f"violations_{who}"] or 0) > 0 for c in cells) for who in ("pipe", "direct")]
+    lines.append(f"cells with elements past the radius-edge bound, of {len(cells)}: {past[0]} of the pipe, {past[1]} of the direct mesh")
+    passed = sum(c["checks_pipe"] is True for c in cells)
+    lines.append(f"meshes that pass meshqual --check: {passed} of {len(cells)}")
+    largest = max((p for series in results["scaling"].values() for p in series), key=lambda p: p["tetrahedra"])
+    lines.append(
+        f"largest mesh into a pipe: {largest['tetrahedra'] / 1e6:.0f} million elements, {largest['pipe']:.1f} seconds, "
+        f"{largest['memory'] / 2**30:.1f} GiB"
+    )
+    return lines
+
+
 def fit(points):
     """Exponent of y in x, least squares in logarithms."""
     logs = [(math.log(x), math.log(y)) for x, y in points if x > 0 and y > 0]

@@ -10,7 +10,8 @@ include $(dir $(lastword $(MAKEFILE_LIST)))rules.mk
 ORDER ?= 16
 THICKNESS ?= 5e-3
 
-TETWEDGE_FLAGS = --max-volume 0.01 --region copper:max-volume=1e-4
+# The size of elements, which the later stages take from the document.
+WEDGECUT_FLAGS = --edge-length 0.1
 
 # Anywhere in space: the pipe finds the axis by itself.
 tsv.stl:

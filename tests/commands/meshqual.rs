@@ -336,7 +336,7 @@ fn the_page() {
             .count(),
         2
     );
-    assert_eq!(html.matches("<svg ").count(), 1);
+    assert_eq!(html.matches("<svg ").count(), 6);
     assert!(!html.contains("alt=\"\"") && html.contains("alt=\"Surface, by region\""));
     // One element has few neighbours among the worst.
     assert_eq!(html.matches("<td>min_dihedral_deg</td>").count(), 2);

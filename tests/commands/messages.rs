@@ -223,3 +223,32 @@ fn a_format_of_a_folder_is_written_into_one() {
     assert_eq!(said.code, 4);
     assert_eq!(std::fs::read(&file).expect("a file"), b"kept");
 }
+
+/// A tool tried on its own in a terminal, where neither input nor output is redirected: what it reads is the first
+/// thing to know, not that its output is binary.
+#[test]
+fn a_terminal_is_told_that_input_is_missing() {
+    for tool in TOOLS {
+        let inside = binary(tool);
+        let output = Command::new("script")
+            .args(["--quiet", "--return", "--command"])
+            .arg(&inside)
+            .arg("/dev/null")
+            .stdin(Stdio::null())
+            .output();
+        let Ok(output) = output else {
+            eprintln!("skipped: there is no program `script`, which gives a terminal");
+            return;
+        };
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(2), "{tool}: {text}");
+        assert!(text.contains("no input: name a file"), "{tool}: {text}");
+        assert!(!text.contains("binary"), "{tool}: {text}");
+    }
+}
+
+#[test]
+fn a_second_mesh_is_told_how_it_is_compared() {
+    let outcome = run("meshqual", &["a.vtk", "b.vtk"], b"");
+    outcome.fails(2, &["--compare b.vtk"]);
+}

@@ -206,7 +206,7 @@ impl Sample {
     fn estimate(&self, model: CostModel) -> Estimate {
         let size = edge_of_volume(self.volume);
         let needles = estimate::needles(&self.body.templates[0], |_| size);
-        let wedge = Wedge::new(&self.probe.templates[0], self.probe.instances.len());
+        let wedge = Wedge::new(&self.probe.templates[0], 0, self.probe.instances.len());
         Estimate::new(model, &wedge, needles, |_| Some(self.volume), 1)
     }
 
@@ -343,6 +343,7 @@ fn times(samples: &[Sample], model: &mut CostModel) {
     let each = (n * xy - x * y) / (n * xx - x * x);
     let start = (y - each * x) / n;
     model.start = start / each / model.tetrahedra;
+    model.seconds = each;
     let hubs = samples.iter().filter(|s| s.hub.is_some());
     let factors: Vec<f64> = hubs
         .map(|s| (s.seconds - start - each * s.tetrahedra[1]) / (start + each * s.tetrahedra[2]))

@@ -142,6 +142,11 @@ impl Estimate {
         }
     }
 
+    /// Volume that the sections tell the body to have: exact where it is round, model units cubed.
+    pub fn volume(&self) -> f64 {
+        self.filled.iter().map(|f| f.volume).sum()
+    }
+
     /// What the body meshed as a whole has.
     pub fn whole(&self) -> Terms {
         let elements = |f: &Filled| f.volume / f.size.powi(3);

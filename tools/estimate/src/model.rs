@@ -15,6 +15,8 @@ pub struct CostModel {
     /// Tetrahedra that make one element of the estimate; measured 11, in the mean of bodies that differ by a factor of
     /// two up and down. Only messages use it.
     pub tetrahedra: f64,
+    /// Seconds in which a tetrahedron is made, once the mesher has started; measured 6.1e-6. Only messages use it.
+    pub seconds: f64,
     /// How fast the size of elements grows with the distance from a feature. A choice: TetGen grades from an edge of
     /// one size to one twice as long over about three of them.
     pub growth: f64,
@@ -78,6 +80,7 @@ impl CostModel {
     /// The coefficients that `make calibrate` gave.
     pub const CALIBRATED: Self = Self {
         tetrahedra: 11.0,
+        seconds: 6e-6,
         growth: 0.35,
         span: 1.2,
         seam_span: 0.7,

@@ -21,8 +21,8 @@ pub struct Wedge<'a> {
 }
 
 impl<'a> Wedge<'a> {
-    /// Looks at what a wedge is glued to. `copies` of it make the body.
-    pub fn new(template: &'a Template, copies: usize) -> Self {
+    /// Looks at what a template of the given number is glued to. `copies` of it make the body, or its part of that.
+    pub fn new(template: &'a Template, number: usize, copies: usize) -> Self {
         let mut wedge = Self {
             template,
             copies,
@@ -35,10 +35,10 @@ impl<'a> Wedge<'a> {
         let mut next = || bits.next().unwrap_or(1);
         // Faces across the axis are no sections by radius and height, and those of another template no cuts.
         for gluing in &template.gluings {
-            if gluing.other_than(0).is_some() {
+            if gluing.other_than(number).is_some() {
                 continue;
             }
-            let is_mirror = gluing.is_mirror(0);
+            let is_mirror = gluing.is_mirror(number);
             let there = next();
             let here = if is_mirror { there } else { next() };
             for &[v, w] in &gluing.vertex_pairs {
@@ -49,12 +49,12 @@ impl<'a> Wedge<'a> {
                     wedge.partner.insert(w, v);
                 }
             }
-            for t in gluing.triangles_of(0) {
+            for t in gluing.triangles_of(number) {
                 wedge.is_cut[t as usize] = true;
             }
             let section: Vec<u32> = match gluing.step.mirrored() && gluing.step.flipped() {
                 // The two halves of one face.
-                true => gluing.triangles_of(0).collect(),
+                true => gluing.triangles_of(number).collect(),
                 false => gluing.triangles_there().collect(),
             };
             if gluing.step != Isometry::FLIP {

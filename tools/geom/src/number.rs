@@ -43,6 +43,12 @@ fn trimmed(digits: &str) -> &str {
     }
 }
 
+/// A count that is not known exactly: two significant digits, in groups of three.
+pub fn about(count: f64) -> String {
+    let rounded = format!("{count:.1e}").parse().unwrap_or(count);
+    grouped(rounded as u64)
+}
+
 /// A count with its digits in groups of three.
 pub fn grouped(n: u64) -> String {
     let digits = n.to_string();
@@ -91,6 +97,12 @@ mod tests {
             point([0.1 + 0.2, -0.0, 1e-20 / 3.0]),
             "(0.3, 0, 3.33333e-21)"
         );
+    }
+
+    #[test]
+    fn counts_that_are_not_exact_have_two_digits() {
+        let all = [0.0, 7.0, 99.6, 1234.0, 449_999.0, 1e9].map(about);
+        assert_eq!(all, ["0", "7", "100", "1 200", "450 000", "1 000 000 000"]);
     }
 
     #[test]

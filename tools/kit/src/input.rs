@@ -10,6 +10,21 @@ use std::path::Path;
 use tmesh::{DecodeError, Document};
 
 impl Session {
+    /// Fails where there is nothing to read: no file is named, and standard input is a terminal.
+    pub(crate) fn check_input(&self) -> Result<(), Failure> {
+        if self.input_path().is_none() && std::io::stdin().is_terminal() {
+            return Err(Failure::Usage(
+                "no input: name a file, or pipe a mesh into standard input (see --help)".to_owned(),
+            ));
+        }
+        Ok(())
+    }
+
+    fn input_path(&self) -> Option<&Path> {
+        let path = self.common.input.as_deref();
+        path.filter(|p| *p != Path::new("-"))
+    }
+
     /// Reads the input named on the command line, whatever its format.
     pub fn read(&self) -> Result<Document, Failure> {
         self.read_with(Repairing::Auto)
@@ -17,24 +32,12 @@ impl Session {
 
     /// The same, where the caller says whether a surface may be repaired.
     pub fn read_with(&self, repairing: Repairing) -> Result<Document, Failure> {
-        let path = self
-            .common
-            .input
-            .as_deref()
-            .filter(|p| *p != Path::new("-"));
-        let document = match path {
+        self.check_input()?;
+        let document = match self.input_path() {
             Some(path) => self.read_file(path, self.common.from, repairing)?,
-            None => {
-                let stdin = std::io::stdin();
-                if stdin.is_terminal() {
-                    return Err(Failure::Usage(
-                        "no input: name a file, or pipe a mesh into standard input (see --help)"
-                            .to_owned(),
-                    ));
-                }
-                self.read_from(stdin.lock(), (None, self.common.from), repairing)
-                    .map_err(|text| Failure::Input(format!("standard input: {text}")))?
-            }
+            None => self
+                .read_from(std::io::stdin().lock(), (None, self.common.from), repairing)
+                .map_err(|text| Failure::Input(format!("standard input: {text}")))?,
         };
         let (vertices, triangles, tets) = document.templates.iter().fold((0, 0, 0), |n, t| {
             (

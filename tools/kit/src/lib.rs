@@ -15,10 +15,10 @@ mod wishes;
 
 pub use args::CommonArgs;
 pub use failure::Failure;
-pub use geom::number::{grouped, number, point};
+pub use geom::number::{about, grouped, number, point};
 pub use messages::MessageFormat;
 pub use output::{Closed, Output};
 pub use run::{Command, main};
-pub use session::{Progress, Session};
+pub use session::{Progress, Session, Status, duration};
 pub use threads::{ThreadArgs, available_threads, both, in_parallel};
-pub use wishes::WishArgs;
+pub use wishes::{StrictArgs, WishArgs, shortfalls};

@@ -223,8 +223,10 @@ impl Session {
         self.check_output_in(self.output_format(Format::Tmesh)?)
     }
 
-    /// The same for [`Session::write_in`] and [`Session::write_as`].
+    /// The same for [`Session::write_in`] and [`Session::write_as`]. Where there is no input either, that is what is said:
+    /// whoever tries a tool on its own wants to know what it reads.
     pub fn check_output_in(&self, format: Format) -> Result<(), Failure> {
+        self.check_input()?;
         let path = self.common.output.as_deref();
         let Some(path) = path.filter(|p| *p != Path::new("-")) else {
             self.note_other_format(format);

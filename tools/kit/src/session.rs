@@ -3,11 +3,11 @@
 use crate::messages::{self, Level};
 use crate::{CommonArgs, MessageFormat};
 use heal::{OddEdges, Repair};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::ffi::OsString;
 use std::io::IsTerminal;
 use std::sync::OnceLock;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tmesh::{ChunkInfo, HistoryEntry};
 
 /// One run of a tool.
@@ -111,10 +111,15 @@ impl Session {
         messages::say(&line);
     }
 
+    /// Whether progress is shown: to people at a terminal, unless they want to hear of errors only.
+    pub fn is_watched(&self) -> bool {
+        let for_people = self.common.message_format == MessageFormat::Text;
+        !self.common.quiet && for_people && std::io::stderr().is_terminal()
+    }
+
     /// A progress bar for work of `length` steps, drawn when one is done; shown on a terminal only.
     pub fn progress(&self, length: u64, text: &str) -> Progress {
-        let for_people = self.common.message_format == MessageFormat::Text;
-        if self.common.quiet || !for_people || !std::io::stderr().is_terminal() {
+        if !self.is_watched() {
             return Progress(ProgressBar::hidden());
         }
         let bar = ProgressBar::new(length).with_message(format!("{}: {text}", self.name));
@@ -123,6 +128,20 @@ impl Session {
                 .unwrap_or_else(|_| ProgressStyle::default_bar()),
         );
         Progress(bar)
+    }
+
+    /// A line that says how far the work is and is rewritten; shown on a terminal only, and not among the lines of `-v`,
+    /// which say as much.
+    pub fn status(&self) -> Status {
+        if !self.is_watched() || self.is_verbose() {
+            return Status(ProgressBar::hidden());
+        }
+        let line = ProgressBar::new_spinner().with_prefix(self.name.clone());
+        line.set_style(
+            ProgressStyle::with_template("{prefix}: {wide_msg}")
+                .unwrap_or_else(|_| ProgressStyle::default_spinner()),
+        );
+        Status(line)
     }
 
     /// The entry this run adds to a document's history.
@@ -136,6 +155,11 @@ impl Session {
     }
 }
 
+/// A duration in words, of whole units: `9 seconds`, `2 minutes`; a second at least.
+pub fn duration(duration: Duration) -> String {
+    HumanDuration(duration.max(Duration::from_secs(1))).to_string()
+}
+
 /// A progress bar that goes away when dropped.
 pub struct Progress(ProgressBar);
 
@@ -143,6 +167,27 @@ impl Progress {
     /// Work done so far.
     pub fn set(&self, position: u64) {
         self.0.set_position(position);
+    }
+}
+
+/// A line of progress that goes away when dropped.
+pub struct Status(ProgressBar);
+
+impl Status {
+    /// Whether anybody sees it.
+    pub fn is_shown(&self) -> bool {
+        !self.0.is_hidden()
+    }
+
+    /// Puts a text in place of the one before.
+    pub fn show(&self, text: String) {
+        self.0.set_message(text);
+    }
+}
+
+impl Drop for Status {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
     }
 }
 

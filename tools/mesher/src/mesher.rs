@@ -1,11 +1,8 @@
 //! What a mesher is: it is given a complex and a task, and gives tetrahedra or says why there are none.
 
-use crate::Plc;
 use crate::failure::Failure;
+use crate::{Log, Plc};
 use std::time::Duration;
-
-/// Receives details while the work goes on.
-pub type Log<'a> = &'a (dyn Fn(&str) + Sync);
 
 /// Makes tetrahedra of a complex.
 pub trait Mesher: Sync {

@@ -13,6 +13,8 @@ fn main() {
     for file in [
         "shim/tetgen_shim.cpp",
         "shim/tetgen_shim.h",
+        "shim/counts.cpp",
+        "shim/counts.h",
         "shim/result.cpp",
         "shim/result.h",
     ] {
@@ -51,6 +53,7 @@ fn main() {
 
     build
         .file("shim/tetgen_shim.cpp")
+        .file("shim/counts.cpp")
         .file("shim/result.cpp")
         .compile("tetgen_shim");
     println!("cargo:rustc-link-lib=dylib=tet");

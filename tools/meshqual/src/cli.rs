@@ -2,7 +2,7 @@
 
 use crate::{Bound, Error, Limit, Params, Pictures, Report, analyse, html, svg, text};
 use interchange::Format;
-use kit::{Command, CommonArgs, Failure, Output, Session};
+use kit::{Command, CommonArgs, Failure, Output, Session, StrictArgs};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -16,6 +16,10 @@ use std::path::{Path, PathBuf};
 pub struct Cli {
     #[command(flatten)]
     common: CommonArgs,
+
+    /// A second input, which is refused with what was meant
+    #[arg(hide = true)]
+    second: Option<PathBuf>,
 
     /// Write the report as JSON; `-` writes it in place of the text
     #[arg(long, value_name = "PATH")]
@@ -62,6 +66,9 @@ pub struct Cli {
     /// Count what is above a value; may be repeated
     #[arg(long, value_name = "METRIC=VALUE", value_parser = count_above)]
     count_above: Vec<Bound>,
+
+    #[command(flatten)]
+    strict: StrictArgs,
 }
 
 const AFTER: &str = "\
@@ -84,8 +91,11 @@ Examples:
   meshqual --compare direct.vtk part.vtk
   meshqual --html report.html --worst 5 part.tmesh
 
-Exit status: 0 done, 1 a promise or a limit is broken (the report is written all the same), 2 wrong
-usage, 3 malformed input, 4 output not writable.";
+Bounds that were asked of the elements travel in the document. What does not meet them is said on
+standard error, and fails with --strict.
+
+Exit status: 0 done, 1 a promise or a limit is broken or, with --strict, a bound not met (the report is
+written all the same), 2 wrong usage, 3 malformed input, 4 output not writable.";
 
 fn below(text: &str) -> Result<Limit, String> {
     Limit::parse(text, false)
@@ -137,9 +147,18 @@ impl Command for Cli {
         session.info("measured and checked");
         let pictures = self.html.as_ref().map(|_| Pictures::of(&document));
         let pictures = pictures.transpose()?;
+        self.strict.say_if_unknown(session, &document);
         drop(document);
         self.write(&report, pictures.as_ref())?;
-        let failures = report.failures(self.check);
+        let mut failures = report.failures(self.check);
+        if self.strict.strict {
+            failures.extend(report.shortfalls);
+        } else {
+            report
+                .shortfalls
+                .iter()
+                .for_each(|short| session.note(short));
+        }
         match failures.as_slice() {
             [] => Ok(()),
             [one] => Err(Failure::Impossible(one.clone())),
@@ -157,6 +176,12 @@ fn is_dash(path: Option<&Path>) -> bool {
 
 impl Cli {
     fn check_outputs(&self) -> Result<(), Failure> {
+        if let Some(second) = &self.second {
+            return Err(Failure::Usage(format!(
+                "one mesh is measured; --compare {} measures a second one beside it",
+                second.display()
+            )));
+        }
         if self.common.to.is_some_and(|f| f != Format::Text) {
             return Err(Failure::Usage(
                 "the output is a report, not a mesh; use --json, --svg or --html PATH for other forms"

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::instances::is_sector;
 use crate::measure::{Bound, Limit, Metric, Summary, Worst, common_bins, measure};
 use crate::soundness::usable;
+use kit::shortfalls;
 use serde::Serialize;
 use tmesh::Document;
 
@@ -33,6 +34,8 @@ pub struct Report {
     pub checks: Checks,
     /// Limits that are not met, a sentence each.
     pub limits_broken: Vec<String>,
+    /// What the mesh does not meet of the bounds that it says were asked for, a sentence each.
+    pub shortfalls: Vec<String>,
     /// What a reader should know to understand the figures.
     pub notes: Vec<String>,
     /// The mesh it is compared with.
@@ -99,6 +102,7 @@ pub fn analyse(
             .iter()
             .filter_map(|l| l.broken(&summary))
             .collect(),
+        shortfalls: shortfalls(document),
         notes: notes(document),
         summary,
         worst,

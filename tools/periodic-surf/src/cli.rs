@@ -1,7 +1,7 @@
 //! The command line of `periodic-surf`.
 
-use crate::{MemoryArgs, prepare};
-use kit::{Command, CommonArgs, Failure, Session, WishArgs};
+use crate::{MemoryArgs, prepare, watched};
+use kit::{Command, CommonArgs, Failure, Session, StrictArgs, WishArgs};
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk
@@ -23,6 +23,9 @@ pub struct Cli {
 
     #[command(flatten)]
     memory: MemoryArgs,
+
+    #[command(flatten)]
+    strict: StrictArgs,
 }
 
 impl Command for Cli {
@@ -35,11 +38,12 @@ impl Command for Cli {
         let mut document = session.read()?;
         self.wishes.apply(&mut document)?;
         let params = self.memory.params(&document.wishes);
-        let log = |text: &str| session.info(text);
-        let (mut document, report) =
-            prepare(document, &params, &log).map_err(|error| error.failure())?;
+        let made = watched(session, None, |log| prepare(document, &params, log));
+        let (mut document, report) = made.map_err(|error| error.failure())?;
         report.facts.iter().for_each(|fact| session.info(fact));
-        document.history.push(session.history_entry(report.facts));
+        let short = self.strict.judge(session, &document)?;
+        let notes = [report.facts, short].concat();
+        document.history.push(session.history_entry(notes));
         session.write(&document)
     }
 }

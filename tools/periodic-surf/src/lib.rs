@@ -9,10 +9,12 @@ mod cli;
 mod error;
 mod memory;
 mod prepare;
+mod status;
 mod surface;
 
 pub use cli::Cli;
 pub use error::{SurfaceError, failure};
 pub use memory::MemoryArgs;
 pub use prepare::{Report, prepare};
+pub use status::watched;
 pub use surface::{Made, Other, impose, make};

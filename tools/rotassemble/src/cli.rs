@@ -11,7 +11,7 @@ use clap::ValueEnum;
 use interchange::{
     Format, MeshStream, Middles, Plain, Surface, WriteOptions, Writer, second_order,
 };
-use kit::{Command, CommonArgs, Failure, Session};
+use kit::{Command, CommonArgs, Failure, Session, StrictArgs};
 use std::path::{Path, PathBuf};
 use tmesh::Document;
 
@@ -72,6 +72,9 @@ pub struct Cli {
     /// `none`, which is right for heat; repeatable (inp)
     #[arg(long, value_name = "[WALL=]HOW", requires = "sector")]
     mirror: Vec<MirrorWish>,
+
+    #[command(flatten)]
+    strict: StrictArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -121,7 +124,8 @@ impl Command for Cli {
         self.check_usage(format)?;
         session.check_output_in(format)?;
         let mut document = session.read()?;
-        document.history.push(session.history_entry(Vec::new()));
+        let short = self.strict.judge(session, &document)?;
+        document.history.push(session.history_entry(short));
         if self.sector {
             document = sector(document);
         }

@@ -88,7 +88,10 @@ impl From<RepairArg> for Repairing {
     }
 }
 
-/// Triangles up to which a surface is checked without a report being asked for.
+/// Triangles up to which a surface is checked without a report being asked for. A choice: on surfaces of 336,084 and
+/// 454,852 triangles, single runs with the check took about 0.5 and 0.7 s of processor time more; a run without it and
+/// without a report takes 1.5 and 1.7 s. A larger limit costs such bodies that; a smaller one leaves crossings of more
+/// bodies to the mesher to find.
 const ALWAYS_CHECKED: usize = 200_000;
 /// Half a step must still be a turn that can be stored.
 const MAX_ORDER: u32 = MAX_TURN_DENOMINATOR / 4;

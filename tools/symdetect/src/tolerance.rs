@@ -16,11 +16,11 @@ pub const ROUNDINGS: f64 = 8.0;
 /// on smaller differences.
 pub const SINGLE: f64 = ROUNDINGS * f32::EPSILON as f64;
 
-/// Thirty of the 52 binary digits of double precision: a sum that is smaller than this share of its terms is rounding,
-/// and so is an eigenvalue that is smaller than this share of the largest one. What is left are 22 digits, about the
-/// precision of the coordinates themselves. With a larger share, directions in which a nearly round body is hardly
+/// Half of the binary digits of double precision: a sum that is smaller than this share of its terms is mostly rounding,
+/// and so is an eigenvalue that is smaller than this share of the largest one. What is left of it are the digits that
+/// coordinates in single precision have. With a larger share, directions in which a nearly round body is hardly
 /// curved are taken for flat, and arbitrary points along them for candidate axes.
-pub const VANISHING: f64 = 1.0 / (1_u64 << 30) as f64;
+pub const VANISHING: f64 = 1.0 / (1_u64 << (f64::MANTISSA_DIGITS / 2)) as f64;
 
 /// Compares two directions by their components along three axes in turn, leaving out differences that rounding may
 /// have made: positive if the first has the larger component, zero for equals.

@@ -1,17 +1,19 @@
 //! The command line of `tetwedge`.
 
-use crate::shortfall::shortfalls;
+use crate::forecast::{Forecast, forecast};
 use crate::tetrahedralize;
-use kit::{Command, CommonArgs, Failure, Session, ThreadArgs, WishArgs};
+use kit::{
+    Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs, about, duration,
+};
 use mesher::Params;
-use periodic_surf::{MemoryArgs, failure};
-use tmesh::Wishes;
+use periodic_surf::{MemoryArgs, failure, watched};
+use tmesh::{Document, Wishes};
 
 /// Fills a wedge, or any closed surface, with tetrahedra
 ///
 /// The mesher is TetGen. Mirror walls may be refined. Faces that copies share by a rotation or a half turn get the surface mesh
 /// that the elements need, as periodic-surf makes it, unless that was there before. Regions come from the surface's
-/// triangles.
+/// triangles. At a terminal it says before it starts about how many tetrahedra there will be, and then how far it is.
 #[derive(clap::Parser, Debug)]
 #[command(
     name = "tetwedge",
@@ -40,9 +42,8 @@ pub struct Cli {
     #[arg(long, value_name = "STR", default_value = "", value_parser = switches, allow_hyphen_values = true, hide_default_value = true)]
     switches: String,
 
-    /// Fail where elements do not meet the bounds asked for, rather than say so and go on
-    #[arg(long)]
-    strict: bool,
+    #[command(flatten)]
+    strict: StrictArgs,
 
     #[command(flatten)]
     threads: ThreadArgs,
@@ -63,6 +64,29 @@ impl Cli {
             ..self.memory.params(wishes)
         }
     }
+
+    /// Says what to expect of the work to those who watch it.
+    fn announce(
+        &self,
+        session: &Session,
+        document: &Document,
+        params: &Params,
+    ) -> Option<Forecast> {
+        if !session.is_watched() && !session.is_verbose() {
+            return None;
+        }
+        let expected = forecast(document, params, self.threads.count())?;
+        let text = format!(
+            "about {} tetrahedra, about {}",
+            about(expected.tetrahedra),
+            duration(expected.time)
+        );
+        match session.is_verbose() {
+            true => session.info(&text),
+            false => session.note(&text),
+        }
+        Some(expected)
+    }
 }
 
 impl Command for Cli {
@@ -78,21 +102,17 @@ impl Command for Cli {
             document.wishes.keep_surface = Some(true);
         }
         let params = self.params(&document.wishes);
-        let log = |text: &str| session.info(text);
-        let meshed = on_threads(self.threads.count(), || {
-            tetrahedralize(document, &params, &log).map_err(|e| failure(&e))
+        let expected = self.announce(session, &document, &params);
+        let meshed = watched(session, expected.map(|e| e.tetrahedra), |log| {
+            on_threads(self.threads.count(), || {
+                tetrahedralize(document, &params, log).map_err(|e| failure(&e))
+            })
         })?;
         for sentence in &meshed.advice {
             session.note(sentence);
         }
         let mut document = meshed.document;
-        let short = shortfalls(&document, &params);
-        if self.strict && !short.is_empty() {
-            return Err(Failure::Impossible(short.join("; ")));
-        }
-        for sentence in &short {
-            session.note(sentence);
-        }
+        let short = self.strict.judge(session, &document)?;
         let notes = [meshed.advice, short, meshed.facts].concat();
         document.history.push(session.history_entry(notes));
         session.write(&document)
@@ -116,7 +136,7 @@ fn on_threads<T: Send>(
 mod tests {
     use super::*;
     use clap::{CommandFactory, Parser};
-    use tmesh::{Document, Template};
+    use tmesh::Template;
 
     fn parse(arguments: &[&str]) -> Result<Params, clap::Error> {
         let all = std::iter::once("tetwedge").chain(arguments.iter().copied());

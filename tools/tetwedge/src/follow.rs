@@ -57,7 +57,7 @@ fn surface_of(
     match make(&job.climb(piece, deadline)) {
         Ok(made) => Ok(made.template),
         Err(error) => {
-            (job.log)(&format!(
+            job.log.detail(&format!(
                 "template {index}: {error}; its other faces are divided only where the shared one is"
             ));
             Ok(imposed)

@@ -10,9 +10,9 @@ mod cli;
 mod document;
 mod fill;
 mod follow;
+mod forecast;
 mod leads;
 mod settle;
-mod shortfall;
 mod template;
 
 pub use cli::Cli;

@@ -1,6 +1,6 @@
 //! The faces that copies share, divided as the elements need before a template is filled.
 
-use mesher::{Error, Log, Params};
+use mesher::{Error, Log, Params, Progress};
 use periodic_surf::{SurfaceError, prepare};
 use tmesh::Document;
 
@@ -34,7 +34,16 @@ pub fn settle(document: Document, params: &Params, log: Log<'_>) -> Result<Settl
         switches: String::new(),
         ..params.clone()
     };
-    match prepare(document.clone(), &surface, log) {
+    let detail = |text: &str| log.detail(text);
+    let progress = |progress: &Progress<'_>| {
+        let step = &format!("surface mesh, {}", progress.step);
+        log.progress(&Progress { step, ..*progress });
+    };
+    let of_surface = match log.has_progress() {
+        true => Log::new(&detail).with_progress(&progress),
+        false => log,
+    };
+    match prepare(document.clone(), &surface, of_surface) {
         Ok((document, report)) => Ok(Settled {
             document,
             advice: None,

@@ -2,7 +2,8 @@
 
 use crate::fill::{Filled, fill, finish};
 use mesher::{
-    Answer, Asks, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
+    Answer, Asks, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Progress, Sizes,
+    TetGen,
 };
 use tmesh::Document;
 
@@ -74,8 +75,18 @@ fn done<B: Send>(
     answer: Answer,
     beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
 ) -> Result<(Done, Option<B>), Error> {
-    let say = |text: &str| (climb.log)(&format!("template {}: {text}", climb.piece.index));
+    let say = |text: &str| {
+        climb
+            .log
+            .detail(&format!("template {}: {text}", climb.piece.index))
+    };
     let (mut filled, origin) = fill(climb.piece, &answer)?;
+    climb.log.progress(&Progress {
+        template: climb.piece.index,
+        step: "improving elements",
+        points: filled.template.vertices.len() as f64,
+        tetrahedra: filled.template.tets.len() as f64,
+    });
     let made = match beside {
         Some(beside) => {
             let surface = filled.shared_surface();

@@ -5,8 +5,8 @@ use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
 use kit::Failure;
 use mesher::{
-    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, LADDER, Params, Piece, Rung,
-    Sizes, TetGen,
+    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, LADDER, Log, Params, Piece,
+    Rung, Sizes, TetGen,
 };
 use periodic_surf::failure;
 use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
@@ -24,7 +24,7 @@ fn filled(document: Document, wishes: &Wishes) -> Result<Meshed, Error> {
 fn settled_and_filled(mut document: Document, wishes: &Wishes) -> Result<Meshed, Error> {
     document.wishes = wishes.clone().over(&document.wishes);
     let params = Params::new(&document.wishes);
-    tetrahedralize(document, &params, &|_| ())
+    tetrahedralize(document, &params, Log::new(&|_| ()))
 }
 
 /// The same, with everything checked that must hold.
@@ -310,8 +310,10 @@ fn seams_that_nobody_settled_are_divided_as_the_elements_need() {
     assert!(pairs(&done.document) > pairs(&before));
     // Just what is made of it in two steps.
     let params = Params::new(&before.wishes);
-    let (surface, _) = periodic_surf::prepare(before, &params, &|_| ()).unwrap();
-    let again = tetrahedralize(surface, &params, &|_| ()).unwrap().document;
+    let (surface, _) = periodic_surf::prepare(before, &params, Log::new(&|_| ())).unwrap();
+    let again = tetrahedralize(surface, &params, Log::new(&|_| ()))
+        .unwrap()
+        .document;
     assert_eq!(again.templates, done.document.templates);
     assert_eq!(again.wishes, done.document.wishes);
     // Nor is a filled one settled again.
@@ -493,7 +495,7 @@ fn switches_that_change_the_contract_are_errors() {
             switches: bad.to_owned(),
             ..Params::new(&sized(0.1))
         };
-        let done = tetrahedralize(prism(4), &params, &|_| ());
+        let done = tetrahedralize(prism(4), &params, Log::new(&|_| ()));
         assert!(done.is_err(), "{bad}");
     }
 }
@@ -517,7 +519,7 @@ fn described(document: &Document, description: Description, take: impl Fn(&Climb
         rungs: &rungs,
         deadline: Deadline::start(params.timeout),
         mesher: &TetGen,
-        log: &|_| (),
+        log: Log::new(&|_| ()),
     };
     let taken = climb.climb(Asks::AsWished, |answer| {
         if answer.failed == 0 {

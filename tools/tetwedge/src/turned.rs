@@ -4,7 +4,7 @@ use crate::tetrahedralize;
 use bodies::wedges::{Grid, name_regions};
 use geom::measure::tet_volume;
 use glam::DVec3;
-use mesher::Params;
+use mesher::{Log, Params};
 use periodic_surf::prepare;
 use tmesh::{Document, Gluing, Instance, Isometry, Size, Template, Triangle, Wishes, validate};
 
@@ -167,7 +167,7 @@ fn through(mut document: Document, volume_of_wedge: f64) {
     };
     let before = seams(&document);
     let params = Params::new(&document.wishes);
-    let (settled, report) = prepare(document, &params, &|_| ()).unwrap();
+    let (settled, report) = prepare(document, &params, Log::new(&|_| ())).unwrap();
     assert_eq!(report.remade, 1);
     assert_eq!(validate(&settled), []);
     let after = seams(&settled);
@@ -190,7 +190,7 @@ fn through(mut document: Document, volume_of_wedge: f64) {
             }
         }
     }
-    let done = tetrahedralize(settled, &params, &|_| ()).unwrap();
+    let done = tetrahedralize(settled, &params, Log::new(&|_| ())).unwrap();
     assert!(done.advice.is_empty(), "{:?}", done.advice);
     assert_eq!(validate(&done.document), []);
     assert_eq!(seams(&done.document), after, "preserved");

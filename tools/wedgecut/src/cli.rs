@@ -2,7 +2,7 @@
 
 use crate::params::{Domain, Hub, Params};
 use crate::{cut, names};
-use kit::{Command, CommonArgs, Failure, Session, ThreadArgs, WishArgs};
+use kit::{Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs};
 
 const EXAMPLES: &str = "Examples:
   symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
@@ -60,6 +60,9 @@ pub struct Cli {
     // Order and hub are chosen for these; the later tools inherit them.
     #[command(flatten)]
     wishes: WishArgs,
+
+    #[command(flatten)]
+    strict: StrictArgs,
 
     #[command(flatten)]
     threads: ThreadArgs,
@@ -151,7 +154,9 @@ impl Command for Cli {
         for remark in names::lost(&document).iter().chain(&report.warning) {
             session.note(remark);
         }
-        document.history.push(session.history_entry(report.notes));
+        let short = self.strict.judge(session, &document)?;
+        let notes = [report.notes, short].concat();
+        document.history.push(session.history_entry(notes));
         session.write(&document)
     }
 }

@@ -143,7 +143,8 @@ impl Climb<'_> {
     }
 
     fn say(&self, text: &str) {
-        (self.log)(&format!("template {}: {text}", self.piece.index));
+        self.log
+            .detail(&format!("template {}: {text}", self.piece.index));
     }
 
     /// The error to report for a failure, with advice.

@@ -7,8 +7,12 @@ mod switches;
 use crate::{Elements, Failure, FailureKind, Limits, Log, Mesh, Mesher, Plc, Task};
 use chatter::Chatter;
 use intersections::pairs;
+use std::time::Duration;
 use switches::switches;
-use tetgen_sys::{Complex, Error, RegionSeed, tetrahedralize};
+use tetgen_sys::{Complex, Error, News, RegionSeed, tetrahedralize};
+
+/// Time from one word of progress to the next. A choice: people see a line move, and reading the counts takes nothing.
+const TOLD_EVERY: Duration = Duration::from_millis(200);
 
 /// The system's TetGen library, each run in a process of its own.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,7 +21,7 @@ pub struct TetGen;
 impl Mesher for TetGen {
     fn mesh(&self, plc: &Plc, task: &Task, limits: Limits, log: Log<'_>) -> Result<Mesh, Failure> {
         let told = switches(plc, task);
-        log(&format!(
+        log.detail(&format!(
             "template {}: {} points, {} triangles in {} facets, {} void(s); switches {told}",
             plc.template,
             plc.points.len(),
@@ -25,11 +29,21 @@ impl Mesher for TetGen {
             plc.facets.facets.len(),
             plc.holes.len(),
         ));
-        let mut chatter = Chatter::new(log);
+        let mut chatter = Chatter::new(log, plc.template);
         let seeds = seeds(plc);
-        let made = tetrahedralize(&complex(plc, &seeds), &told, limits.into(), &mut |bytes| {
-            chatter.take(bytes);
-        });
+        let limits = tetgen_sys::Limits {
+            counted_every: log.has_progress().then_some(TOLD_EVERY),
+            ..limits.into()
+        };
+        let made = tetrahedralize(
+            &complex(plc, &seeds),
+            &told,
+            limits,
+            &mut |news| match news {
+                News::Printed(bytes) => chatter.take(bytes),
+                News::Counted(counts) => chatter.count(counts),
+            },
+        );
         match made {
             Ok(arrays) => Ok(Box::new(Tetrahedra { arrays, told })),
             Err(error) => Err(failure(&error, chatter.step)),
@@ -40,8 +54,10 @@ impl Mesher for TetGen {
         let mut text = Vec::new();
         let seeds = seeds(plc);
         // Only what it prints is of interest: at most a line for each pair that it looks at in the time given.
-        let _ = tetrahedralize(&complex(plc, &seeds), "pd", limits.into(), &mut |bytes| {
-            text.extend_from_slice(bytes);
+        let _ = tetrahedralize(&complex(plc, &seeds), "pd", limits.into(), &mut |news| {
+            if let News::Printed(bytes) = news {
+                text.extend_from_slice(bytes);
+            }
         });
         pairs(String::from_utf8_lossy(&text).lines(), plc.triangles.len())
     }
@@ -52,6 +68,7 @@ impl From<Limits> for tetgen_sys::Limits {
         Self {
             timeout: limits.timeout,
             memory: limits.memory,
+            counted_every: None,
         }
     }
 }

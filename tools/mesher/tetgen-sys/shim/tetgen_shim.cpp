@@ -16,6 +16,7 @@
 
 #include <tetgen.h>
 
+#include "counts.h"
 #include "result.h"
 
 namespace {
@@ -102,6 +103,7 @@ void *mesh(void *argument) {
   behavior->meditview = 0;
   behavior->voroout = 0;
   fill(*input, in);
+  count_into(in.counts, *input);
   tetrahedralize(behavior, input, output, nullptr, nullptr);
   finish(output->numberofcorners == 4 ? 0 : TETGEN_SHIM_NOT_LINEAR, output);
 }

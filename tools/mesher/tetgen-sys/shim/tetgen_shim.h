@@ -9,6 +9,12 @@
 extern "C" {
 #endif
 
+/* How far refinement is, written by the child while it works. */
+struct tetgen_shim_counts {
+  uint64_t tetrahedra;      /* that were within the bounds on volumes when they were checked */
+  uint64_t points;          /* distinct corners of them, estimated */
+};
+
 /* A piecewise linear complex of triangles. */
 struct tetgen_shim_input {
   const char *switches;     /* NUL-terminated */
@@ -22,6 +28,7 @@ struct tetgen_shim_input {
   int32_t hole_count;
   int32_t region_count;
   uint64_t memory;          /* bytes the child may allocate; 0 for no limit */
+  struct tetgen_shim_counts *counts; /* in memory shared with the child, or null */
 };
 
 /* Begins the memory file; the arrays follow, each at a multiple of 8 bytes, in the order of the

@@ -1,7 +1,8 @@
 //! Starting, watching and stopping the process that meshes.
 
+use crate::counts::Counters;
 use crate::ffi::{self, tetgen_shim_start};
-use crate::{Complex, Error, Failure, Limits, Mesh};
+use crate::{Complex, Error, Failure, Limits, Mesh, News};
 use std::ffi::CString;
 use std::fs::File;
 use std::io::{ErrorKind, PipeReader, Read};
@@ -29,25 +30,22 @@ pub struct Child {
     result: File,
     chatter: PipeReader,
     switches: String,
-    memory: Option<u64>,
+    limits: Limits,
+    counters: Option<Counters>,
 }
 
 impl Child {
-    /// Starts TetGen on a complex, with a limit on the bytes it may take, if any. The thread that calls
-    /// this must outlive the child: the kernel ties the child to it.
+    /// Starts TetGen on a complex. The thread that calls this must outlive the child: the kernel ties the child to it.
     ///
     /// # Errors
     /// [`Error::Unfit`], [`Error::BadSwitches`] (a NUL in the switches) and [`Error::System`].
-    pub fn start(
-        complex: &Complex<'_>,
-        switches: &str,
-        memory: Option<u64>,
-    ) -> Result<Self, Error> {
+    pub fn start(complex: &Complex<'_>, switches: &str, limits: Limits) -> Result<Self, Error> {
         let text = CString::new(switches).map_err(|_| Error::BadSwitches(switches.to_owned()))?;
         check(complex)?;
         let count = |n: usize, what: &str| {
             i32::try_from(n).map_err(|_| Error::Unfit(format!("{n} {what} are too many")))
         };
+        let counters = limits.counted_every.map(|_| Counters::new()).transpose()?;
         let input = ffi::Input {
             switches: text.as_ptr(),
             points: complex.points.as_ptr().cast(),
@@ -59,7 +57,8 @@ impl Child {
             triangle_count: count(complex.triangles.len(), "triangles")?,
             hole_count: count(complex.holes.len(), "holes")?,
             region_count: count(complex.regions.len(), "regions")?,
-            memory: memory.map_or(0, |bytes| bytes.max(1)),
+            memory: limits.memory.map_or(0, |bytes| bytes.max(1)),
+            counts: counters.as_ref().map_or(std::ptr::null(), Counters::as_ptr),
         };
         let result = memory_file()?;
         let (chatter, printing) = std::io::pipe().map_err(|error| Error::System {
@@ -83,7 +82,8 @@ impl Child {
             result,
             chatter,
             switches: switches.to_owned(),
-            memory,
+            limits,
+            counters,
         })
     }
 
@@ -92,24 +92,35 @@ impl Child {
         self.pid as u32
     }
 
-    /// Waits for the end, and passes on what TetGen prints meanwhile.
+    /// Waits for the end, and tells the listener what TetGen does meanwhile.
     ///
     /// # Errors
     /// Everything that can happen to TetGen; see [`Error`].
-    pub fn finish(mut self, limits: Limits, chatter: &mut dyn FnMut(&[u8])) -> Result<Mesh, Error> {
-        let timed_out = || Error::TimedOut(limits.timeout.unwrap_or_default());
-        let deadline = limits
-            .timeout
-            .and_then(|limit| self.started.checked_add(limit));
+    pub fn finish(mut self, listener: &mut dyn FnMut(News<'_>)) -> Result<Mesh, Error> {
+        let timeout = self.limits.timeout;
+        let deadline = timeout.and_then(|limit| self.started.checked_add(limit));
         let mut buffer = [0; 4096];
+        let mut next_count = self.next_count();
         // The pipe ends when the child does: nobody else holds its other end for long.
         loop {
-            if !self.readable(deadline)? {
-                return Err(timed_out());
+            let until = [deadline, next_count].into_iter().flatten().min();
+            let readable = self.readable(until)?;
+            let now = Instant::now();
+            if !readable && deadline.is_some_and(|end| end <= now) {
+                return Err(Error::TimedOut(timeout.unwrap_or_default()));
+            }
+            if let Some(counters) = &self.counters
+                && next_count.is_some_and(|next| next <= now)
+            {
+                listener(News::Counted(counters.read()));
+                next_count = self.next_count();
+            }
+            if !readable {
+                continue;
             }
             match self.chatter.read(&mut buffer) {
                 Ok(0) => break,
-                Ok(n) => chatter(&buffer[..n]),
+                Ok(n) => listener(News::Printed(&buffer[..n])),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error) => {
                     return Err(Error::System {
@@ -120,7 +131,15 @@ impl Child {
             }
         }
         let status = self.wait()?;
+        if let Some(counters) = &self.counters {
+            listener(News::Counted(counters.read()));
+        }
         self.outcome(status)
+    }
+
+    /// When the listener is to be told the next count.
+    fn next_count(&self) -> Option<Instant> {
+        Instant::now().checked_add(self.limits.counted_every?)
     }
 
     fn outcome(&self, status: i32) -> Result<Mesh, Error> {
@@ -140,7 +159,7 @@ impl Child {
         }
         if exit == ffi::OUT_OF_MEMORY {
             let failed = Error::Failed(Failure::OutOfMemory);
-            return Err(self.memory.map_or(failed, Error::MemoryLimit));
+            return Err(self.limits.memory.map_or(failed, Error::MemoryLimit));
         }
         match Mesh::new(&self.result)? {
             Some((mesh, 0)) if exit == 0 => Ok(mesh),
@@ -150,7 +169,7 @@ impl Child {
                 ffi::ENDED => Error::Exited { status: exit },
                 ffi::NO_SPACE => Error::Failed(Failure::OutOfMemory),
                 ffi::UNKNOWN_EXCEPTION => Error::Failed(Failure::Internal),
-                thrown => match (Failure::from_code(thrown), self.memory) {
+                thrown => match (Failure::from_code(thrown), self.limits.memory) {
                     (Failure::OutOfMemory, Some(limit)) => Error::MemoryLimit(limit),
                     (failure, _) => Error::Failed(failure),
                 },
@@ -159,14 +178,13 @@ impl Child {
         }
     }
 
-    /// Waits until there is something to read or the pipe has ended; false when the deadline came
-    /// first.
-    fn readable(&self, deadline: Option<Instant>) -> Result<bool, Error> {
+    /// Waits until there is something to read or the pipe has ended; false when a moment came first.
+    fn readable(&self, until: Option<Instant>) -> Result<bool, Error> {
         loop {
-            let wait = match deadline {
+            let wait = match until {
                 None => -1,
-                Some(deadline) => {
-                    let left = deadline.saturating_duration_since(Instant::now());
+                Some(until) => {
+                    let left = until.saturating_duration_since(Instant::now());
                     if left.is_zero() {
                         return Ok(false);
                     }

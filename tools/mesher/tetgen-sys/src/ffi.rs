@@ -1,6 +1,14 @@
 //! Declarations of `shim/tetgen_shim.h`.
 
 use std::ffi::{c_char, c_int};
+use std::sync::atomic::AtomicU64;
+
+#[derive(Debug)]
+#[repr(C)]
+pub(crate) struct SharedCounts {
+    pub tetrahedra: AtomicU64,
+    pub points: AtomicU64,
+}
 
 #[repr(C)]
 pub(crate) struct Input {
@@ -15,6 +23,7 @@ pub(crate) struct Input {
     pub hole_count: i32,
     pub region_count: i32,
     pub memory: u64,
+    pub counts: *const SharedCounts,
 }
 
 #[derive(Clone, Copy, Debug, Default)]

@@ -29,11 +29,13 @@ pub struct Complex<'a> {
     pub regions: &'a [RegionSeed],
 }
 
-/// Bounds on a run.
+/// Bounds on a run, and how it is watched.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Limits {
     /// Wall-clock time after which the mesher is stopped; `None` for no limit.
     pub timeout: Option<Duration>,
     /// Memory that the mesher may take beyond what the caller holds, bytes; `None` for no limit.
     pub memory: Option<u64>,
+    /// Time from one count to the next, see [`crate::News::Counted`]; `None` for no counts.
+    pub counted_every: Option<Duration>,
 }

@@ -7,19 +7,23 @@
 //! the child is one [`Error`] value here. There are no temporary files; the child ends with us.
 
 mod child;
+mod counts;
 mod error;
 mod ffi;
 mod input;
 mod mesh;
+mod news;
 
 pub use child::Child;
+pub use counts::Counts;
 pub use error::{Error, Failure};
 pub use input::{Complex, Limits, RegionSeed};
 pub use mesh::Mesh;
+pub use news::News;
 
 /// Meshes a piecewise linear complex with the given TetGen switches.
 ///
-/// `chatter` receives what TetGen prints, as it prints it, in pieces of any length.
+/// `listener` hears of it meanwhile; the mesh is the same with and without counts.
 ///
 /// # Errors
 /// Everything that can happen to TetGen; see [`Error`].
@@ -27,9 +31,9 @@ pub fn tetrahedralize(
     complex: &Complex<'_>,
     switches: &str,
     limits: Limits,
-    chatter: &mut dyn FnMut(&[u8]),
+    listener: &mut dyn FnMut(News<'_>),
 ) -> Result<Mesh, Error> {
-    Child::start(complex, switches, limits.memory)?.finish(limits, chatter)
+    Child::start(complex, switches, limits)?.finish(listener)
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-use crate::{Child, Complex, Error, Failure, Limits, RegionSeed, tetrahedralize};
+use crate::{Child, Complex, Counts, Error, Failure, Limits, News, RegionSeed, tetrahedralize};
 use std::time::{Duration, Instant};
 
 struct Body {
@@ -61,8 +61,10 @@ fn run(
         timeout: Some(Duration::from_secs_f64(seconds)),
         ..Limits::default()
     };
-    let result = tetrahedralize(complex, switches, limits, &mut |bytes| {
-        text.extend_from_slice(bytes);
+    let result = tetrahedralize(complex, switches, limits, &mut |news| {
+        if let News::Printed(bytes) = news {
+            text.extend_from_slice(bytes);
+        }
     });
     (result, String::from_utf8_lossy(&text).into_owned())
 }
@@ -198,14 +200,14 @@ fn crashes_and_kills_are_told_apart() {
     // Interrupts and hangups may be ignored, in the child if in this process.
     let from_outside = [libc::SIGKILL, libc::SIGALRM, libc::SIGUSR1];
     for signal in crashes.into_iter().chain(from_outside) {
-        let child = Child::start(&body.complex(), "pq1.1a1e-9", None).unwrap();
-        let id = child.id() as libc::pid_t;
         let limits = Limits {
             timeout: Some(Duration::from_secs(20)),
             ..Limits::default()
         };
+        let child = Child::start(&body.complex(), "pq1.1a1e-9", limits).unwrap();
+        let id = child.id() as libc::pid_t;
         // Once it prints, it is past the beginning, where our own signal handlers still apply.
-        let result = child.finish(limits, &mut |_| {
+        let result = child.finish(&mut |_| {
             // SAFETY: a signal to a child that is not yet collected.
             unsafe {
                 libc::kill(id, signal);
@@ -233,6 +235,7 @@ fn memory_is_limited() {
         let limits = Limits {
             timeout: Some(Duration::from_secs(60)),
             memory: Some(megabytes << 20),
+            ..Limits::default()
         };
         tetrahedralize(&body.complex(), "pqa1e-5", limits, &mut |_| {})
     };
@@ -251,7 +254,7 @@ fn memory_is_limited() {
 
 #[test]
 fn a_dropped_child_is_gone() {
-    let child = Child::start(&cube().complex(), "pq1.1a1e-9", None).unwrap();
+    let child = Child::start(&cube().complex(), "pq1.1a1e-9", Limits::default()).unwrap();
     let id = child.id();
     drop(child);
     assert!(!std::path::Path::new(&format!("/proc/{id}")).exists());
@@ -286,4 +289,53 @@ fn unfit_input_is_refused() {
         run(&body.complex(), "p", 9.0).0,
         Err(Error::Unfit(_))
     ));
+}
+
+#[test]
+fn counts_grow_and_change_nothing() {
+    let body = cube();
+    for switches in [
+        "pq1.2a1e-4nn",
+        "pq1.4/15nn",
+        "pq1.2a1e-4S500",
+        "pYq1.4a1e-3",
+    ] {
+        let (plain, said) = run(&body.complex(), switches, 60.0);
+        let limits = Limits {
+            counted_every: Some(Duration::from_millis(1)),
+            ..Limits::default()
+        };
+        let mut counts = Vec::new();
+        let mut printed = Vec::new();
+        let counted = tetrahedralize(&body.complex(), switches, limits, &mut |news| match news {
+            News::Counted(now) => counts.push(now),
+            News::Printed(bytes) => printed.extend_from_slice(bytes),
+        });
+        let (plain, counted) = (plain.unwrap(), counted.unwrap());
+        assert_eq!(plain.points(), counted.points());
+        assert_eq!(plain.tetrahedra(), counted.tetrahedra());
+        assert_eq!(plain.triangles(), counted.triangles());
+        assert_eq!(
+            said.lines().count(),
+            String::from_utf8_lossy(&printed).lines().count()
+        );
+        let later = |pair: &[Counts]| {
+            pair[0].checked <= pair[1].checked && pair[0].points <= pair[1].points
+        };
+        assert!(counts.windows(2).all(later));
+        let last = counts.last().unwrap();
+        let share = |count: u64, of: usize| count as f64 / of as f64;
+        if plain.tetrahedra().len() > 1000 {
+            assert!(counts.len() > 2);
+            let checked = share(last.checked, plain.tetrahedra().len());
+            assert!((1.0..2.0).contains(&checked), "{switches}: {checked}");
+            // One point of 64 stands for all: five standard deviations.
+            let points = share(last.points, plain.points().len());
+            let deviation = (64.0 / plain.points().len() as f64).sqrt();
+            assert!(
+                (points - 1.0).abs() < 5.0 * deviation,
+                "{switches}: {points}"
+            );
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! The report as a page: tables, histograms and pictures in one file that needs no other.
 
 use super::drawing::{self, Colour, quality_colour, quality_legend, region_colour};
-use super::svg::{escaped, svg};
+use super::svg::{escaped, histograms, outlined};
 use super::words::{STATISTICS, beyond, check_table, symmetry_words, verdict};
 use crate::error::Error;
 use crate::measure::{Metric, Statistic, Summary};
@@ -42,10 +42,10 @@ const NAMED_REGIONS: usize = 16;
 
 const STYLE: &str = "body{font:14px/1.5 sans-serif;color:#222;max-width:1680px;margin:2em auto;padding:0 1em}\
 table{border-collapse:collapse;margin:.5em 0 1.5em}td,th{padding:.15em .9em;text-align:right;border-bottom:1px solid #ddd}\
-td:first-child,th:first-child{text-align:left;padding-left:0}figure{margin:0}\
-.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(24em,100%),1fr));gap:1em;margin-bottom:1em}\
-figcaption{color:#555}img{width:100%;height:auto;border:1px solid #ddd}.broken{color:#b2182b;font-weight:bold}\
-.key{display:inline-block;width:.9em;height:.9em;margin:0 .3em 0 .8em;vertical-align:-.1em}svg{width:100%;height:auto}";
+td,th{white-space:nowrap}td:first-child,th:first-child{text-align:left;padding-left:0}figure{margin:0}.wide{overflow-x:auto}\
+.pictures,.histograms{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(24em,100%),1fr));gap:1em;margin-bottom:1em}.histograms{grid-template-columns:repeat(auto-fit,minmax(min(30em,100%),1fr))}\
+figcaption{color:#555}.key{white-space:nowrap}img{width:100%;height:auto;border:1px solid #ddd}.broken{color:#b2182b;font-weight:bold}\
+.key i{display:inline-block;width:.9em;height:.9em;margin:0 .3em 0 .8em;vertical-align:-.1em}svg{width:100%;height:auto}";
 
 /// The page.
 pub fn html(report: &Report, title: &str, pictures: &Pictures) -> String {
@@ -53,14 +53,15 @@ pub fn html(report: &Report, title: &str, pictures: &Pictures) -> String {
     let name = escaped(title);
     let _ = writeln!(
         out,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title>\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>{name}</title>\
          <style>{STYLE}</style></head>\n<body>\n<h1>{name}</h1>"
     );
     sizes(&mut out, &report.summary);
     images(&mut out, report, pictures);
     regions(&mut out, &report.summary);
     metrics(&mut out, report);
-    out.push_str(&svg(report, title));
+    distributions(&mut out, report);
     worst(&mut out, report);
     checks(&mut out, report);
     for note in &report.notes {
@@ -93,7 +94,7 @@ fn key(out: &mut String, colour: [f64; 3], text: &str) {
     let [r, g, b] = colour.map(|c| c as u8);
     let _ = write!(
         out,
-        "<span class=\"key\" style=\"background:rgb({r},{g},{b})\"></span>{}",
+        " <span class=\"key\"><i style=\"background:rgb({r},{g},{b})\"></i>{}</span>",
         escaped(text)
     );
 }
@@ -139,7 +140,7 @@ fn images(out: &mut String, report: &Report, pictures: &Pictures) {
 
 fn regions(out: &mut String, s: &Summary) {
     out.push_str(
-        "<h2>Regions</h2>\n<table><tr><th>region</th><th>id</th><th>tetrahedra</th><th>volume</th>\
+        "<h2>Regions</h2>\n<div class=\"wide\"><table><tr><th>region</th><th>id</th><th>tetrahedra</th><th>volume</th>\
          <th>smallest dihedral</th><th>1 %</th><th>radius-edge 99 %</th><th>largest</th></tr>\n",
     );
     for r in &s.regions {
@@ -161,11 +162,11 @@ fn regions(out: &mut String, s: &Summary) {
             of(Metric::RadiusEdgeRatio, Statistic::Max),
         );
     }
-    out.push_str("</table>\n");
+    out.push_str("</table></div>\n");
 }
 
 fn metrics(out: &mut String, report: &Report) {
-    out.push_str("<h2>Quality</h2>\n<table><tr><th>metric</th>");
+    out.push_str("<h2>Quality</h2>\n<div class=\"wide\"><table><tr><th>metric</th>");
     for statistic in STATISTICS {
         let _ = write!(out, "<th>{}</th>", statistic.name());
     }
@@ -189,7 +190,7 @@ fn metrics(out: &mut String, report: &Report) {
             out.push_str("</tr>\n");
         }
     }
-    out.push_str("</table>\n");
+    out.push_str("</table></div>\n");
     for (name, summary) in all {
         for line in beyond(summary) {
             let of = if name.is_empty() { "" } else { "compared: " };
@@ -198,12 +199,22 @@ fn metrics(out: &mut String, report: &Report) {
     }
 }
 
+fn distributions(out: &mut String, report: &Report) {
+    out.push_str("<h2>Distributions</h2>\n");
+    if let Some(outlined) = outlined(report) {
+        let _ = writeln!(out, "<p>{}</p>", escaped(&outlined));
+    }
+    out.push_str("<div class=\"histograms\">\n");
+    histograms(report).for_each(|image| out.push_str(&image));
+    out.push_str("</div>\n");
+}
+
 fn worst(out: &mut String, report: &Report) {
     if report.worst.is_empty() {
         return;
     }
     out.push_str(
-        "<h2>Worst elements</h2>\n<table><tr><th>metric</th><th>value</th><th>region</th>\
+        "<h2>Worst elements</h2>\n<div class=\"wide\"><table><tr><th>metric</th><th>value</th><th>region</th>\
          <th>place</th><th>template</th><th>tetrahedron</th><th>copies</th></tr>\n",
     );
     for w in &report.worst {
@@ -220,7 +231,7 @@ fn worst(out: &mut String, report: &Report) {
             w.copies
         );
     }
-    out.push_str("</table>\n");
+    out.push_str("</table></div>\n");
 }
 
 fn checks(out: &mut String, report: &Report) {
@@ -229,14 +240,17 @@ fn checks(out: &mut String, report: &Report) {
     for failure in &failures {
         let _ = writeln!(out, "<p class=\"broken\">{}</p>", escaped(failure));
     }
+    for short in &report.shortfalls {
+        let _ = writeln!(out, "<p class=\"broken\">{}</p>", escaped(short));
+    }
     if failures.is_empty() {
         let verdict = verdict(&report.checks);
         let _ = writeln!(out, "<p>No limit is broken; {}.</p>", escaped(&verdict));
     }
-    out.push_str("<table>\n");
+    out.push_str("<div class=\"wide\"><table>\n");
     for (name, value) in check_table(&report.checks) {
         let value = value.unwrap_or_else(|| "-".to_owned());
         let _ = writeln!(out, "<tr><td>{name}</td><td>{value}</td></tr>");
     }
-    out.push_str("</table>\n");
+    out.push_str("</table></div>\n");
 }

@@ -1,4 +1,4 @@
-//! The histograms as an SVG image: two rows of three panels.
+//! The histograms as SVG: an image of two rows of three panels, or an image for each, for pages.
 
 use super::drawing::Ticks;
 use crate::measure::{Histogram, Metric, Statistics};
@@ -68,33 +68,64 @@ const LAYOUT: Layout = Layout {
 /// The image. With a comparison, the other mesh is drawn as an outline; heights are shares.
 pub fn svg(report: &Report, title: &str) -> String {
     let Layout { columns, left, .. } = LAYOUT;
-    let panel = (
-        left + LAYOUT.width + LAYOUT.right,
-        LAYOUT.top + LAYOUT.height + LAYOUT.bottom,
-    );
+    let panel = panel();
     let rows = Metric::ALL.len().div_ceil(columns);
     let width = columns as f64 * panel.0;
     let height = LAYOUT.head + rows as f64 * panel.1;
+    let words = format!("Histograms of the elements of {title}");
     let mut out = String::new();
-    let _ = writeln!(
-        out,
-        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" role="img" aria-label="{}" font-family="sans-serif" font-size="11" fill="#222222">
-<rect width="{width}" height="{height}" fill="#ffffff"/>"##,
-        escaped(&format!("Histograms of the elements of {title}"))
-    );
+    begin(&mut out, (width, height), &words);
     headline(&mut out, report, title);
     for (i, metric) in Metric::ALL.into_iter().enumerate() {
         let x = (i % columns) as f64 * panel.0 + left;
         let y = LAYOUT.head + (i / columns) as f64 * panel.1 + LAYOUT.top;
-        let _ = writeln!(out, r#"<g transform="translate({x} {y})">"#);
-        let own = report.summary.metrics.get(metric);
-        let other = report.compare.as_ref();
-        let other = other.and_then(|c| c.summary.metrics.get(metric));
-        draw(&mut out, metric, own, other);
-        let _ = writeln!(out, "</g>");
+        draw(&mut out, report, metric, (x, y));
     }
     let _ = writeln!(out, "</svg>");
     out
+}
+
+/// An image for each metric.
+pub fn histograms(report: &Report) -> impl Iterator<Item = String> + use<'_> {
+    Metric::ALL.into_iter().map(move |metric| {
+        let mut out = String::new();
+        begin(
+            &mut out,
+            panel(),
+            &format!("Histogram of {}", metric.name()),
+        );
+        draw(&mut out, report, metric, (LAYOUT.left, LAYOUT.top));
+        out.push_str("</svg>\n");
+        out
+    })
+}
+
+/// What the outline is of a mesh that another one is compared with.
+pub fn outlined(report: &Report) -> Option<String> {
+    let other = report.compare.as_ref()?;
+    Some(format!(
+        "outline: {} ({} tetrahedra)",
+        other.name,
+        grouped(other.summary.tetrahedra)
+    ))
+}
+
+/// Width and height of a panel.
+fn panel() -> (f64, f64) {
+    (
+        LAYOUT.left + LAYOUT.width + LAYOUT.right,
+        LAYOUT.top + LAYOUT.height + LAYOUT.bottom,
+    )
+}
+
+/// The beginning of an image, and its ground.
+fn begin(out: &mut String, (width, height): (f64, f64), words: &str) {
+    let _ = writeln!(
+        out,
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" role="img" aria-label="{}" font-family="sans-serif" font-size="11" fill="#222222">
+<rect width="{width}" height="{height}" fill="#ffffff"/>"##,
+        escaped(words)
+    );
 }
 
 fn headline(out: &mut String, report: &Report, title: &str) {
@@ -115,20 +146,25 @@ fn headline(out: &mut String, report: &Report, title: &str) {
         grouped(summary.vertices),
         grouped(summary.tetrahedra)
     );
-    if let Some(other) = &report.compare {
-        let _ = write!(
-            line,
-            "; outline: {} ({} tetrahedra)",
-            other.name,
-            grouped(other.summary.tetrahedra)
-        );
+    if let Some(outlined) = outlined(report) {
+        let _ = write!(line, "; {outlined}");
     }
     let line = escaped(&line);
     let _ = writeln!(out, r#"<text x="{left}" y="{sizes_base}">{line}</text>"#);
 }
 
-/// A panel: what it shows, the bars of the mesh, the outline of the other one, and the axes.
-fn draw(out: &mut String, metric: Metric, own: Option<&Statistics>, other: Option<&Statistics>) {
+/// A panel with its plot at a place.
+fn draw(out: &mut String, report: &Report, metric: Metric, (x, y): (f64, f64)) {
+    let own = report.summary.metrics.get(metric);
+    let other = report.compare.as_ref();
+    let other = other.and_then(|c| c.summary.metrics.get(metric));
+    let _ = writeln!(out, r#"<g transform="translate({x} {y})">"#);
+    plot(out, metric, own, other);
+    let _ = writeln!(out, "</g>");
+}
+
+/// What a panel shows, the bars of the mesh, the outline of the other one, and the axes.
+fn plot(out: &mut String, metric: Metric, own: Option<&Statistics>, other: Option<&Statistics>) {
     let Layout {
         name_base,
         statistics_base,
@@ -147,7 +183,7 @@ fn draw(out: &mut String, metric: Metric, own: Option<&Statistics>, other: Optio
         let values = [s.min, s.p01, s.p50, s.p99, s.max];
         let names = ["min", "p01", "p50", "p99", "max"];
         for (i, (name, value)) in names.into_iter().zip(values).enumerate() {
-            let x = LAYOUT.width * i as f64 / names.len() as f64;
+            let x = (LAYOUT.width + LAYOUT.right) * i as f64 / names.len() as f64;
             let value = significant(value, LAYOUT.digits);
             let _ = writeln!(
                 out,

@@ -31,6 +31,9 @@ pub fn text(report: &Report, promises: bool) -> String {
         histogram(&mut out, &own.histogram, other.map(|o| &o.histogram));
     }
     checks(&mut out, report, promises);
+    for short in &report.shortfalls {
+        let _ = writeln!(out, "NOT MET {short}");
+    }
     for note in &report.notes {
         let _ = writeln!(out, "note: {note}");
     }

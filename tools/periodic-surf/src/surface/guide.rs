@@ -34,7 +34,9 @@ pub fn refine(climb: &Climb<'_>) -> Result<Refined, Error> {
     };
     let take = |answer: Answer| {
         if let Some(advice) = &answer.advice {
-            (climb.log)(&format!("template {}: {advice}", climb.piece.index));
+            climb
+                .log
+                .detail(&format!("template {}: {advice}", climb.piece.index));
         }
         surface_of(climb, answer)
     };

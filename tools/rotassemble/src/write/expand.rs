@@ -4,12 +4,12 @@ use crate::mesh::Assembled;
 use interchange::MeshStream;
 use std::io::{self, Write};
 use tmesh::{
-    ChunkWriter, Document, TETS, TRIANGLES, Template, Tet, Triangle, VERTICES, write_instances,
-    write_metadata,
+    ChunkWriter, Document, TETS, TRIANGLES, Template, Tet, Triangle, VERTICES, Wishes,
+    write_instances, write_metadata,
 };
 
 /// Writes the assembled mesh of `document`: one template in world coordinates with the identity
-/// instance. Regions, markers, source and history are those of `document`, as is the symmetry found; the
+/// instance. Regions, markers, source, history and what was asked of the elements are those of `document`, as is the symmetry found; the
 /// promise is that of the mesh.
 ///
 /// # Errors
@@ -64,6 +64,11 @@ fn metadata(mesh: &Assembled<'_>, document: &Document) -> Document {
     metadata.search = document.search.clone();
     let promise = mesh.promise();
     metadata.promise = (!promise.group.is_trivial()).then(|| promise.clone());
+    metadata.wishes = Wishes {
+        // There are no faces that copies share any more.
+        keep_surface: None,
+        ..document.wishes.clone()
+    };
     metadata.regions = document.regions.clone();
     metadata.markers = document.markers.clone();
     metadata.source = document.source.clone();

@@ -3,7 +3,7 @@
 use crate::allowance::model::{FEWEST_IN_SECTOR, REACH, SECTORS, SHELLS, SWINGS};
 use crate::allowance::place::Place;
 use crate::allowance::swing::Swing;
-use crate::budget::{NEIGHBOURHOODS, PER_TRIANGLE};
+use crate::budget::{GLANCE, SURVEY};
 use crate::shape::Shape;
 use crate::verify::Operation;
 use geom::measure::double_area_vector;
@@ -52,7 +52,7 @@ impl Displacements<'_> {
     /// Whether the mean over some sector of a shell is beyond the limit.
     fn of_sectors(&self, limit: f64) -> bool {
         let mut sectors: FxHashMap<[u8; 3], (f64, f64)> = FxHashMap::default();
-        for sample in self.shape.samples.faces.iter().take(NEIGHBOURHOODS) {
+        for sample in self.shape.samples.faces.iter().take(SURVEY) {
             let Some((place, off)) = self.at(sample.point, sample.triangle) else {
                 continue;
             };
@@ -69,11 +69,11 @@ impl Displacements<'_> {
 
     /// Whether slow waves over some shell are beyond the limit.
     fn of_shells(&self, limit: f64) -> bool {
-        let (shape, tests) = (self.shape, NEIGHBOURHOODS);
+        let (shape, tests) = (self.shape, SURVEY);
         // The same number from every triangle (of very many, from some), so that small bores have enough of
         // them. Shells are taken twice, one set halfway between the other: one that ends within a bore
         // would have the outermost points of its facets only.
-        let each = (tests / shape.triangles.len()).clamp(1, PER_TRIANGLE);
+        let each = (tests / shape.triangles.len()).clamp(1, GLANCE);
         let step = shape.triangles.len().div_ceil(tests);
         let mut shells: FxHashMap<[u8; 3], (Swing, bool)> = FxHashMap::default();
         for (t, corners) in shape.triangles.iter().enumerate().step_by(step) {

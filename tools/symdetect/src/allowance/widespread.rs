@@ -2,7 +2,7 @@
 
 use crate::allowance::model::{NOTICEABLE, SECTORS, SHELLS};
 use crate::allowance::place::Place;
-use crate::budget::ALL_AROUND;
+use crate::budget::SURVEY;
 use crate::shape::{Random, Shape};
 use rustc_hash::FxHashMap;
 use tmesh::{Frame, Isometry};
@@ -20,7 +20,7 @@ pub fn is_widespread(shape: &Shape, frame: &Frame, n: u32, value: f64) -> bool {
     let mut random = Random(u64::from(n));
     let radius = shape.radius(frame);
     let noticeable = NOTICEABLE * value;
-    for sample in shape.samples.mixed.iter().take(ALL_AROUND) {
+    for sample in shape.samples.mixed.iter().take(SURVEY) {
         let corners = shape.triangles[sample.triangle as usize];
         if shape.facets().around(corners) < noticeable {
             continue;

@@ -1,6 +1,6 @@
 //! Mirrors and what turns the axis over beside a rotation.
 
-use crate::budget::{FULL, PER_TRIANGLE};
+use crate::budget::SURVEY;
 use crate::group::found::Found;
 use crate::group::placement;
 use crate::group::slid::find_slid;
@@ -157,7 +157,7 @@ impl Query<'_> {
         }
         let deviation = found.verified.deviation.value;
         let reach = self.limits.reach(deviation, found.radius);
-        let samples = (PER_TRIANGLE * shape.triangles.len()).clamp(FULL.start / 4, FULL.end / 2);
+        let samples = shape.samples.mixed.len().min(SURVEY);
         let frame = refine(shape, found.frame, &operations, samples, reach);
         self.adopt(found, frame, 1.0);
     }

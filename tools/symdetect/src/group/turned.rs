@@ -1,6 +1,6 @@
 //! Mirrors that contain the axis, and half turns about axes across it.
 
-use crate::budget::{FIT, NEXT_BEST, SCORE};
+use crate::budget::{FIT, NEXT_BEST, SCAN};
 use crate::group::found::Beside;
 use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, powers, refine};
 use crate::shape::{Motion, Target};
@@ -98,7 +98,7 @@ impl Turned<'_> {
     fn score(&self, angle: f64) -> f64 {
         let shape = self.query.shape;
         let loose = self.query.limits.loose * self.rotation.radius;
-        let samples = &shape.samples.mixed[..SCORE.min(shape.samples.mixed.len())];
+        let samples = &shape.samples.mixed[..SCAN.min(shape.samples.mixed.len())];
         let allowed = (OUTLIERS * samples.len() as f64) as usize;
         let turned = turn_matrix(angle / PI) * self.operation.matrix();
         let motion = Motion::new(&self.rotation.frame, turned);

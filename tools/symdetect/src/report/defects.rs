@@ -1,5 +1,6 @@
 //! Defects of the surface that do not keep it from being read, with places.
 
+use crate::budget::{FULL, LISTED};
 use crate::shape::Flats;
 use geom::contacts::{Search, contacts};
 use geom::edges::Edges;
@@ -9,11 +10,6 @@ use heal::OddEdges;
 use kit::point;
 use serde::Serialize;
 use tmesh::{OUTSIDE, Template};
-
-/// Places listed at most.
-const MOST: usize = 100;
-/// Meetings of triangles counted at most.
-const COUNTED: usize = 100_000;
 
 /// Defects of a surface.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -51,7 +47,7 @@ impl<T> Default for Places<T> {
 impl<T> Places<T> {
     fn add(&mut self, place: T) {
         self.count += 1;
-        if self.places.len() < MOST {
+        if self.places.len() < LISTED {
             self.places.push(place);
         }
     }
@@ -105,10 +101,10 @@ impl Defects {
             |t| flats.of[t as usize],
             |contact| {
                 found.add(contact.point.to_array());
-                found.count < COUNTED
+                found.count < FULL
             },
         );
-        found.at_least = search == Search::GaveUp || found.count >= COUNTED;
+        found.at_least = search == Search::GaveUp || found.count >= FULL;
         defects.self_intersections = Some(found);
         defects
     }

@@ -8,6 +8,8 @@ pub struct Detection {
     pub symmetry: Symmetry,
     /// What else the search came across.
     pub search: Search,
+    /// How many other axes there are, of which [`Search`] lists some.
+    pub axes: usize,
     /// Remarks, a sentence each.
     pub notes: Vec<String>,
     /// Residuals of all orders up to some, if [`crate::Params::profile`] asked for them.

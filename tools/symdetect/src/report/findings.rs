@@ -14,7 +14,7 @@ impl Query<'_> {
         rotations: &[Rotation],
         log: &mut dyn FnMut(&str),
     ) -> Detection {
-        let other_axes = self.other_axes(&found, rotations);
+        let (other_axes, axes) = self.other_axes(&found, rotations);
         let rejected = if found.group.order > 1 {
             self.rejected(&found)
         } else {
@@ -30,6 +30,7 @@ impl Query<'_> {
                 other_axes,
                 rejected,
             },
+            axes,
             asymmetric: None,
         }
     }

@@ -1,6 +1,6 @@
 //! Axes beside the main one.
 
-use crate::budget::MOST_AXES;
+use crate::budget::LISTED;
 use crate::group::{Found, forward};
 use crate::rotation::{Query, Rotation};
 use crate::shape::Motion;
@@ -9,36 +9,44 @@ use glam::{DMat3, DVec3};
 use tmesh::{Isometry, OtherAxis};
 
 impl Query<'_> {
-    /// Further axes: half turns across the main one, and those of a polyhedral group.
-    pub fn other_axes(&self, found: &Found, rotations: &[Rotation]) -> Vec<OtherAxis> {
-        let z = found.frame.rotation.z_axis;
-        let mut axes: Vec<OtherAxis> = Vec::new();
-        let mut add = |d: DVec3, order: u32, residual: f64| {
-            let same = |a: &OtherAxis| self.same_axis(DVec3::from_array(a.direction), d);
-            if !axes.iter().any(same) && !self.same_axis(d, z) && axes.len() < MOST_AXES {
-                axes.push(OtherAxis {
-                    direction: forward(d).to_array(),
-                    order,
-                    residual,
-                });
-            }
+    /// Further axes, those of a polyhedral group and half turns across the main one, up to [`LISTED`]; and how many
+    /// there are in all.
+    pub fn other_axes(&self, found: &Found, rotations: &[Rotation]) -> (Vec<OtherAxis>, usize) {
+        let axis = |d: DVec3, order: u32, residual: f64| OtherAxis {
+            direction: forward(d).to_array(),
+            order,
+            residual,
         };
+        let is_among = |axes: &[OtherAxis], d: DVec3| {
+            let mut axes = axes.iter();
+            axes.any(|a| self.same_axis(DVec3::from_array(a.direction), d))
+        };
+        let mut axes: Vec<OtherAxis> = Vec::new();
         let mut others: Vec<&Rotation> = rotations.iter().filter(|r| r.distinct).collect();
         others.sort_by_key(|r| std::cmp::Reverse(r.order));
         for r in others {
-            let residual = r.deviation.value / found.radius;
-            add(r.frame.rotation.z_axis, r.order, residual);
+            let d = r.frame.rotation.z_axis;
+            let is_main = self.same_axis(d, found.frame.rotation.z_axis);
+            if !is_main && !is_among(&axes, d) {
+                axes.push(axis(d, r.order, r.deviation.value / found.radius));
+            }
         }
-        let Some(first) = found.group.half_turn_axis() else {
-            return axes;
-        };
-        let n = found.group.order;
-        let residual = found.verified.deviation.value / found.radius;
-        for k in 0..n {
-            let turn = Isometry::rotation(i64::from(k), 2 * n).compose(first);
-            add(found.frame.rotation * turn.apply(DVec3::X), 2, residual);
+        if let Some(first) = found.group.half_turn_axis() {
+            let n = found.group.order;
+            let residual = found.verified.deviation.value / found.radius;
+            let known = axes.len();
+            // They differ from each other.
+            for k in 0..n {
+                let turn = Isometry::rotation(i64::from(k), 2 * n).compose(first);
+                let d = found.frame.rotation * turn.apply(DVec3::X);
+                if !is_among(&axes[..known], d) {
+                    axes.push(axis(d, 2, residual));
+                }
+            }
         }
-        axes
+        let count = axes.len();
+        axes.truncate(LISTED);
+        (axes, count)
     }
 
     /// Name of the polyhedral group, if axes of order three or more point in several directions.

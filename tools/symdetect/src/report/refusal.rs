@@ -135,6 +135,7 @@ impl Query<'_> {
                 other_axes: Vec::new(),
                 rejected: rejected.into_iter().collect(),
             },
+            axes: 0,
             notes: Vec::new(),
             profile: self.profile(&frame, 1),
             asymmetric: Some(reason),

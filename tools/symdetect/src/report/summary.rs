@@ -1,13 +1,12 @@
 //! What was found, in words and as a table of residuals.
 
+use crate::budget::LISTED;
 use crate::report::detection::Detection;
 use kit::point;
 use std::fmt::Write;
 
 /// Width of the longest bar of the table, characters.
 const BAR: usize = 32;
-/// Orders listed in the table at most.
-const LISTED: usize = 48;
 
 impl Detection {
     /// A few sentences: mirror planes, further axes, the orders nearest to holding.
@@ -30,10 +29,11 @@ impl Detection {
         } else {
             "none lies across it"
         };
-        let others = match self.search.other_axes.len() {
-            0 => "no other axes".to_owned(),
-            1 => "one other axis".to_owned(),
-            n => format!("{n} other axes"),
+        let others = match (self.axes, self.search.other_axes.len()) {
+            (0, _) => "no other axes".to_owned(),
+            (1, _) => "one other axis".to_owned(),
+            (n, listed) if listed < n => format!("{n} other axes, {listed} of them listed"),
+            (n, _) => format!("{n} other axes"),
         };
         lines.push(format!("{along}, {across}; {others}"));
         let mut rejected = self.search.rejected.clone();

@@ -176,7 +176,7 @@ fn from_side(out: &mut String, views: &Views, symmetry: &Symmetry) {
 
 /// Axis, centre and the other axes in figures.
 fn facts(out: &mut String, found: &Detection) {
-    let (symmetry, search) = (&found.symmetry, &found.search);
+    let symmetry = &found.symmetry;
     heading(out, "in figures");
     let mut lines = vec![
         format!("group {}, order {}", symmetry.group, symmetry.group.order),
@@ -200,22 +200,26 @@ fn facts(out: &mut String, found: &Detection) {
         lines.push("a body of revolution".to_owned());
     }
     let room = ((VIEW - FIRST) / LINE) as usize + 1 - lines.len();
-    lines.extend(other_axes(&search.other_axes, room));
+    lines.extend(other_axes(&found.search.other_axes, found.axes, room));
     for (i, line) in lines.iter().enumerate() {
         let y = FIRST + LINE * i as f64;
         let _ = writeln!(out, r#"<text x="8" y="{y}">{}</text>"#, escaped(line));
     }
 }
 
-/// The other axes by their orders, in so many lines; the last one counts those for which there is no room.
-fn other_axes(axes: &[OtherAxis], room: usize) -> Vec<String> {
+/// The other axes by their orders, in so many lines; the last one counts those for which there is no room, or
+/// which are not listed.
+fn other_axes(axes: &[OtherAxis], count: usize, room: usize) -> Vec<String> {
     let mut lines: Vec<(String, usize)> = Vec::new();
+    let unlisted = count - axes.len();
+    let mut seen = 0;
     for same in axes.chunk_by(|a, b| a.order == b.order) {
-        let one = if same.len() == 1 { "axis" } else { "axes" };
-        lines.push((
-            format!("{} other {one} of order {}:", same.len(), same[0].order),
-            0,
-        ));
+        seen += same.len();
+        // Those that are not listed are half turns, which come last.
+        let beside = if seen == axes.len() { unlisted } else { 0 };
+        let all = same.len() + beside;
+        let one = if all == 1 { "axis" } else { "axes" };
+        lines.push((format!("{all} other {one} of order {}:", same[0].order), 0));
         for some in same.chunks(ABREAST) {
             let directions = some.iter().map(|axis| {
                 let [x, y, z] = axis
@@ -226,8 +230,11 @@ fn other_axes(axes: &[OtherAxis], room: usize) -> Vec<String> {
             lines.push((directions.collect::<Vec<_>>().join("  "), some.len()));
         }
     }
-    if lines.len() > room {
-        let left: usize = lines.drain(room.saturating_sub(1)..).map(|l| l.1).sum();
+    if lines.len() + usize::from(unlisted > 0) > room {
+        lines.truncate(room.saturating_sub(1));
+    }
+    let left = count - lines.iter().map(|l| l.1).sum::<usize>();
+    if left > 0 {
         lines.push((format!("and {left} more"), 0));
     }
     lines.into_iter().map(|l| l.0).collect()
@@ -319,14 +326,17 @@ mod tests {
         };
         let mut axes = vec![axis(4, 0.0)];
         axes.extend((0..6).map(|i| axis(2, f64::from(i))));
-        let all = other_axes(&axes, 6);
+        let all = other_axes(&axes, axes.len(), 6);
         assert_eq!(all[..2], ["1 other axis of order 4:", "(0, 0, 1)"]);
         assert_eq!(
             all[2..4],
             ["6 other axes of order 2:", "(0, 0, 1)  (1, 0, 1)"]
         );
         assert_eq!(all.len(), 6);
-        assert_eq!(other_axes(&axes, 5)[4], "and 4 more");
-        assert_eq!(other_axes(&axes, 1), ["and 7 more"]);
+        assert_eq!(other_axes(&axes, axes.len(), 5)[4], "and 4 more");
+        assert_eq!(other_axes(&axes, axes.len(), 1), ["and 7 more"]);
+        let some = other_axes(&axes, 99, 7);
+        assert_eq!(some[2], "98 other axes of order 2:");
+        assert_eq!(some[6], "and 92 more");
     }
 }

@@ -1,11 +1,11 @@
 //! The rotations about all axes that a body can have.
 
 use crate::allowance::model::COARSE;
-use crate::budget::MOST_AXES;
 use crate::rotation::candidates::{self, distinct};
 use crate::rotation::find::Rotation;
 use crate::rotation::limits::Limits;
 use crate::rotation::query::Query;
+use crate::shape::DirectionalMoment;
 use glam::DVec3;
 
 /// Candidate directions that are tried again with more tolerance, where no rotation was found at all.
@@ -52,7 +52,7 @@ impl Query<'_> {
             let tried = directions.len();
             directions.extend(candidates::higher(self.shape));
             directions = distinct(directions, self.parallel);
-            directions.truncate(tried + MOST_AXES);
+            directions.truncate(tried + DirectionalMoment::MOST_DIRECTIONS);
             found.extend(directions[tried..].iter().filter_map(find));
             log(&format!(
                 "{} further directions tried, {} have a rotation in all",

@@ -1,28 +1,32 @@
 //! Moments of high degree in every direction, whose critical points are where symmetry axes can lie.
 
+use crate::budget::REPORTED;
 use crate::tolerance::VANISHING;
 use geom::eigen;
 use geom::measure::double_area_vector;
 use glam::{DMat3, DVec3};
+use std::f64::consts::TAU;
 
-/// Starts of the search for critical points: a function of degree eight has less than a hundred of them up to sign, and
-/// the basins of all of them must be met.
-const STARTS: usize = 400;
-/// Newton steps after which a start is given up: within its basin, half a dozen suffice.
-const STEPS: usize = 40;
-/// Length of a step, in radians, after which there is nothing to gain: what double precision leaves of the gradient of
-/// a polynomial of degree eight. With ten times as much, points along curves of nearly critical points pass as well,
-/// each of which costs a search about it.
-const CONVERGED: f64 = 1e-13;
-/// Largest step, in radians: a fraction of the distance between neighbouring critical points.
-const LONGEST_STEP: f64 = 0.15;
-
-/// Degree of the directional moment: high enough to tell the axes of every polyhedral group.
-const DEGREE: usize = 8;
+/// Degree of the directional moment: the lowest at which no polyhedral group leaves the moment the same in every
+/// direction. The invariant polynomials of the icosahedron have the degrees 2, 6 and 10, the first of which is the
+/// distance from the centre; those of the other groups begin at lower ones.
+const DEGREE: usize = 6;
 /// Monomials of that degree.
 const TERMS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
+/// Longest step of the search for critical points, radians: along a great circle, the moment is a trigonometric
+/// polynomial of its degree, whose derivative is at most the degree times its size (Bernstein).
+const LONGEST_STEP: f64 = 1.0 / DEGREE as f64;
+/// Newton steps after which a start is given up: the longest ones go around half of the sphere in three times the
+/// degree, and half a dozen reach the precision of numbers once they converge.
+const STEPS: usize = 4 * DEGREE;
+/// Length of a step, in radians, after which there is nothing to gain: what rounding leaves of the gradient, a sum of so
+/// many terms, each a product of so many numbers. With more, points along curves of nearly critical points pass as
+/// well, each of which costs a search about it.
+const CONVERGED: f64 = (TERMS * DEGREE) as f64 * f64::EPSILON;
+/// The golden section of one: multiples of it, whole turns left out, are spread evenly however many there are.
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
 
-/// The function `f(w) = integral of (x . w)^8` over the surface plus the volume, `|w| = 1`, each
+/// The function `f(w) = integral of (x . w)^6` over the surface plus the volume, `|w| = 1`, each
 /// divided by its total.
 ///
 /// Every symmetry axis of the body, and every normal of a mirror plane, is a critical point of it,
@@ -31,53 +35,46 @@ const TERMS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
 /// symmetries in 3D shapes" (ACM TOG 2006), with the power of the distance to a plane in place of
 /// the distance to a line; both span the even spherical harmonics up to the degree.
 pub struct DirectionalMoment {
+    /// Of the monomials, in the order of [`exponents`].
     coefficients: [f64; TERMS],
 }
 
-/// Exponents of the monomials, in a fixed order.
+/// Exponents of the monomials. Those of lower degrees are in the same order, with smaller exponents of the first
+/// coordinate, and end sooner.
 fn exponents() -> impl Iterator<Item = [usize; 3]> {
-    (0..=DEGREE).flat_map(|i| (0..=DEGREE - i).map(move |j| [i, j, DEGREE - i - j]))
+    (0..=DEGREE).flat_map(|rest| (0..=rest).map(move |z| [DEGREE - rest, rest - z, z]))
 }
 
 impl DirectionalMoment {
+    /// Critical directions at most, where they are isolated: the number of eigenvectors, up to sign, of a symmetric
+    /// tensor of three dimensions and this order (Cartwright and Sturmfels 2013). An icosahedron has as many axes.
+    pub const MOST_DIRECTIONS: usize = DEGREE * DEGREE - DEGREE + 1;
+
     /// Integrates over triangles as [`Moments::new`] does; coordinates are relative to the centre.
     pub fn new(triangles: impl Iterator<Item = ([DVec3; 3], f64)>) -> Self {
         // The integral of a power of a linear form over a simplex is, up to a constant, the complete
-        // homogeneous polynomial of its values at the corners; polarized to monomials by evaluating
-        // it in as many directions as there are monomials and more.
-        let directions: Vec<DVec3> = hemisphere(3 * TERMS / 2).collect();
-        let mut area = vec![0.0; directions.len()];
-        let mut volume = vec![0.0; directions.len()];
+        // homogeneous polynomial of its values at the corners; the centre adds nothing.
+        let (mut area, mut volume) = ([0.0; TERMS], [0.0; TERMS]);
         let (mut total_area, mut total_volume) = (0.0_f64, 0.0_f64);
         for ([a, b, c], sign) in triangles {
             let s = double_area_vector(a, b, c).length();
             let v = sign * a.dot(b.cross(c));
             total_area += s;
             total_volume += v;
-            for (i, w) in directions.iter().enumerate() {
-                let h = complete(a.dot(*w), b.dot(*w), c.dot(*w));
-                area[i] += s * h;
-                volume[i] += v * h;
+            let moments = complete([a, b, c]);
+            for ((area, volume), h) in area.iter_mut().zip(&mut volume).zip(moments) {
+                *area += s * h;
+                *volume += v * h;
             }
         }
-        let scale_area = if total_area > 0.0 {
-            1.0 / total_area
-        } else {
-            0.0
-        };
-        let scale_volume = if total_volume > VANISHING * total_area {
-            1.0 / total_volume
-        } else {
-            0.0
-        };
-        let values: Vec<f64> = area
-            .iter()
-            .zip(&volume)
-            .map(|(a, v)| a * scale_area + v * scale_volume)
-            .collect();
-        Self {
-            coefficients: fit(&directions, &values),
+        let inverse = |total: f64, least: f64| if total > least { 1.0 / total } else { 0.0 };
+        let scale_area = inverse(total_area, 0.0);
+        let scale_volume = inverse(total_volume, VANISHING * total_area);
+        let mut coefficients = area.map(|a| a * scale_area);
+        for (c, v) in coefficients.iter_mut().zip(volume) {
+            *c += v * scale_volume;
         }
+        Self { coefficients }
     }
 
     /// Value, gradient and second derivatives at `w`.
@@ -116,10 +113,10 @@ impl DirectionalMoment {
     }
 
     /// The critical points of the function on the sphere, one of each antipodal pair or more, by Newton's
-    /// method from an even spread of starts. Where they form a curve (a body of revolution), some
+    /// method from an even spread of starts, several for each. Where they form a curve (a body of revolution), some
     /// points of the curve.
     pub fn critical_directions(&self) -> Vec<DVec3> {
-        hemisphere(STARTS)
+        hemisphere(REPORTED)
             .filter_map(|start| self.newton(start))
             .collect()
     }
@@ -155,13 +152,25 @@ impl DirectionalMoment {
     }
 }
 
-/// Complete homogeneous symmetric polynomial of degree [`DEGREE`] in three variables.
-fn complete(u: f64, v: f64, w: f64) -> f64 {
-    let mut h = [0.0; DEGREE + 1];
-    h[0] = 1.0;
-    for x in [u, v, w] {
+/// Complete homogeneous symmetric polynomial of degree [`DEGREE`] in the linear forms `x . w`, by the coefficients of its
+/// monomials in `w`.
+fn complete(corners: [DVec3; 3]) -> [f64; TERMS] {
+    // Of each degree; one more form adds itself times the polynomial of one degree less.
+    let mut h = [[0.0; TERMS]; DEGREE + 1];
+    h[0][0] = 1.0;
+    for x in corners {
         for k in 1..=DEGREE {
-            h[k] += x * h[k - 1];
+            let (lower, higher) = h.split_at_mut(k);
+            let (from, to) = (&lower[k - 1], &mut higher[0]);
+            let mut at = 0;
+            for rest in 0..k {
+                for _ in 0..=rest {
+                    to[at] += x.x * from[at];
+                    to[at + rest + 1] += x.y * from[at];
+                    to[at + rest + 2] += x.z * from[at];
+                    at += 1;
+                }
+            }
         }
     }
     h[DEGREE]
@@ -169,62 +178,12 @@ fn complete(u: f64, v: f64, w: f64) -> f64 {
 
 /// `count` directions spread evenly over a hemisphere (a spherical Fibonacci lattice).
 fn hemisphere(count: usize) -> impl Iterator<Item = DVec3> {
-    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |i| {
         let z = (i as f64 + 0.5) / count as f64;
         let r = (1.0 - z * z).sqrt();
-        let (s, c) = libm::sincos(golden * i as f64 + 0.1);
-        // Tilted, so that no start sits on a coordinate axis by construction.
-        DVec3::new(r * c, 0.8 * r * s - 0.6 * z, 0.6 * r * s + 0.8 * z)
+        let (s, c) = libm::sincos(TAU * (i as f64 * GOLDEN).fract());
+        DVec3::new(r * c, r * s, z)
     })
-}
-
-/// Least-squares coefficients of a homogeneous polynomial from its values in given directions.
-fn fit(directions: &[DVec3], values: &[f64]) -> [f64; TERMS] {
-    let rows: Vec<[f64; TERMS]> = directions
-        .iter()
-        .map(|w| {
-            let mut row = [0.0; TERMS];
-            for (x, e) in row.iter_mut().zip(exponents()) {
-                *x = libm::pow(w.x, e[0] as f64)
-                    * libm::pow(w.y, e[1] as f64)
-                    * libm::pow(w.z, e[2] as f64);
-            }
-            row
-        })
-        .collect();
-    orthogonal_solve(rows, values)
-}
-
-/// Least squares by modified Gram-Schmidt.
-fn orthogonal_solve(mut rows: Vec<[f64; TERMS]>, values: &[f64]) -> [f64; TERMS] {
-    let mut rhs = values.to_vec();
-    let mut r = vec![[0.0; TERMS]; TERMS];
-    let mut projected = [0.0; TERMS];
-    for j in 0..TERMS {
-        let norm = rows.iter().map(|row| row[j] * row[j]).sum::<f64>().sqrt();
-        r[j][j] = norm;
-        for row in &mut rows {
-            row[j] /= norm;
-        }
-        for k in j + 1..TERMS {
-            let dot: f64 = rows.iter().map(|row| row[j] * row[k]).sum();
-            r[j][k] = dot;
-            for row in &mut rows {
-                row[k] -= dot * row[j];
-            }
-        }
-        projected[j] = rows.iter().zip(&rhs).map(|(row, y)| row[j] * y).sum();
-        for (row, y) in rows.iter().zip(&mut rhs) {
-            *y -= projected[j] * row[j];
-        }
-    }
-    let mut x = [0.0; TERMS];
-    for j in (0..TERMS).rev() {
-        let known: f64 = (j + 1..TERMS).map(|k| r[j][k] * x[k]).sum();
-        x[j] = (projected[j] - known) / r[j][j];
-    }
-    x
 }
 
 #[cfg(test)]
@@ -263,5 +222,25 @@ mod tests {
             assert!(axes.iter().any(|a| a.cross(e).length() < 1e-9), "{e}");
         }
         assert_eq!(axes.len(), 13);
+    }
+
+    #[test]
+    fn the_moment_is_that_of_the_directions_it_is_asked_in() {
+        let corners = [
+            DVec3::new(0.3, -0.2, 0.9),
+            DVec3::new(-0.5, 0.4, 0.1),
+            DVec3::new(0.2, 0.8, -0.6),
+        ];
+        let f = DirectionalMoment::new([(corners, 0.0)].into_iter());
+        let w = DVec3::new(2.0, -1.0, 3.0).normalize();
+        // The same polynomial of three numbers: all products of powers that add up to the degree.
+        let [a, b, c] = corners.map(|p| p.dot(w));
+        let mut expected = 0.0;
+        for i in 0..=DEGREE as i32 {
+            for j in 0..=DEGREE as i32 - i {
+                expected += a.powi(i) * b.powi(j) * c.powi(DEGREE as i32 - i - j);
+            }
+        }
+        assert!((f.derivatives(w).0 - expected).abs() < 1e-15);
     }
 }

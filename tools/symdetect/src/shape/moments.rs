@@ -25,37 +25,58 @@ impl Moments {
     /// Integrates over triangles given by their corners and the sign with which each bounds material:
     /// 1 with material behind it, -1 with material in front, 0 between two materials.
     pub fn new(triangles: impl Iterator<Item = ([DVec3; 3], f64)>) -> Self {
-        let (mut volume, mut first, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
-        let (mut area, mut area_first, mut area_second) = (0.0, DVec3::ZERO, DMat3::ZERO);
+        let (mut solid, mut surface) = (Sums::ZERO, Sums::ZERO);
         for ([a, b, c], sign) in triangles {
-            let sum = a + b + c;
-            let squares = outer(a) + outer(b) + outer(c) + outer(sum);
-            let v = sign * a.dot(b.cross(c)) / 6.0;
-            volume += v;
-            first += sum * (v / 4.0);
-            second += squares * (v / 20.0);
-            let s = triangle_area(a, b, c);
-            area += s;
-            area_first += sum * (s / 3.0);
-            area_second += squares * (s / 12.0);
+            let volume = sign * a.dot(b.cross(c)) / 6.0;
+            solid.add([DVec3::ZERO, a, b, c], volume);
+            surface.add([a, b, c], triangle_area(a, b, c));
         }
-        let about = |mass: f64, first: DVec3, second: DMat3| {
-            if mass > 0.0 {
-                let centre = first / mass;
-                (centre, second * (1.0 / mass) - outer(centre))
-            } else {
-                (DVec3::ZERO, DMat3::ZERO)
-            }
-        };
-        let (volume_centre, volume_tensor) = about(volume, first, second);
-        let (area_centre, area_tensor) = about(area, area_first, area_second);
+        let (volume_centre, volume_tensor) = solid.about_centre();
+        let (area_centre, area_tensor) = surface.about_centre();
         Self {
-            volume,
+            volume: solid.mass,
             volume_centre,
             volume_tensor,
-            area,
+            area: surface.mass,
             area_centre,
             area_tensor,
+        }
+    }
+}
+
+/// Sums over simplices of their measure (area or volume) and its first and second moments.
+struct Sums {
+    mass: f64,
+    first: DVec3,
+    second: DMat3,
+}
+
+impl Sums {
+    /// Of no simplex.
+    const ZERO: Self = Self {
+        mass: 0.0,
+        first: DVec3::ZERO,
+        second: DMat3::ZERO,
+    };
+
+    /// Adds a simplex of `N` corners. Barycentric coordinates have the mean `1 / N`; the mean of the product of two
+    /// different ones is `1 / (N (N + 1))`, that of a square is twice that.
+    fn add<const N: usize>(&mut self, corners: [DVec3; N], mass: f64) {
+        let count = N as f64;
+        let sum: DVec3 = corners.iter().sum();
+        let squares = corners.iter().fold(outer(sum), |all, p| all + outer(*p));
+        self.mass += mass;
+        self.first += sum * (mass / count);
+        self.second += squares * (mass / (count * (count + 1.0)));
+    }
+
+    /// The centre, and the second moments about it divided by the measure.
+    fn about_centre(&self) -> (DVec3, DMat3) {
+        if self.mass > 0.0 {
+            let centre = self.first / self.mass;
+            (centre, self.second * (1.0 / self.mass) - outer(centre))
+        } else {
+            (DVec3::ZERO, DMat3::ZERO)
         }
     }
 }

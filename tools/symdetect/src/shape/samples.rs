@@ -1,20 +1,13 @@
 //! Points at which symmetry is tested.
 
+use crate::budget::{FIT, FULL, GLANCE};
 use crate::shape::interfaces::Interfaces;
 use crate::shape::random::Random;
 use geom::measure::double_area_vector;
 use glam::DVec3;
-use std::ops::Range;
 
-/// Vertices taken at most.
-const MOST_VERTICES: usize = 80_000;
-/// Face samples at least and at most.
-const FACE_SAMPLES: Range<usize> = 3_000..40_000;
-/// Samples of every kind of interface at least.
-const PER_CLASS: usize = 12;
-/// How far the normals around a vertex must spread for it to count as a feature: one minus the
-/// length of their area-weighted mean.
-const SHARP: f64 = 0.02;
+/// Binary digits of each coordinate in a place along a space-filling curve.
+const CURVE_BITS: u32 = u32::BITS / 3;
 
 /// A point of the surface.
 #[derive(Clone, Copy, Debug)]
@@ -29,8 +22,7 @@ pub struct Sample {
 pub struct Samples {
     /// Points inside faces, evenly spread by area, every kind of interface represented.
     pub faces: Vec<Sample>,
-    /// Vertices, once for each kind of interface they are on; those on sharp edges first when there
-    /// are too many.
+    /// Vertices, once for each kind of interface they are on; the sharpest when there are too many.
     pub vertices: Vec<Sample>,
     /// Both, alternating until one kind runs out.
     pub mixed: Vec<Sample>,
@@ -67,10 +59,11 @@ impl Samples {
 }
 
 /// Place of a point of the unit ball along a space-filling curve.
-fn morton(p: DVec3) -> u64 {
+fn morton(p: DVec3) -> u32 {
     let spread = |x: f64| {
-        let cell = (((x + 1.0) * 512.0) as u64).min(1023);
-        (0..10).fold(0, |m, bit| m | ((cell >> bit) & 1) << (3 * bit))
+        let cells = 1_u32 << CURVE_BITS;
+        let cell = ((0.5 * (x + 1.0) * f64::from(cells)) as u32).min(cells - 1);
+        (0..CURVE_BITS).fold(0, |m, bit| m | ((cell >> bit) & 1) << (3 * bit))
     };
     spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2
 }
@@ -98,9 +91,9 @@ fn sample_faces(
         }
     };
     let total: f64 = (0..count).map(area).sum();
-    let wanted = (2 * count).clamp(FACE_SAMPLES.start, FACE_SAMPLES.end);
+    let wanted = (2 * count).clamp(FIT, FULL);
     let mut taken = vec![0_usize; classes];
-    let mut samples = Vec::with_capacity(wanted + PER_CLASS * classes);
+    let mut samples = Vec::with_capacity(wanted + GLANCE * classes);
     // Systematic sampling: equal steps along the cumulated area.
     let step = total / wanted as f64;
     let mut next = 0.5 * step;
@@ -113,15 +106,15 @@ fn sample_faces(
             next += step;
         }
     }
-    if taken.iter().any(|&n| n < PER_CLASS) {
+    if taken.iter().any(|&n| n < GLANCE) {
         let mut members = vec![0_usize; classes];
         for &c in class {
             members[c as usize] += 1;
         }
         for (t, &c) in class.iter().enumerate() {
             let c = c as usize;
-            if taken[c] < PER_CLASS {
-                for _ in 0..PER_CLASS.div_ceil(members[c]) {
+            if taken[c] < GLANCE {
+                for _ in 0..GLANCE.div_ceil(members[c]) {
                     samples.push(inside(t, random));
                     taken[c] += 1;
                 }
@@ -152,11 +145,14 @@ fn pick_vertices(
         pairs.sort_unstable();
         pairs.dedup_by_key(|p| (p.0, p.1));
     }
-    if pairs.len() > MOST_VERTICES {
-        let sharp = sharp_vertices(vertices, triangles);
+    if pairs.len() > FULL {
+        let bluntness = bluntness(vertices, triangles);
         random.shuffle(&mut pairs);
-        pairs.sort_by_key(|p| !sharp[p.0 as usize]);
-        pairs.truncate(MOST_VERTICES);
+        pairs.sort_by(|p, q| {
+            let [p, q] = [p, q].map(|pair| bluntness[pair.0 as usize]);
+            p.total_cmp(&q)
+        });
+        pairs.truncate(FULL);
     }
     pairs
         .into_iter()
@@ -167,7 +163,8 @@ fn pick_vertices(
         .collect()
 }
 
-fn sharp_vertices(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Vec<bool> {
+/// How well the normals around each vertex agree: the length of their mean by area, 1 in a plane.
+fn bluntness(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Vec<f64> {
     let mut sum = vec![(DVec3::ZERO, 0.0); vertices.len()];
     for t in triangles {
         let [a, b, c] = t.map(|v| vertices[v as usize]);
@@ -178,7 +175,5 @@ fn sharp_vertices(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Vec<bool> {
             *s = (s.0 + n, s.1 + length);
         }
     }
-    sum.iter()
-        .map(|(n, total)| n.length() < (1.0 - SHARP) * total)
-        .collect()
+    sum.iter().map(|(n, total)| n.length() / total).collect()
 }

@@ -1,6 +1,6 @@
 //! What follows where flat faces go to flat faces.
 
-use crate::budget::LISTED;
+use crate::budget::REPORTED;
 use crate::shape::Shape;
 use crate::verify::deviation::{Bound, Deviation};
 use crate::verify::operation::Operation;
@@ -39,7 +39,7 @@ impl Shape {
             if k > 1 {
                 let within = self.same_corner().min(bound.limit);
                 let faces = self.faces()?;
-                let value = faces.image_of_some(&power(k).motion, LISTED, within)?;
+                let value = faces.image_of_some(&power(k).motion, REPORTED, within)?;
                 worst.value = worst.value.max(value);
             }
         }

@@ -1,6 +1,6 @@
 //! Verification of all powers of a rotation, and of other families of operations.
 
-use crate::budget::{FULL, PER_TRIANGLE, QUICK};
+use crate::budget::{FULL, QUICK};
 use crate::shape::{Motion, Permutation, Random, Shape};
 use crate::verify::deviation::{Bound, Depth, Deviation};
 use crate::verify::operation::Operation;
@@ -62,9 +62,7 @@ impl Shape {
             worst = worst.max(first);
         }
         let shared = match depth {
-            Depth::Full if !implied => {
-                (PER_TRIANGLE * self.triangles.len()).clamp(FULL.start, FULL.end)
-            }
+            Depth::Full if !implied => sorted.len().min(FULL),
             _ => QUICK,
         };
         let each = (shared / others).clamp(16, sorted.len().max(16));

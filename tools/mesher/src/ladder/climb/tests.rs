@@ -109,7 +109,7 @@ fn climb(mesher: &Scripted, rungs: &[Rung], timeout: Option<Duration>) -> Result
         rungs,
         deadline: Deadline::start(timeout),
         mesher,
-        log: &|_| (),
+        log: Log::new(&|_| ()),
     };
     climb.climb(Asks::Eased([1.1, 0.5]), |_| Ok(mesher.runs()))
 }

@@ -1,20 +1,21 @@
 //! Flats of a surface: what lies in one plane.
 
+use crate::budget::SCAN;
 use crate::shape::table::Table;
+use crate::tolerance::SINGLE;
 use geom::edges::Edges;
 use geom::flat::Regions;
 use glam::DVec3;
 
-/// Cosine of the angle between triangles of one flat: a tenth of a degree.
-const COPLANAR: f64 = 1.0 - 1.5e-6;
-/// Vertices by which the width of a flat is measured at most.
-const MOST_CORNERS: usize = 64;
+/// Cosine of the angle between triangles of one flat: cosines between normals of coordinates in single precision are
+/// no better known. The angle is 0.08 degrees.
+const COPLANAR: f64 = 1.0 - SINGLE;
 
 /// Triangles that lie in one plane and hang together.
 pub struct Flats {
     /// Flat of each triangle.
     pub of: Vec<u32>,
-    /// Some vertices of each flat.
+    /// Some vertices of each flat, by which its width is measured.
     corners: Table,
 }
 
@@ -28,7 +29,7 @@ impl Flats {
         let corners = regions.of.iter().zip(triangles);
         let corners = corners.flat_map(|(&flat, corners)| corners.iter().map(move |&v| (flat, v)));
         let mut vertices = Table::new(regions.seeds.len(), corners);
-        vertices.thin_out(MOST_CORNERS);
+        vertices.thin_out(SCAN);
         Self {
             of: regions.of,
             corners: vertices,

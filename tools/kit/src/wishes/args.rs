@@ -72,12 +72,18 @@ impl WishArgs {
         }
     }
 
-    /// Writes the wishes into a document, over those of earlier tools.
+    /// Writes the wishes into a document, over those of earlier tools. Bounds that nobody has named are written as well,
+    /// as what they are by default: whoever reads the mesh can hold it against them.
     ///
     /// # Errors
     /// A region that the document does not have, as wrong usage.
     pub fn apply(&self, document: &mut Document) -> Result<(), Failure> {
-        document.wishes = self.wishes().over(&document.wishes);
+        let wishes = self.wishes().over(&document.wishes);
+        document.wishes = Wishes {
+            radius_edge: Some(wishes.radius_edge()),
+            min_dihedral: Some(wishes.min_dihedral()),
+            ..wishes
+        };
         for size in &self.region {
             let regions = &document.regions;
             let named = regions.iter().position(|r| r.name == size.region);

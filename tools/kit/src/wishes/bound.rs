@@ -1,0 +1,125 @@
+//! The bounds that a document's wishes come to.
+
+use crate::number;
+use geom::tet::TetMeasures;
+use tmesh::{Document, Size};
+
+/// What a bound is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Smallest dihedral angle, degrees.
+    Dihedral,
+    /// Circumradius over shortest edge.
+    RadiusEdge,
+    /// Volume, model units cubed.
+    Volume,
+}
+
+/// A bound on elements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bound {
+    pub measure: Measure,
+    pub asked: f64,
+    /// What was asked, as a message says it.
+    pub words: String,
+    /// Regions that it holds for; `None` for all.
+    regions: Option<Vec<u32>>,
+}
+
+impl Measure {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dihedral => "dihedral",
+            Self::RadiusEdge => "radius-edge ratio",
+            Self::Volume => "volume",
+        }
+    }
+
+    /// The side of the bound on which elements fail.
+    pub fn side(self) -> &'static str {
+        match self {
+            Self::Dihedral => "below",
+            Self::RadiusEdge | Self::Volume => "above",
+        }
+    }
+
+    /// The value of an element.
+    pub fn of(self, element: &TetMeasures) -> f64 {
+        match self {
+            Self::Dihedral => element.min_dihedral.to_degrees(),
+            Self::RadiusEdge => element.radius_edge_ratio,
+            Self::Volume => element.volume,
+        }
+    }
+
+    /// How bad a value is; of two values the worse one has more.
+    pub fn badness(self, value: f64) -> f64 {
+        match self {
+            Self::Dihedral => -value,
+            Self::RadiusEdge | Self::Volume => value,
+        }
+    }
+}
+
+impl Bound {
+    /// The bounds that a document says were asked for; none where no quality was.
+    pub fn of(document: &Document) -> Vec<Self> {
+        let wishes = &document.wishes;
+        if !wishes.quality() {
+            return Vec::new();
+        }
+        let everywhere = |measure: Measure, asked: Option<f64>| {
+            asked.map(|asked| Self {
+                measure,
+                asked,
+                words: format!("{} asked for", number(asked)),
+                regions: None,
+            })
+        };
+        let mut bounds = Vec::new();
+        bounds.extend(everywhere(Measure::Dihedral, wishes.min_dihedral));
+        bounds.extend(everywhere(Measure::RadiusEdge, wishes.radius_edge));
+        bounds.extend(wishes.size.map(|size| Self::of_size(document, size)));
+        for region in &document.regions {
+            if let Some(asked) = region.max_volume {
+                bounds.push(Self {
+                    measure: Measure::Volume,
+                    asked,
+                    words: format!("{} asked for in '{}'", number(asked), region.name),
+                    regions: Some(vec![region.id]),
+                });
+            }
+        }
+        bounds
+    }
+
+    /// The general bound of the size, for regions that have none of their own.
+    fn of_size(document: &Document, size: Size) -> Self {
+        let asked = size.max_volume();
+        let words = match size {
+            Size::MaxVolume(_) => format!("{} asked for", number(asked)),
+            Size::EdgeLength(edge) => {
+                format!("{} asked for by edges of {}", number(asked), number(edge))
+            }
+        };
+        let own = document.regions.iter().any(|r| r.max_volume.is_some());
+        let without = document.regions.iter().filter(|r| r.max_volume.is_none());
+        Self {
+            measure: Measure::Volume,
+            asked,
+            words,
+            regions: own.then(|| without.map(|r| r.id).collect()),
+        }
+    }
+
+    /// Whether a value is beyond the bound.
+    pub fn fails(&self, value: f64) -> bool {
+        self.measure.badness(value) > self.measure.badness(self.asked)
+    }
+
+    /// Whether it holds for a region.
+    pub fn holds_for(&self, region: u32) -> bool {
+        let regions = self.regions.as_ref();
+        regions.is_none_or(|regions| regions.contains(&region))
+    }
+}

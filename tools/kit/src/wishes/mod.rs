@@ -1,0 +1,13 @@
+//! What is asked of the elements, and what becomes of it: options, the bounds that a mesh is held against, and where it
+//! is short of them.
+
+mod args;
+mod bound;
+mod place;
+mod sharp;
+mod shortfall;
+mod strict;
+
+pub use args::WishArgs;
+pub use shortfall::shortfalls;
+pub use strict::StrictArgs;

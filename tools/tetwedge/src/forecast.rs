@@ -1,0 +1,101 @@
+//! What filling a document is expected to take, before it begins.
+
+use estimate::{CostModel, Cut, Estimate, Wedge, edge_of_volume, needles};
+use geom::measure::volume_of_region;
+use mesher::{Params, Sizes};
+use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+use std::time::Duration;
+use tmesh::{Document, Instance, OUTSIDE, Template, Triangle};
+
+/// Tetrahedra in a cube as large as the estimate wants elements to be: those about a diagonal of it, which is the
+/// division into the fewest that fit those of the next cube.
+const IN_CUBE: f64 = 6.0;
+
+/// What filling a document is expected to take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forecast {
+    /// Tetrahedra of all templates.
+    pub tetrahedra: f64,
+    /// Time.
+    pub time: Duration,
+}
+
+/// The forecast for a document; `None` where there is nothing to tell it by: no quality is asked for, or a template
+/// has neither a section through its axis nor sizes for all of its regions.
+pub fn forecast(document: &Document, params: &Params, threads: usize) -> Option<Forecast> {
+    if !params.quality {
+        return None;
+    }
+    let model = CostModel::CALIBRATED;
+    let sizes = Sizes::new(document);
+    let mut tetrahedra = 0.0;
+    let mut seconds = 0.0;
+    for index in 0..document.templates.len() {
+        let count = expected(document, index, &sizes, threads)?;
+        // As of a hub: what copies share is meshed first, and everything within it then.
+        let mut gluings = document.templates[index].gluings.iter();
+        let passes = match gluings.any(|g| g.is_seam(index) || g.other_than(index).is_some()) {
+            true => model.hub_time,
+            false => 1.0,
+        };
+        tetrahedra += count;
+        seconds += passes * count * model.seconds;
+    }
+    Some(Forecast {
+        tetrahedra,
+        time: Duration::try_from_secs_f64(seconds).ok()?,
+    })
+}
+
+/// Tetrahedra that a template is expected to get.
+fn expected(document: &Document, index: usize, sizes: &Sizes, threads: usize) -> Option<f64> {
+    let template = &document.templates[index];
+    let volume_of = |region: u32| volume_of_region(&template.vertices, template.faces(), region);
+    // Elements that are too large are split, so that they have half of the volume that is allowed, in the mean.
+    let cube = |region: u32| {
+        let number = document.regions.iter().position(|r| r.id == region)?;
+        Some(0.5 * IN_CUBE * sizes.of_region[number]?)
+    };
+    // Those that are turned over are beyond the sections of this one.
+    let upright = |i: &&Instance| i.template as usize == index && !i.isometry.flipped();
+    let copies = document.instances.iter().filter(upright).count();
+    let wedge = Wedge::new(template, index, copies);
+    if wedge.sections.is_empty() {
+        let by_size = regions(template).map(|region| Some(volume_of(region) / cube(region)?));
+        return by_size.sum::<Option<f64>>().map(|cubes| IN_CUBE * cubes);
+    }
+    // The estimate takes an element for a regular tetrahedron, whose edge is that of the cube.
+    let volume = |region: u32| Some(cube(region)? / edge_of_volume(1.0).powi(3));
+    let estimate = Estimate::new(CostModel::CALIBRATED, &wedge, 0.0, volume, threads);
+    let copies = copies as f64;
+    let gluings = || template.gluings.iter();
+    let cut = Cut {
+        order: document.symmetry.as_ref().map_or(1, |s| s.group.order),
+        angle: TAU / copies,
+        copies,
+        hub_copies: copies,
+        reach: 1.0,
+        free: !gluings().any(|g| g.is_seam(index)),
+        across: gluings().any(|g| g.is_mirror(index) && g.step.flipped()),
+        harm: 0.0,
+        hub: false,
+    };
+    let [wedges, _] = estimate.parts(&cut, None);
+    // The sections stand for all directions between them, where the body may be wider or narrower.
+    let share = regions(template).map(volume_of).sum::<f64>() / estimate.volume();
+    let size = |t: &Triangle| {
+        let of_sides = [t.front, t.back].into_iter().filter_map(cube);
+        of_sides.fold(f64::INFINITY, f64::min).cbrt()
+    };
+    let model = &estimate.model;
+    let thin = model.tetrahedra * needles(template, size);
+    Some(IN_CUBE * share * wedges.elements(model) + thin)
+}
+
+/// The regions that a template has.
+fn regions(template: &Template) -> impl Iterator<Item = u32> {
+    let sides = template.triangles.iter().flat_map(|t| [t.front, t.back]);
+    let regions: BTreeSet<u32> = sides.filter(|&region| region != OUTSIDE).collect();
+    regions.into_iter()
+}
