@@ -27,6 +27,8 @@ pub enum Step {
 pub struct Count {
     pub moved: usize,
     pub flipped: usize,
+    /// Tetrahedra that were looked at.
+    pub looked_at: usize,
 }
 
 /// When nothing was found for a tetrahedron, by its number: nothing will be before something changes at its corners.
@@ -51,6 +53,7 @@ pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], failed: &mut 
             if !is_there(mesh, quality, tet) || is_hopeless(mesh, freedoms, tet, failed) {
                 continue;
             }
+            count.looked_at += 1;
             let (step, time) = match step {
                 Some(step) if !is_touched(mesh, freedoms, tet, now) => (step, now),
                 _ => (find(mesh, freedoms, tet, 0), mesh.now()),

@@ -1,6 +1,7 @@
-//! The order of the work: rounds over the bad tetrahedra, new vertices for the worst of those that are left, and again.
+//! The order of the work: rounds over the bad tetrahedra, new vertices for the worst of those that are left, and again; and
+//! all of it once more with the bounds before anything else.
 
-use crate::ahead::{self, Bad, Count, Failed};
+use crate::ahead::{self, Bad, Failed};
 use crate::freedom::Freedoms;
 use crate::insert;
 use crate::mesh::{Corners, Mesh};
@@ -46,6 +47,10 @@ pub struct Improved {
 
 /// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay; new vertices have
 /// numbers beyond. The number of threads makes no difference to the result.
+///
+/// At first elements past the radius-edge bound are worth little less than good ones, and they and slivers get vertices. What is still
+/// past a bound after that is worth any angle down to the smallest one asked for. From the start, that would spoil
+/// elements whose neighbours a vertex can mend.
 pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) -> Improved {
     let goal = Goal::new(wish.angle, wish.radius_edge, wish.min_dihedral);
     let cube = 6.0 * wish.scale.powi(3);
@@ -55,7 +60,7 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         .map(|(&r, &v)| (r, v * cube))
         .collect();
     let mut work = Work {
-        mesh: Mesh::new(template, wish.scale, goal, &limits),
+        mesh: Mesh::new(template, wish.scale, goal.lenient(), &limits),
         freedoms,
         wish,
         tried: Tried::default(),
@@ -63,15 +68,9 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         done: Improved::default(),
     };
     work.done.bad = work.bad().len();
-    // Each time new vertices help fewer tetrahedra; with less than half as many as at first, those that are left cannot be
-    // helped.
-    work.rounds();
-    let first = work.add_vertices();
-    let mut added = first;
-    while added > 0 && 2 * added >= first {
-        work.rounds();
-        added = work.add_vertices();
-    }
+    work.pursue();
+    work.mesh.change_goal(goal);
+    work.pursue();
     work.count_what_is_left();
     let Work { mesh, done, .. } = work;
     for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
@@ -94,7 +93,7 @@ struct Work<'a> {
     freedoms: &'a Freedoms,
     wish: &'a Wish<'a>,
     tried: Tried,
-    /// Tetrahedra that were worked on, as often as they were.
+    /// Tetrahedra that were looked at for the present goal, as often as they were.
     looked_at: usize,
     done: Improved,
 }
@@ -136,9 +135,23 @@ impl Work<'_> {
         }
     }
 
-    /// Moves vertices and replaces edges and faces, round after round, until nothing is left to do. All rounds together look at
-    /// no more than half as many tetrahedra as there are, so that the work stays linear where the shape is to blame
-    /// for many of them.
+    /// Works towards the mesh's goal.
+    fn pursue(&mut self) {
+        self.looked_at = 0;
+        self.rounds();
+        // Each time new vertices help fewer tetrahedra; with less than half as many as at first, those that are left cannot be
+        // helped.
+        let first = self.add_vertices();
+        let mut added = first;
+        while added > 0 && 2 * added >= first {
+            self.rounds();
+            added = self.add_vertices();
+        }
+    }
+
+    /// Moves vertices and replaces edges and faces, round after round, until nothing is left to do. For one goal,
+    /// all rounds together look at no more tetrahedra than there are, so that the work stays linear where the shape is to
+    /// blame for many of them.
     fn rounds(&mut self) {
         loop {
             let bad = self.bad();
@@ -146,8 +159,8 @@ impl Work<'_> {
             let count = ahead::work(&mut self.mesh, self.freedoms, &bad, others);
             self.done.moved += count.moved;
             self.done.flipped += count.flipped;
-            self.looked_at += bad.len();
-            if count == Count::default() || 2 * self.looked_at > self.mesh.len() {
+            self.looked_at += count.looked_at;
+            if count.moved + count.flipped == 0 || self.looked_at > self.mesh.len() {
                 break;
             }
         }
@@ -155,10 +168,11 @@ impl Work<'_> {
 
     /// Gives the worst tetrahedra new vertices, where that helps; returns how many of them. Looking for the place of a vertex
     /// takes a hundred times as long as for anything else, so that only the root of the number of all tetrahedra is looked
-    /// at; and those that are nearly good enough are not worth more elements.
+    /// at; and those that are better than the goal's step are not worth more elements.
     fn add_vertices(&mut self) -> usize {
+        let goal = *self.mesh.goal();
         let mut bad = self.bad();
-        bad.retain(|&(quality, _)| quality < 0.75);
+        bad.retain(|&(quality, _)| goal.is_worth_a_vertex(quality));
         bad.truncate(self.mesh.len().isqrt());
         let before = self.done.inserted;
         for (quality, tet) in bad {
@@ -171,7 +185,8 @@ impl Work<'_> {
             if last.is_some_and(|time| corners.iter().all(|&v| !mesh.is_touched(v, time))) {
                 continue;
             }
-            if let Some(insertion) = insert::find(mesh, self.freedoms, tet) {
+            let found = insert::find(mesh, self.freedoms, tet);
+            if let Some(insertion) = found.filter(|i| goal.is_worth_it(i.least())) {
                 insertion.apply(mesh);
                 self.done.inserted += 1;
             }

@@ -34,6 +34,11 @@ impl Insertion {
         self.old.len() <= count
     }
 
+    /// The smallest quality of the tetrahedra at the vertex.
+    pub fn least(&self) -> f64 {
+        self.least
+    }
+
     /// Adds the vertex, and puts the tetrahedra in their place.
     pub fn apply(&self, mesh: &mut Mesh<'_>) {
         mesh.renew();

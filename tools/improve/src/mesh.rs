@@ -57,6 +57,26 @@ impl<'a> Mesh<'a> {
         }
     }
 
+    /// Grades bad tetrahedra by another goal, which grades good ones alike.
+    pub fn change_goal(&mut self, goal: Goal) {
+        self.goal = goal;
+        self.stars.renew();
+        for tet in 0..self.len() as u32 {
+            let before = self.grade(tet);
+            if before.quality < 1.0 {
+                let grade = self.of_corners(self.corners(tet));
+                if grade != before {
+                    self.regrade(tet, grade);
+                }
+            }
+        }
+    }
+
+    /// What every tetrahedron should reach.
+    pub fn goal(&self) -> &Goal {
+        &self.goal
+    }
+
     /// Number of places for tetrahedra; all are taken.
     pub fn len(&self) -> usize {
         self.tets.len()

@@ -19,15 +19,17 @@ pub struct Goal {
     tangent: f64,
     /// Largest ratio of circumradius to shortest edge.
     radius_edge: f64,
-    /// Quality of an element just past that.
-    past: f64,
+    /// Quality of an element just past that. Those that are worse are worth a vertex.
+    step: f64,
+    /// What is there instead of them has to be better than this.
+    after: f64,
 }
 
 /// Quality and size of a tetrahedron.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grade {
-    /// 1 and more: good enough. Below, the worse one of what the smallest dihedral angle, by its tangent, and the
-    /// radius-edge ratio are worth as parts of what is asked for. Not above 0 for flat and inverted ones.
+    /// 1 and more: good enough. Below, what the smallest dihedral angle, by its tangent, and the radius-edge ratio are
+    /// worth as parts of what is asked for. Not above 0 for flat and inverted ones.
     pub quality: f64,
     /// Six times the signed volume.
     pub six_volume: f64,
@@ -41,8 +43,38 @@ impl Goal {
         Self {
             tangent,
             radius_edge,
-            past: (libm::tan(least.to_radians()) / tangent).max(HALF_DIGITS),
+            step: (libm::tan(least.to_radians()) / tangent).max(HALF_DIGITS),
+            after: 0.0,
         }
+    }
+
+    /// The same goal, but that an element just past the bound is worth more: halfway (in the logarithm) from the smallest angle
+    /// that the bound leaves to a face to the angle that every element should have. No circle around a face is larger
+    /// than the sphere, so that an angle's sine is no less than half of the inverse ratio. Elements with smaller dihedral
+    /// angles are slivers, which the bound lets pass; they are worth a vertex only if it leaves none.
+    ///
+    /// Measured on the benchmark's bodies, with that angle of a face itself, the smallest angles of vias with a bound of 2 are 3 degrees
+    /// smaller; with vertices that leave slivers, there are 2 % more elements on drawings of machine parts.
+    pub fn lenient(self) -> Self {
+        let sine = 0.5 / self.radius_edge;
+        let face = sine / (1.0 - sine * sine).sqrt() / self.tangent;
+        // 1 too where no face can have such an angle.
+        let step = self.step.max(face.min(1.0).sqrt());
+        Self {
+            step,
+            after: step,
+            ..self
+        }
+    }
+
+    /// Whether an element with this quality is past the radius-edge bound, or no better than one that is.
+    pub fn is_worth_a_vertex(&self, quality: f64) -> bool {
+        quality < self.step
+    }
+
+    /// Whether a vertex is worth it if this is the smallest quality then.
+    pub fn is_worth_it(&self, quality: f64) -> bool {
+        quality >= self.after
     }
 
     /// Grades a tetrahedron by its corners; see [`geom::tet::TetMeasures::of`] for the formulas.
@@ -77,16 +109,22 @@ impl Goal {
         let ratio =
             self.radius_edge * 2.0 * six_volume * (shortest / centre.length_squared()).sqrt();
         Grade {
-            quality: angle.min(self.ratio_quality(ratio)),
+            quality: self.quality(angle, ratio),
             six_volume,
         }
     }
 
-    /// The quality that the inverse of a radius-edge ratio allows, as a part of what is asked for.
-    fn ratio_quality(&self, part: f64) -> f64 {
-        match part >= 1.0 {
-            true => part,
-            false => self.past * part,
+    /// The quality by the tangent of the smallest dihedral angle and the inverse of the radius-edge ratio, both as parts of what is
+    /// asked for. Past the bound both count, so that neither is given up for the other where the shape does not allow
+    /// for the bound; the ratio by its root, since there it is the angle that can be mended. On 30 drawings of machine
+    /// parts, the ratio itself leaves 8 % more elements below the smallest angle asked for, the smaller of both values alone 80 %
+    /// more, with as many past the bound. It is a gain to get back
+    /// within the bound at the angle of the step, and once more what a change has to gain: with one gain alone, a hub of
+    /// order 20 keeps an element past the bound.
+    fn quality(&self, angle: f64, ratio: f64) -> f64 {
+        match ratio >= 1.0 {
+            true => angle.min(ratio),
+            false => (1.0 - 2.0 * GAIN) * angle.min(self.step) * ratio.sqrt(),
         }
     }
 }
@@ -99,7 +137,7 @@ mod tests {
     #[test]
     fn the_bound_is_a_step() {
         let goal = Goal::new(25.0, 1.4, 10.0);
-        let ratio_quality = |part: f64| goal.ratio_quality(part);
+        let ratio_quality = |part: f64| goal.quality(f64::INFINITY, part);
         assert_eq!(ratio_quality(1.0), 1.0);
         assert_eq!(ratio_quality(1.3), 1.3);
         // An element just past the bound is worth less than one with two thirds of the angle.
@@ -108,8 +146,40 @@ mod tests {
         // And as much as one with the angle that was asked for.
         let ten = libm::tan(10_f64.to_radians()) / libm::tan(25_f64.to_radians());
         let past = ratio_quality(1.0 - 1e-9);
-        assert!((past - ten).abs() < 1e-8, "{past}");
-        assert!(Goal::new(25.0, 1.4, 0.0).ratio_quality(0.9) > 0.0);
+        assert!((past - (1.0 - 2.0 * GAIN) * ten).abs() < 1e-8, "{past}");
+        assert!(Goal::new(25.0, 1.4, 0.0).quality(1.0, 0.9) > 0.0);
+    }
+
+    #[test]
+    fn past_the_bound_angles_are_not_given_up() {
+        let goal = Goal::new(25.0, 1.4, 10.0);
+        assert!(goal.quality(0.1, 0.9) < goal.quality(0.2, 0.9));
+        assert!(goal.quality(0.1, 0.5) < goal.quality(0.1, 0.9));
+        // A bound is as good as the other: what is past it or has a smaller angle than asked for is worth a vertex.
+        let ten = libm::tan(10_f64.to_radians()) / libm::tan(25_f64.to_radians());
+        for (angle, ratio) in [(2.0, 0.999), (0.999 * ten, 2.0), (0.999 * ten, 0.999)] {
+            assert!(goal.is_worth_a_vertex(goal.quality(angle, ratio)));
+        }
+        assert!(!goal.is_worth_a_vertex(goal.quality(1.001 * ten, 1.001)));
+    }
+
+    #[test]
+    fn lenient_goals_put_slivers_before_the_bound() {
+        let goal = Goal::new(25.0, 1.4, 10.0).lenient();
+        let face = libm::asin(0.5 / 1.4);
+        let step = (libm::tan(face) / libm::tan(25_f64.to_radians())).sqrt();
+        assert!((goal.quality(2.0, 1.0 - 1e-12) - (1.0 - 2.0 * GAIN) * step).abs() < 1e-9);
+        // Of a sliver, what is there instead must be none.
+        assert!(goal.is_worth_a_vertex(0.5) && !goal.is_worth_it(0.6) && goal.is_worth_it(step));
+        assert!(Goal::new(25.0, 1.4, 10.0).is_worth_it(0.1));
+        // The bounds that were asked for are kept where they are more.
+        let more = Goal::new(25.0, 1.4, 23.0);
+        assert_eq!(more.lenient().step, more.step);
+        // No face has such angles, and elements past the bound are still bad.
+        for radius_edge in [0.4, 0.5, 0.6] {
+            let goal = Goal::new(25.0, radius_edge, 10.0).lenient();
+            assert!(goal.quality(2.0, 0.9) < 1.0, "{goal:?}");
+        }
     }
 
     #[test]
@@ -131,8 +201,7 @@ mod tests {
             signs[usize::from(m.volume > 0.0)] += 1;
             if m.volume > 0.0 {
                 let angle = m.min_dihedral.tan() / 20_f64.to_radians().tan();
-                let ratio = goal.ratio_quality(1.4 / m.radius_edge_ratio);
-                let expected = angle.min(ratio);
+                let expected = goal.quality(angle, 1.4 / m.radius_edge_ratio);
                 assert!(
                     (grade.quality / expected - 1.0).abs() < 1e-9,
                     "{grade:?} {expected}"
