@@ -225,6 +225,73 @@ fn what_cannot_be_done_says_why_and_where() {
     assert_eq!(symmetry.group.order, 7);
 }
 
+/// Adds a prism over a polygon around the origin to a body, or a void of its shape.
+fn add_prism(document: &mut Document, polygon: &[[f64; 2]], heights: [f64; 2], is_void: bool) {
+    let template = &mut document.templates[0];
+    let (first, n) = (template.vertices.len() as u32, polygon.len() as u32);
+    for z in heights {
+        let ring = polygon.iter().map(|&[x, y]| DVec3::new(x, y, z));
+        template.vertices.extend(ring);
+    }
+    let middles = heights.map(|z| DVec3::new(0.0, 0.0, z));
+    template.vertices.extend(middles);
+    for i in 0..n {
+        let (a, b) = (i, (i + 1) % n);
+        let (c, d) = (b + n, a + n);
+        for [p, q, r] in [[a, b, c], [a, c, d], [2 * n, b, a], [2 * n + 1, d, c]] {
+            let [q, r] = if is_void { [r, q] } else { [q, r] };
+            template.triangles.push(Triangle {
+                vertices: [p, q, r].map(|v| v + first),
+                marker: 0,
+                front: OUTSIDE,
+                back: 3,
+            });
+        }
+    }
+}
+
+/// A disk drawn with 50 facets, of a sagitta of 2e-3, around a void whose section is a star of eight points; one corner
+/// of the disk is set in by the depth given.
+fn disk(depth: f64) -> Document {
+    let mut document = wheel(3, false);
+    document.templates[0].vertices.clear();
+    document.templates[0].triangles.clear();
+    let at = |radius: f64, i: usize, n: usize| {
+        let (s, c) = (TAU * i as f64 / n as f64).sin_cos();
+        [radius * c, radius * s]
+    };
+    let radius = |i: usize| if i == 0 { 1.0 - depth } else { 1.0 };
+    let circle: Vec<_> = (0..50).map(|i| at(radius(i), i, 50)).collect();
+    let star: Vec<_> = (0..16).map(|i| at([0.4, 0.6][i % 2], i, 16)).collect();
+    add_prism(&mut document, &circle, [0.0, 0.5], false);
+    add_prism(&mut document, &star, [0.1, 0.2], true);
+    document
+}
+
+/// A kernel draws a circle with as many facets as it likes: the shape counts. What facets cannot hide counts as well.
+#[test]
+fn facets_of_a_circle_do_not_hide_what_is_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let group = |depth: f64, arguments: &[&str]| {
+        write(&disk(depth), &path.join("disk.tmesh"));
+        let output = symdetect(&[&["disk.tmesh"], arguments].concat(), path);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{message}");
+        let symmetry = tmesh::read(output.stdout.as_slice()).unwrap().symmetry;
+        (symmetry.unwrap().group.symbol(), message)
+    };
+    let (meant, message) = group(0.0, &[]);
+    assert_eq!(meant, "C8v");
+    assert!(message.contains("facets of smooth surfaces"), "{message}");
+    assert_eq!(group(0.0, &["--tolerance", "auto"]).0, "C8v");
+    // A number is what is allowed everywhere.
+    assert_eq!(group(0.0, &["--tolerance", "1e-3"]).0, "C2v");
+    assert_eq!(group(0.0, &["--tolerance", "5e-3"]).0, "C8v");
+    // A corner that facets do not explain leaves one mirror.
+    assert_eq!(group(0.02, &[]).0, "C1v");
+}
+
 #[test]
 fn wrong_usage_and_bad_input() {
     let folder = tempfile::tempdir().unwrap();

@@ -31,9 +31,10 @@ pub struct Cli {
     #[command(flatten)]
     common: CommonArgs,
 
-    /// Largest deviation from symmetry, relative to the radius about the axis
-    #[arg(long, value_name = "REL", default_value_t = 1e-3, value_parser = tolerance)]
-    tolerance: f64,
+    /// Largest deviation from symmetry, relative to the radius about the axis; auto: 1e-3 and, place by place, what
+    /// the facets of curved surfaces hide
+    #[arg(long, value_name = "REL|auto", default_value = "auto", value_parser = tolerance)]
+    tolerance: Tolerance,
 
     /// Direction of the axis, to be verified
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
@@ -96,9 +97,21 @@ const ALWAYS_CHECKED: usize = 200_000;
 /// Half a step must still be a turn that can be stored.
 const MAX_ORDER: u32 = MAX_TURN_DENOMINATOR / 4;
 
-fn tolerance(text: &str) -> Result<f64, String> {
+/// What `--tolerance` says.
+#[derive(Clone, Copy, Debug)]
+enum Tolerance {
+    /// The default one, and what facets hide.
+    Auto,
+    /// This much everywhere.
+    Everywhere(f64),
+}
+
+fn tolerance(text: &str) -> Result<Tolerance, String> {
+    if text == "auto" {
+        return Ok(Tolerance::Auto);
+    }
     match text.parse::<f64>() {
-        Ok(x) if x > 0.0 && x <= 0.1 => Ok(x),
+        Ok(x) if x > 0.0 && x <= 0.1 => Ok(Tolerance::Everywhere(x)),
         Ok(_) => Err("a tolerance is greater than 0 and at most 0.1".to_owned()),
         Err(e) => Err(e.to_string()),
     }
@@ -124,8 +137,13 @@ fn direction(text: &str) -> Result<DVec3, String> {
 
 impl Cli {
     fn params(&self) -> Params {
+        let (tolerance, facets) = match self.tolerance {
+            Tolerance::Auto => (Params::default().tolerance, true),
+            Tolerance::Everywhere(x) => (x, false),
+        };
         Params {
-            tolerance: self.tolerance,
+            tolerance,
+            facets,
             axis: self.axis,
             center: self.center,
             order: self.order,

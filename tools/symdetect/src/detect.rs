@@ -1,6 +1,7 @@
 //! From a surface to its symmetry.
 
 use crate::error::Error;
+use crate::group::Found;
 use crate::params::Params;
 use crate::report::Detection;
 use crate::rotation::{Query, Rotation};
@@ -39,33 +40,23 @@ pub fn detect(
     })
 }
 
-/// The rotation of the highest order with all that holds beside it; without one, a mirror plane; without that, what
-/// comes nearest.
+/// The group of the shape that the drawing stands for, or that of the drawing where it is meant as it is; without one,
+/// what comes nearest.
 fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, Error> {
-    let asked = query.params.order;
-    let (directions, rotations) = match asked {
-        Some(1) => (query.directions(log), Vec::new()),
-        _ => query.rotations(log),
-    };
-    if asked != Some(1)
-        && let Some(detection) = with_facets(&mut query, &directions, &rotations, log)
-    {
-        return Ok(detection);
+    query.limits.facets = query.params.facets && query.facets_hide_something();
+    let mut outcome = search(&query, log);
+    if query.limits.facets && outcome.found.as_ref().is_some_and(|f| !query.is_meant(f)) {
+        log("facets alone do not explain the deviations: the drawing itself counts");
+        query.limits.facets = false;
+        outcome = search(&query, log);
     }
-    if let Some(found) = query.certified(rotations.clone(), log) {
-        return Ok(query.detection(found, &rotations, log));
+    if let Some(found) = outcome.found {
+        return Ok(query.detection(found, &outcome.rotations, log));
     }
-    if let Some(n) = asked.filter(|&n| n > 1) {
-        return Err(query.order_fails(n, &directions));
+    if let Some(n) = query.params.order.filter(|&n| n > 1) {
+        return Err(query.order_fails(n, &outcome.directions));
     }
-    for facets in [false, true] {
-        query.limits.facets = facets;
-        if let Some(found) = query.mirror_only(&directions) {
-            log("a single mirror plane");
-            return Ok(query.detection(found, &[], log));
-        }
-    }
-    let closest = query.closest(&directions);
+    let closest = query.closest(&outcome.directions);
     let error = Error::Asymmetric {
         closest,
         tolerance: query.params.tolerance,
@@ -77,28 +68,29 @@ fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, 
     }
 }
 
-/// A group of higher order than the rotations found, if one holds when facets of smooth surfaces are allowed for.
-fn with_facets(
-    query: &mut Query<'_>,
-    directions: &[DVec3],
-    rotations: &[Rotation],
-    log: &mut dyn FnMut(&str),
-) -> Option<Detection> {
-    if !query.facets_may_hide(directions, rotations) {
-        return None;
-    }
-    query.limits.facets = true;
-    let best = |all: &[Rotation]| all.iter().map(Rotation::rank).max();
-    let wider = match query.main(rotations) {
-        Some(main) => query.beside(main, query.limits).into_iter().collect(),
-        None => query.rotations(log).1,
+/// What a search came to.
+struct Outcome {
+    directions: Vec<DVec3>,
+    rotations: Vec<Rotation>,
+    found: Option<Found>,
+}
+
+/// The rotation of the highest order with all that holds beside it; without one, a mirror plane.
+fn search(query: &Query<'_>, log: &mut dyn FnMut(&str)) -> Outcome {
+    let asked = query.params.order;
+    let (directions, rotations) = match asked {
+        Some(1) => (query.directions(log), Vec::new()),
+        _ => query.rotations(log),
     };
-    let mut found = None;
-    if best(&wider) > best(rotations) {
-        log("facets of smooth surfaces allowed for");
-        found = query.certified(wider.clone(), log);
+    let found = query.certified(rotations.clone(), log);
+    let mirror = || query.mirror_only(&directions);
+    let found = match asked {
+        Some(n) if n > 1 => found,
+        _ => found.or_else(mirror),
+    };
+    Outcome {
+        directions,
+        rotations,
+        found,
     }
-    let detection = found.map(|found| query.detection(found, &wider, log));
-    query.limits.facets = false;
-    detection
 }

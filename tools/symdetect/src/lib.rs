@@ -6,7 +6,6 @@
 //! surface, on an interface of the same two regions, within a tolerance relative to the radius about
 //! the axis.
 
-mod allowance;
 mod budget;
 mod cli;
 mod detect;

@@ -7,6 +7,8 @@ use glam::DVec3;
 pub struct Params {
     /// Largest deviation from symmetry, relative to the radius about the axis.
     pub tolerance: f64,
+    /// Whether what the facets of curved surfaces hide at a place is allowed on top there.
+    pub facets: bool,
     /// Unit direction of the axis, if given.
     pub axis: Option<DVec3>,
     /// A point on the axis, world coordinates, if given.
@@ -27,6 +29,7 @@ impl Default for Params {
     fn default() -> Self {
         Self {
             tolerance: 1e-3,
+            facets: true,
             axis: None,
             center: None,
             order: None,

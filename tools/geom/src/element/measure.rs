@@ -20,6 +20,14 @@ pub fn tet_volume(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
     double_area_vector(a, b, c).dot(d - a) / 6.0
 }
 
+/// Distance of a point from the segment between two others.
+#[inline]
+pub fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let along = b - a;
+    let at = (p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+    (p - a - along * at.clamp(0.0, 1.0)).length()
+}
+
 /// Corner positions of a triangle or a tetrahedron.
 #[inline]
 pub fn corners<const N: usize>(vertices: &[DVec3], ids: impl Into<[u32; N]>) -> [DVec3; N] {

@@ -71,6 +71,27 @@ impl Tree {
     /// Any triangle no farther than `enough` from `point`, else the nearest one, if that is nearer than
     /// `within`.
     pub fn near_enough(&self, point: DVec3, within: f64, enough: f64) -> Option<Nearest> {
+        self.search(point, within, enough, |_| true)
+    }
+
+    /// The nearest of the triangles that are `wanted`, if one is nearer than `within`.
+    pub fn nearest_of(
+        &self,
+        point: DVec3,
+        within: f64,
+        wanted: impl Fn(u32) -> bool,
+    ) -> Option<Nearest> {
+        self.search(point, within, 0.0, wanted)
+    }
+
+    #[inline(always)]
+    fn search(
+        &self,
+        point: DVec3,
+        within: f64,
+        enough: f64,
+        wanted: impl Fn(u32) -> bool,
+    ) -> Option<Nearest> {
         let unit = self.placement.unit;
         let p = self.placement.inside(point);
         let single = p.as_vec3();
@@ -96,7 +117,7 @@ impl Tree {
                 let i = (at & !LEAF) as usize;
                 let q = closest_point(p, &self.corners[i]);
                 let d = (p - q).length_squared();
-                if d < best {
+                if d < best && wanted(self.boxes.index[i]) {
                     best = d;
                     bound = squares_up_to(best);
                     found = Some((i as u32, q));

@@ -1,14 +1,12 @@
 //! The best group that holds everywhere.
 
-use crate::allowance::model::COARSE;
-use crate::allowance::{displaces, is_of_facets};
 use crate::group::found::Found;
-use crate::rotation::{Limits, Query, Rotation};
+use crate::rotation::{Query, Rotation};
 use crate::tolerance::compare_along_axes;
-use crate::verify::{Check, Depth, Operation, Verified};
+use crate::verify::{Check, Depth};
 use glam::DVec3;
 use kit::point;
-use tmesh::{Frame, Group, Isometry, Kind};
+use tmesh::{Group, Kind};
 
 impl Query<'_> {
     /// The best of the rotations that holds everywhere, with all that holds beside it.
@@ -40,7 +38,7 @@ impl Query<'_> {
             }
             let z = found.frame.rotation.z_axis;
             candidates.retain(|c| !self.same_axis(c.frame.rotation.z_axis, z));
-            let mut search = self.search(self.orders(), self.limits);
+            let mut search = self.search(self.orders());
             search.depth = Depth::Full;
             let lower = search.find(found.frame.origin, z, false);
             candidates.extend(lower.filter(|r| r.order < found.group.order));
@@ -49,66 +47,26 @@ impl Query<'_> {
         None
     }
 
-    /// Verifies the whole group in full, and where a place that the quick test passed over is beyond
-    /// the tolerance, with allowance for facets; mirrors and what turns the axis over are dropped where they do not
-    /// hold. Returns whether the rotation holds.
+    /// Verifies the whole group in full; mirrors and what turns the axis over are dropped where they do not hold.
+    /// Returns whether the rotation holds.
     fn certify(&self, found: &mut Found) -> bool {
         let bound = self.limits.bound(found.radius);
-        let mut bounds = vec![bound];
-        if !self.limits.facets && self.shape.facets().largest() >= COARSE * bound.limit {
-            let limits = Limits {
-                facets: true,
-                ..self.limits
-            };
-            bounds.push(limits.bound(found.radius));
-        }
-        // What holds without the allowance is not widened by it.
-        for bound in bounds {
-            for kind in parts(found.group.kind) {
-                let group = Group::new(*kind, found.group.order);
-                for frame in [found.frame, found.rough] {
-                    let check = Check {
-                        shape: self.shape,
-                        frame: &frame,
-                        bound,
-                        depth: Depth::Full,
-                    };
-                    if let Ok(verified) = check.group(&group)
-                        && self.group_is_of_facets(&group, &frame, &verified, bound.limit)
-                    {
-                        (found.frame, found.group, found.verified) = (frame, group, verified);
-                        return true;
-                    }
+        for kind in parts(found.group.kind) {
+            let group = Group::new(*kind, found.group.order);
+            for frame in [found.frame, found.rough] {
+                let check = Check {
+                    shape: self.shape,
+                    frame: &frame,
+                    bound,
+                    depth: Depth::Full,
+                };
+                if let Ok(verified) = check.group(&group) {
+                    (found.frame, found.group, found.verified) = (frame, group, verified);
+                    return true;
                 }
             }
         }
         false
-    }
-
-    /// Whether what a group deviates by beyond the limit, if anything, looks like differences between
-    /// facets.
-    fn group_is_of_facets(
-        &self,
-        group: &Group,
-        frame: &Frame,
-        found: &Verified,
-        limit: f64,
-    ) -> bool {
-        let (shape, value) = (self.shape, found.deviation.value);
-        if value <= limit {
-            return true;
-        }
-        let mirror = group.has_vertical_mirrors();
-        let mirror = mirror.then_some((Isometry::MIRROR, &found.mirror));
-        let turning = group.turning_over().map(|o| (o, &found.turning));
-        (group.order < 2 || is_of_facets(shape, frame, group.order, value, limit))
-            && mirror
-                .into_iter()
-                .chain(turning)
-                .all(|(isometry, regions)| {
-                    let operation = Operation::new(frame, isometry, shape.target(regions));
-                    !displaces(shape, frame, &operation, limit)
-                })
     }
 
     /// Removes and returns the best rotation: highest order, then clearly smaller deviation, then the

@@ -5,7 +5,7 @@ use crate::group::found::Found;
 use crate::group::placement;
 use crate::group::slid::find_slid;
 use crate::group::turned::Turned;
-use crate::rotation::{Canonical, Query, Rotation, powers, refine};
+use crate::rotation::{Canonical, Fit, Query, Rotation, powers, refine};
 use crate::shape::{Permutation, Target};
 use crate::tolerance::{EXACT, SINGLE};
 use crate::verify::{Bound, Check, Depth, Verified};
@@ -158,7 +158,13 @@ impl Query<'_> {
         let deviation = found.verified.deviation.value;
         let reach = self.limits.reach(deviation, found.radius);
         let samples = shape.samples.mixed.len().min(SURVEY);
-        let frame = refine(shape, found.frame, &operations, samples, reach);
+        let fit = Fit {
+            operations: &operations,
+            samples,
+            reach,
+            bound: self.limits.needed(deviation, found.radius),
+        };
+        let frame = refine(shape, found.frame, &fit);
         self.adopt(found, frame, 1.0);
     }
 
@@ -169,10 +175,11 @@ impl Query<'_> {
         let check = Check {
             shape: self.shape,
             frame: &frame,
-            bound: if limit < bound.limit {
-                Bound::plain(limit)
-            } else {
-                bound
+            bound: Bound {
+                limit: limit.min(bound.limit),
+                ..self
+                    .limits
+                    .needed(found.verified.deviation.value, found.radius)
             },
             depth: Depth::Quick,
         };

@@ -4,6 +4,7 @@
 mod certify;
 mod complete;
 mod found;
+mod meant;
 mod placement;
 mod plane;
 mod slid;

@@ -3,7 +3,7 @@
 use crate::budget::{FIT, SCAN};
 use crate::group::found::{Beside, Found};
 use crate::group::turned::Turned;
-use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, refine};
+use crate::rotation::{Canonical, OUTLIERS, Query, Rotation};
 use crate::shape::{Motion, Permutation, Target};
 use crate::tolerance::SINGLE;
 use crate::verify::{Check, Depth, Deviation, Verified};
@@ -104,7 +104,7 @@ impl Query<'_> {
             return None;
         }
         let canonical = Canonical::new(mirror, Target::Any);
-        let adjusted = refine(shape, start, &[canonical], FIT, limits.loose * radius);
+        let adjusted = self.adjusted(start, radius, &[canonical], FIT);
         let frame = frame_of(adjusted.origin, adjusted.rotation.y_axis)?;
         let radius = shape.radius(&frame);
         let bound = limits.bound(radius);
@@ -123,7 +123,7 @@ impl Query<'_> {
     fn can_be_adjusted(&self, motion: Motion, radius: f64) -> bool {
         let (shape, limits) = (self.shape, self.limits);
         let samples = &shape.samples.mixed[..SCAN.min(shape.samples.mixed.len())];
-        let reach = limits.loose * radius;
+        let reach = limits.roughly(shape, radius);
         let (mut off, mut far) = (0, 0);
         for sample in samples {
             match shape.nearest(motion.apply(sample.point), 0, &Target::Any, reach) {

@@ -2,7 +2,7 @@
 
 use crate::budget::FIT;
 use crate::group::found::Beside;
-use crate::rotation::{Canonical, Query, Rotation, refine};
+use crate::rotation::{Canonical, Query, Rotation};
 use crate::shape::{Motion, Target};
 use crate::verify::Depth;
 use tmesh::{Frame, Isometry};
@@ -26,9 +26,8 @@ pub fn find_slid(query: &Query<'_>, rotation: &Rotation, operation: Isometry) ->
     if as_is.as_ref().is_some_and(|f| f.deviation.value <= enough) {
         return as_is;
     }
-    let loose = query.limits.loose * rotation.radius;
     let canonical = Canonical::new(operation, Target::Any);
-    let adjusted = refine(shape, *frame, &[canonical], FIT / 2, loose);
+    let adjusted = query.adjusted(*frame, rotation.radius, &[canonical], FIT / 2);
     let axis = frame.rotation.z_axis;
     let slid = verify(Frame {
         origin: frame.origin + axis * axis.dot(adjusted.origin - frame.origin),

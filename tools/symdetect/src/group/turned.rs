@@ -2,7 +2,7 @@
 
 use crate::budget::{FIT, NEXT_BEST, SCAN};
 use crate::group::found::Beside;
-use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, powers, refine};
+use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, powers};
 use crate::shape::{Motion, Target};
 use crate::threads;
 use crate::tolerance::{EXACT, SINGLE};
@@ -97,7 +97,7 @@ impl Turned<'_> {
     /// Sum of the deviations of a few samples; infinite where too many are off.
     fn score(&self, angle: f64) -> f64 {
         let shape = self.query.shape;
-        let loose = self.query.limits.loose * self.rotation.radius;
+        let loose = self.query.limits.roughly(shape, self.rotation.radius);
         let samples = &shape.samples.mixed[..SCAN.min(shape.samples.mixed.len())];
         let allowed = (OUTLIERS * samples.len() as f64) as usize;
         let turned = turn_matrix(angle / PI) * self.operation.matrix();
@@ -121,11 +121,10 @@ impl Turned<'_> {
     /// The frame adjusted to the operation: together with the rotation, or, where axis and centre are fixed, the angle
     /// alone.
     fn adjusted(&self, frame: Frame) -> Frame {
-        let (shape, rotation) = (self.query.shape, self.rotation);
-        let loose = self.query.limits.loose * rotation.radius;
+        let (query, rotation) = (self.query, self.rotation);
         let mut operations = vec![Canonical::new(self.operation, Target::Any)];
         if self.fixed {
-            let adjusted = refine(shape, frame, &operations, FIT / 2, loose);
+            let adjusted = query.adjusted(frame, rotation.radius, &operations, FIT / 2);
             let (z, x) = (frame.rotation.z_axis, adjusted.rotation.x_axis);
             return Frame::from_axis(frame.origin, z, x).unwrap_or(frame);
         }
@@ -135,7 +134,7 @@ impl Turned<'_> {
         // Where the rotations are exact, few samples tell the angle.
         let exact = rotation.deviation.value <= EXACT;
         let equations = if exact { FIT / 8 } else { FIT / 2 };
-        refine(shape, frame, &operations, equations, loose)
+        query.adjusted(frame, rotation.radius, &operations, equations)
     }
 
     /// The mirror that contains the axis of a rotation which takes faces to faces, if it does so too: it takes the

@@ -4,7 +4,7 @@ use crate::budget::{FIT, QUICK, REPORTED};
 use crate::error::{Closest, Error};
 use crate::group::reference;
 use crate::report::detection::Detection;
-use crate::rotation::{Canonical, FIRST_DIRECTIONS, Query, powers, refine};
+use crate::rotation::{Canonical, FIRST_DIRECTIONS, Query, powers};
 use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DVec3;
 use tmesh::{Axis, Frame, Group, Isometry, RejectedOrder, Search, Symmetry};
@@ -38,7 +38,7 @@ impl Query<'_> {
         };
         let radius = self.radius_about(&frame);
         let measure = |frame: &Frame| self.off(frame, order, 2 * QUICK, f64::MAX);
-        let adjusted = refine(shape, frame, &canonical, FIT, self.limits.loose * radius);
+        let adjusted = self.adjusted(frame, radius, &canonical, FIT);
         let (as_is, better) = (measure(&frame), measure(&adjusted));
         let (frame, deviation) = if better.value < as_is.value {
             (adjusted, better)

@@ -2,7 +2,7 @@
 
 use crate::budget::{GLANCE, SCAN};
 use crate::rotation::find::OrderSearch;
-use crate::shape::{Faces, Random, Shape};
+use crate::shape::{Faces, Motion, Random, Shape, Target};
 use tmesh::{Frame, Isometry};
 
 /// Factor by which the deviations of all other orders exceed those of the facet count's divisors. Those of a polygon
@@ -87,7 +87,7 @@ impl OrderSearch<'_> {
             look(None, SCAN / 2, far),
         ];
         let most = *self.orders.end();
-        let wanted = || (3..=most).rev().filter(|&n| self.limits.admit(n));
+        let wanted = || (3..=most).rev();
         (looks.iter()).find_map(|look| look.tell(wanted(), most, limit))
     }
 }
@@ -97,7 +97,9 @@ impl OrderSearch<'_> {
 fn deviation_of_vertices(shape: &Shape, frame: &Frame, n: u32, count: usize, limit: f64) -> f64 {
     let samples = shape.samples.vertices.iter().take(count);
     largest_of_order(n, samples, limit, |sample, turn| {
-        shape.distance_of_image(frame, turn, sample, limit)
+        let image = Motion::new(frame, turn.matrix()).apply(sample.point);
+        let hit = shape.nearest(image, sample.triangle, &Target::Any, limit)?;
+        Some(hit.distance)
     })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::budget::{FIT, NEXT_BEST};
 use crate::rotation::limits::{Limits, OUTLIERS};
-use crate::rotation::refine::{Canonical, refine};
+use crate::rotation::refine::{Canonical, Fit, refine};
 use crate::shape::{Permutation, Shape, Target};
 use crate::verify::{Depth, Deviation, golden_turns, some_powers};
 use glam::DVec3;
@@ -51,12 +51,6 @@ impl Rotation {
 
 /// Rotations by golden turns that an axis is adjusted to where no order is to be preferred.
 const GOLDEN: usize = 12;
-/// Candidate orders from which on a body counts as nearly one of revolution, and is adjusted to rotations by any angle.
-/// The divisors of an order are candidates together with it, up to 12 of them below 100: with a smaller number,
-/// ordinary parts would count too; with a larger one, nearly round bodies would be adjusted to whatever order
-/// happens to be the highest.
-const MANY: usize = 20;
-
 /// A search for the highest order about an axis.
 pub struct OrderSearch<'a> {
     /// The body.
@@ -102,29 +96,30 @@ impl OrderSearch<'_> {
     /// leaves possible.
     fn adjusted(&self, start: Frame, radius: f64, as_is: Option<Rotation>) -> Option<Rotation> {
         let shape = self.shape;
-        let loose = self.limits.loose * radius;
-        let revolution = shape.deviation_from_revolution(&start, loose);
-        let candidates = if revolution.is_some() && self.orders.end() > self.orders.start() {
-            let all = self.orders.clone();
-            all.filter(|&n| self.limits.admit(n)).collect()
-        } else {
-            self.scan(&start, loose, OUTLIERS)
-        };
-        let largest = *candidates.last()?;
-        let near_revolution = candidates.len() > MANY;
+        let bound = self.limits.loosely(radius);
         let in_frame_for =
-            |operations: &[Canonical]| self.in_frame(&refine(shape, start, operations, FIT, loose));
-        if near_revolution {
+            |operations: &[Canonical]| self.in_frame(&self.fitted(start, radius, operations));
+        let revolution = shape.deviation_from_revolution(&start, bound);
+        if revolution.is_some() && self.orders.end() > self.orders.start() {
             return self.better(as_is, in_frame_for(&golden()));
         }
         let target = shape.target_in_place();
-        let best = self.better(as_is, in_frame_for(&powers(largest, &target)));
-        best.or_else(|| {
-            let others = candidates.iter().rev().skip(1).take(NEXT_BEST - 1);
-            others
-                .map(|&n| in_frame_for(&powers(n, &target)))
-                .find_map(|found| found)
-        })
+        let candidates = self.scan(&start, bound, OUTLIERS);
+        let mut found =
+            (candidates.into_iter().take(NEXT_BEST)).map(|n| in_frame_for(&powers(n, &target)));
+        let found = found.find_map(|found| found);
+        self.better(as_is, found)
+    }
+
+    /// A candidate's frame adjusted to operations.
+    fn fitted(&self, start: Frame, radius: f64, operations: &[Canonical]) -> Frame {
+        let fit = Fit {
+            operations,
+            samples: FIT,
+            reach: self.limits.roughly(self.shape, radius),
+            bound: self.limits.bound(radius),
+        };
+        refine(self.shape, start, &fit)
     }
 
     /// What holds after an adjustment to the order found.
@@ -137,8 +132,13 @@ impl OrderSearch<'_> {
             }
             true => powers(found.order, &Target::Any),
         };
-        let reach = self.limits.reach(found.deviation.value, radius);
-        self.in_frame(&refine(shape, found.frame, &operations, 3 * FIT, reach))
+        let fit = Fit {
+            operations: &operations,
+            samples: 3 * FIT,
+            reach: self.limits.reach(found.deviation.value, radius),
+            bound: self.limits.needed(found.deviation.value, radius),
+        };
+        self.in_frame(&refine(shape, found.frame, &fit))
     }
 }
 

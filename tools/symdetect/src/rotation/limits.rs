@@ -1,6 +1,6 @@
 //! Tolerances of a search.
 
-use crate::allowance::model::FACETS;
+use crate::shape::Shape;
 use crate::verify::Bound;
 
 /// Share of samples that may be off in a scan, while axis and centre are still rough: one in eight.
@@ -21,47 +21,54 @@ pub struct Limits {
     pub tolerance: f64,
     /// What candidates keep to before axis and centre are adjusted.
     pub loose: f64,
-    /// Whether up to [`FACETS`] is allowed on top where facets that stand for a smooth surface
-    /// explain it.
+    /// Whether what the facets hide at a place is allowed on top there.
     pub facets: bool,
-    /// Only multiples of this order are looked for.
-    pub multiples_of: u32,
 }
 
 impl Limits {
     /// For a tolerance.
-    pub fn new(tolerance: f64) -> Self {
+    pub fn new(tolerance: f64, facets: bool) -> Self {
         Self {
             tolerance,
             loose: (LOOSE * tolerance).clamp(LOOSE_RANGE[0], LOOSE_RANGE[1]),
-            facets: false,
-            multiples_of: 1,
+            facets,
         }
-    }
-
-    /// The same with the allowance for facets everywhere.
-    pub fn widened(&self) -> Self {
-        Self::new((1.0 + FACETS) * self.tolerance)
     }
 
     /// How far from the surface images are taken into account when an operation that holds is adjusted: a few times
     /// what it deviates by or the tolerance, and never so little that the first sample that is off a little drops out.
     pub fn reach(&self, deviation: f64, radius: f64) -> f64 {
         let most = 0.5 * LOOSE * self.tolerance * radius;
-        (4.0 * deviation).clamp(0.025 * most, most)
-    }
-
-    /// Whether an order is looked for.
-    pub fn admit(&self, order: u32) -> bool {
-        order.is_multiple_of(self.multiples_of)
+        (4.0 * deviation).clamp(0.025 * most, most.max(4.0 * deviation))
     }
 
     /// The bound on deviations of verified operations for a radius.
     pub fn bound(&self, radius: f64) -> Bound {
-        let limit = self.tolerance * radius;
         Bound {
-            limit,
-            facets: if self.facets { FACETS * limit } else { 0.0 },
+            limit: self.tolerance * radius,
+            facets: self.facets,
         }
+    }
+
+    /// The bound that something needs which deviates by so much: within the tolerance, the facets themselves agree.
+    pub fn needed(&self, deviation: f64, radius: f64) -> Bound {
+        let bound = self.bound(radius);
+        Bound {
+            facets: bound.facets && deviation > bound.limit,
+            ..bound
+        }
+    }
+
+    /// The bound on deviations of candidates for a radius.
+    pub fn loosely(&self, radius: f64) -> Bound {
+        Bound {
+            limit: self.loose * radius,
+            facets: self.facets,
+        }
+    }
+
+    /// The largest deviation that a candidate may have.
+    pub fn roughly(&self, shape: &Shape, radius: f64) -> f64 {
+        shape.most(self.loosely(radius))
     }
 }

@@ -12,6 +12,6 @@ mod scan;
 
 pub use axes::FIRST_DIRECTIONS;
 pub use find::{Rotation, powers};
-pub use limits::{Limits, OUTLIERS};
+pub use limits::OUTLIERS;
 pub use query::Query;
-pub use refine::{Canonical, refine};
+pub use refine::{Canonical, Fit, refine};

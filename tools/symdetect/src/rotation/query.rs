@@ -3,6 +3,7 @@
 use crate::params::Params;
 use crate::rotation::find::OrderSearch;
 use crate::rotation::limits::Limits;
+use crate::rotation::refine::{Canonical, Fit, refine};
 use crate::shape::Shape;
 use crate::tolerance::{ROUNDINGS, SINGLE};
 use crate::verify::Depth;
@@ -37,7 +38,7 @@ impl<'a> Query<'a> {
             shape,
             params,
             parallel: Tolerance::new(extent, shape.precision, params.tolerance).parallel(),
-            limits: Limits::new(params.tolerance),
+            limits: Limits::new(params.tolerance, params.facets),
             centre: params.center.map_or(DVec3::ZERO, |c| shape.of_world(c)),
         }
     }
@@ -56,11 +57,11 @@ impl<'a> Query<'a> {
     }
 
     /// A search for orders about one axis, by quick tests.
-    pub fn search(&self, orders: RangeInclusive<u32>, limits: Limits) -> OrderSearch<'a> {
+    pub fn search(&self, orders: RangeInclusive<u32>) -> OrderSearch<'a> {
         OrderSearch {
             shape: self.shape,
             orders,
-            limits,
+            limits: self.limits,
             depth: Depth::Quick,
         }
     }
@@ -71,6 +72,23 @@ impl<'a> Query<'a> {
         let off = frame.origin - self.centre;
         let off = (off - free * off.dot(free)).length();
         self.params.center.is_none() || off <= 0.5 * self.limits.loose * radius
+    }
+
+    /// A candidate's frame adjusted to operations, from up to so many equations.
+    pub fn adjusted(
+        &self,
+        start: Frame,
+        radius: f64,
+        operations: &[Canonical],
+        samples: usize,
+    ) -> Frame {
+        let fit = Fit {
+            operations,
+            samples,
+            reach: self.limits.roughly(self.shape, radius),
+            bound: self.limits.bound(radius),
+        };
+        refine(self.shape, start, &fit)
     }
 
     /// Deviation that the input's precision explains, in the units of the shape; never less than that of single

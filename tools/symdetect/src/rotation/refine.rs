@@ -2,6 +2,7 @@
 
 use crate::shape::{Motion, Shape, Target};
 use crate::tolerance::VANISHING;
+use crate::verify::Bound;
 use geom::eigen;
 use glam::{DMat3, DVec3};
 use tmesh::{Frame, Isometry};
@@ -35,25 +36,31 @@ impl Canonical {
     }
 }
 
+/// What a frame is adjusted to.
+pub struct Fit<'a> {
+    /// Operations that are fixed in the frame.
+    pub operations: &'a [Canonical],
+    /// Equations at most.
+    pub samples: usize,
+    /// Distance from the surface beyond which images are left out.
+    pub reach: f64,
+    /// What deviations are allowed: places where the shape is known less well than that count less.
+    pub bound: Bound,
+}
+
 /// Moves and turns the frame so that the operations, which are fixed in the frame, map the surface
 /// onto itself as well as can be in the sense of least squares.
 ///
 /// Gauss-Newton on point-to-plane distances of face samples to the nearest triangle (Chen and
 /// Medioni 1992), where the unknown is the frame rather than the motion. Samples farther off than
-/// `reach` are left out. The result has no larger mean square than the start.
-pub fn refine(
-    shape: &Shape,
-    start: Frame,
-    operations: &[Canonical],
-    samples: usize,
-    reach: f64,
-) -> Frame {
+/// the reach are left out. The result has no larger mean square than the start.
+pub fn refine(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
     let mut best = start;
-    let mut reach = reach;
+    let mut reach = fit.reach;
     let mut best_error = f64::INFINITY;
     let mut frame = start;
     for _ in 0..STEPS {
-        let Some(step) = gauss_newton(shape, &frame, operations, samples, reach) else {
+        let Some(step) = gauss_newton(shape, &frame, fit, reach) else {
             break;
         };
         if step.mean_square >= best_error {
@@ -77,22 +84,17 @@ struct Step {
     mean_square: f64,
 }
 
-fn gauss_newton(
-    shape: &Shape,
-    frame: &Frame,
-    operations: &[Canonical],
-    samples: usize,
-    reach: f64,
-) -> Option<Step> {
+fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Option<Step> {
+    let operations = fit.operations;
     let motions: Vec<Motion> = operations
         .iter()
         .map(|o| Motion::new(frame, o.matrix))
         .collect();
     let mut a = [[0.0; 6]; 6];
     let mut b = [0.0; 6];
-    let (mut sum, mut count) = (0.0, 0_usize);
+    let (mut sum, mut count) = (0.0, 0.0);
     let faces = &shape.samples.faces;
-    let taken = samples.min(faces.len() * operations.len());
+    let taken = fit.samples.min(faces.len() * operations.len());
     for i in 0..taken {
         let sample = &faces[i % faces.len()];
         let which = (i + i / faces.len()) % operations.len();
@@ -100,8 +102,10 @@ fn gauss_newton(
         let y = motion.apply(sample.point);
         let turned = motion.linear * shape.normals[sample.triangle as usize];
         let Some(hit) = shape.nearest(y, sample.triangle, target, reach) else {
-            sum += reach * reach;
-            count += 1;
+            if !fit.bound.facets {
+                sum += reach * reach;
+                count += 1.0;
+            }
             continue;
         };
         // The plane of the sample's own face, moved: same plane as the one it lands on when the
@@ -111,10 +115,19 @@ fn gauss_newton(
         if hit.distance > 0.0 && off.dot(normal).abs() < SAME_FACE * hit.distance {
             // Slid off the edge of a face: says nothing about the distance between faces.
             sum += hit.distance * hit.distance;
-            count += 1;
+            count += 1.0;
             continue;
         }
-        let e = normal.dot(off);
+        let mut e = normal.dot(off);
+        let mut weight = 1.0;
+        if fit.bound.facets {
+            // Beside an edge of a facet, nothing tells where the shape is.
+            let Some(apart) = shape.apart(sample, motion, &hit) else {
+                continue;
+            };
+            e = apart.shapes * normal.dot(shape.normals[hit.triangle as usize]).signum();
+            weight /= 1.0 + (apart.slack / fit.bound.limit).powi(2);
+        }
         let back = motion.linear.transpose() * normal;
         let (x, z) = (sample.point - motion.centre, y - motion.centre);
         let turn = z.cross(normal) - x.cross(back);
@@ -122,14 +135,14 @@ fn gauss_newton(
         let row = [turn.x, turn.y, turn.z, shift.x, shift.y, shift.z];
         for (p, u) in row.iter().enumerate() {
             for (q, v) in row.iter().enumerate() {
-                a[p][q] += u * v;
+                a[p][q] += weight * u * v;
             }
-            b[p] -= u * e;
+            b[p] -= weight * u * e;
         }
-        sum += e * e;
-        count += 1;
+        sum += weight * e * e;
+        count += weight;
     }
-    if count < 6 {
+    if count < 6.0 {
         return None;
     }
     let solution = eigen::symmetric(a);
@@ -148,7 +161,7 @@ fn gauss_newton(
     let scale = (LONGEST_STEP / turn.length().max(shift.length())).min(1.0);
     Some(Step {
         frame: moved(frame, turn * scale, shift * scale),
-        mean_square: sum / count as f64,
+        mean_square: sum / count,
     })
 }
 

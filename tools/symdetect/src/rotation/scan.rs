@@ -2,9 +2,9 @@
 
 use crate::budget::SCAN;
 use crate::rotation::find::OrderSearch;
-use crate::shape::{Random, Sample, Shape, Target};
+use crate::shape::{Motion, Random, Sample, Shape, Target};
 use crate::threads;
-use crate::verify::{Operation, golden_rotations};
+use crate::verify::{Bound, Operation, golden_rotations};
 use glam::DVec3;
 use tmesh::{Frame, Isometry};
 
@@ -18,21 +18,18 @@ struct Scan<'a> {
     frame: &'a Frame,
     /// Numbers of the samples, those first that most turns take off the surface.
     places: Vec<usize>,
-    /// Deviation beyond which a sample is off.
-    limit: f64,
+    /// Deviations beyond which a sample is off.
+    bound: Bound,
     /// Samples that may be off.
     outliers: usize,
 }
 
 impl<'a> Scan<'a> {
-    fn new(shape: &'a Shape, frame: &'a Frame, limit: f64, outliers: f64) -> Self {
+    fn new(shape: &'a Shape, frame: &'a Frame, bound: Bound, outliers: f64) -> Self {
         let samples = &shape.samples.mixed;
         let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
         let misses = |i: &usize| {
-            let off = |turn: &&Operation| {
-                let image = turn.motion.apply(samples[*i].point);
-                (shape.nearest(image, 0, &Target::Any, limit)).is_none()
-            };
+            let off = |turn: &&Operation| !shape.lands(turn, &samples[*i], bound);
             turns.iter().filter(off).count()
         };
         let mut places: Vec<usize> = (0..SCAN.min(samples.len())).collect();
@@ -42,12 +39,12 @@ impl<'a> Scan<'a> {
             frame,
             outliers: (outliers * places.len() as f64) as usize,
             places,
-            limit,
+            bound,
         }
     }
 
-    /// Whether an order may hold. Regions do not count here.
-    fn passes(&self, n: u32) -> bool {
+    /// How many samples are off under an order, if not too many for it to hold. Regions do not count here.
+    fn misses(&self, n: u32) -> Option<usize> {
         let samples = &self.shape.samples.mixed;
         let mut left = self.outliers;
         let random = Random(u64::from(n));
@@ -58,39 +55,27 @@ impl<'a> Scan<'a> {
             } else {
                 1 + random.after(i / 2).below(n as usize - 1) as i64
             };
-            let turn = Isometry::rotation(k, n);
-            let distance =
-                (self.shape).distance_of_image(self.frame, turn, &samples[i], self.limit);
-            if distance.is_none() {
-                if left == 0 {
-                    return false;
-                }
-                left -= 1;
+            let turn = Operation::new(self.frame, Isometry::rotation(k, n), Target::Any);
+            if !self.shape.lands(&turn, &samples[i], self.bound) {
+                left = left.checked_sub(1)?;
             }
         }
-        true
+        Some(self.outliers - left)
     }
 }
 
 impl OrderSearch<'_> {
-    /// Orders that a few samples do not rule out, increasing. The share `outliers` of them may be off.
-    pub fn scan(&self, frame: &Frame, limit: f64, outliers: f64) -> Vec<u32> {
-        let scan = Scan::new(self.shape, frame, limit, outliers);
-        let orders: Vec<u32> = (self.orders.clone())
-            .filter(|&n| self.limits.admit(n))
+    /// Orders that a few samples do not rule out, those first under which the fewest are off, higher before lower ones.
+    /// The share `outliers` of them may be off.
+    pub fn scan(&self, frame: &Frame, bound: Bound, outliers: f64) -> Vec<u32> {
+        let scan = Scan::new(self.shape, frame, bound, outliers);
+        let orders: Vec<u32> = self.orders.clone().collect();
+        let misses = threads::map(&orders, |&n| scan.misses(n));
+        let mut passed: Vec<(usize, u32)> = (misses.into_iter().zip(orders))
+            .filter_map(|(misses, n)| Some((misses?, n)))
             .collect();
-        let passed = threads::map(&orders, |&n| scan.passes(n));
-        let passed = orders.into_iter().zip(passed).filter(|(_, passed)| *passed);
-        passed.map(|(n, _)| n).collect()
-    }
-
-    /// Whether a few samples leave it open that one of the orders holds in the frame as it is.
-    pub fn may_hold(&self, frame: &Frame) -> bool {
-        let bound = self.limits.bound(self.shape.radius(frame)).most();
-        let scan = Scan::new(self.shape, frame, bound, 0.0);
-        (self.orders.clone())
-            .filter(|&n| self.limits.admit(n))
-            .any(|n| scan.passes(n))
+        passed.sort_by_key(|&(misses, n)| (misses, std::cmp::Reverse(n)));
+        passed.into_iter().map(|(_, n)| n).collect()
     }
 
     /// Whether one of a few powers of the rotation of order `n` maps a point off the surface.
@@ -102,10 +87,12 @@ impl OrderSearch<'_> {
                 0 => 1,
                 _ => 1 + random.below(n as usize - 1) as i64,
             };
-            let turn = Isometry::rotation(k, n);
-            (self.shape)
-                .distance_of_image(frame, turn, &sample, limit)
-                .is_none()
+            let turn = Motion::new(frame, Isometry::rotation(k, n).matrix());
+            let image = turn.apply(sample.point);
+            (self
+                .shape
+                .nearest(image, sample.triangle, &Target::Any, limit))
+            .is_none()
         })
     }
 }

@@ -1,12 +1,12 @@
 //! The body, made ready for symmetry tests: centred, scaled to unit size, sampled, and searchable.
 
-use crate::shape::facets::Facets;
 use crate::shape::flat::{Exactness, Faces, Surface};
 use crate::shape::interfaces::Interfaces;
 use crate::shape::moments::Moments;
 use crate::shape::motion::Target;
 use crate::shape::regions::Permutation;
 use crate::shape::samples::Samples;
+use crate::shape::smooth::{SMOOTH, SmoothSurface};
 use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
 use geom::measure::double_area_vector;
@@ -37,7 +37,7 @@ pub struct Shape {
     pub samples: Samples,
     all: Tree,
     by_class: Vec<ClassSurface>,
-    facets: OnceLock<Facets>,
+    smooth: OnceLock<SmoothSurface>,
     faces: OnceLock<Option<Faces>>,
 }
 
@@ -91,7 +91,7 @@ impl Shape {
             samples,
             all,
             by_class,
-            facets: OnceLock::new(),
+            smooth: OnceLock::new(),
             faces: OnceLock::new(),
             vertices,
             triangles,
@@ -158,10 +158,38 @@ impl Shape {
         }
     }
 
-    /// What the facets may hide.
-    pub fn facets(&self) -> &Facets {
-        let make = || Facets::new(&self.vertices, &self.triangles, &self.normals);
-        self.facets.get_or_init(make)
+    /// The nearest point, if nearer than `within`, of those facets that the image of a sample of a triangle may be on
+    /// and whose normal is about that of the image.
+    pub fn nearest_alike(
+        &self,
+        (image, normal): (DVec3, DVec3),
+        triangle: u32,
+        target: &Target,
+        within: f64,
+    ) -> Option<Nearest> {
+        let alike = |t: u32| self.normals[t as usize].dot(normal).abs() >= SMOOTH;
+        match target {
+            Target::Classes(map) if !self.by_class.is_empty() => {
+                let class = map[self.interfaces.class[triangle as usize] as usize];
+                let surface = self.by_class.get(class as usize)?;
+                let alike = |t: u32| alike(surface.triangles[t as usize]);
+                let mut hit = surface.tree.nearest_of(image, within, alike)?;
+                hit.triangle = surface.triangles[hit.triangle as usize];
+                Some(hit)
+            }
+            _ => self.all.nearest_of(image, within, alike),
+        }
+    }
+
+    /// The smooth shape that the facets stand for.
+    pub fn smooth(&self) -> &SmoothSurface {
+        let make = || SmoothSurface::new(&self.vertices, &self.triangles, &self.normals);
+        self.smooth.get_or_init(make)
+    }
+
+    /// Corners of a triangle.
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.triangles[triangle as usize].map(|v| self.vertices[v as usize])
     }
 
     /// Flat faces, where there are any that tell more than samples do.

@@ -2,7 +2,6 @@
 
 mod body;
 mod directional;
-mod facets;
 mod flat;
 mod interfaces;
 mod moments;
@@ -10,6 +9,7 @@ mod motion;
 mod random;
 mod regions;
 mod samples;
+mod smooth;
 mod table;
 
 pub use body::Shape;

@@ -59,19 +59,16 @@ pub enum Depth {
 pub struct Bound {
     /// Anywhere.
     pub limit: f64,
-    /// So much more at most where facets that stand for a smooth surface explain it
-    /// ([`crate::facets`]).
-    pub facets: f64,
+    /// Whether what the facets hide at a place is allowed on top there.
+    pub facets: bool,
 }
 
 impl Bound {
     /// The same everywhere.
     pub fn plain(limit: f64) -> Self {
-        Self { limit, facets: 0.0 }
-    }
-
-    /// The largest deviation that may pass.
-    pub fn most(&self) -> f64 {
-        self.limit + self.facets
+        Self {
+            limit,
+            facets: false,
+        }
     }
 }

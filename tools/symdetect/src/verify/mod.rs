@@ -1,5 +1,6 @@
 //! Verification of operations: how far the image of the surface is from the surface.
 
+mod behind;
 mod deviation;
 mod faces;
 mod family;

@@ -54,8 +54,8 @@ impl Shape {
         };
         if self.region_count() > 2
             // What is too far from any triangle is too far from those of every permutation.
-            && (self.nearest(failed.image, 0, &Target::Any, 1.01 * bound.most())).is_some()
-            && let Some(permutation) = self.vote(&motion, bound.most())
+            && (self.nearest(failed.image, 0, &Target::Any, self.most(bound))).is_some()
+            && let Some(permutation) = self.vote(&motion, self.most(bound))
             && !permutation.is_identity()
             && let Ok(deviation) = check(&permutation)
         {

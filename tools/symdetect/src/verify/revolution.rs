@@ -12,12 +12,12 @@ const TURNS: usize = 233;
 
 impl Shape {
     /// Largest deviation under rotations by angles spread over the whole turn, each sample by an
-    /// angle of its own: small for a body of revolution. `None` beyond `limit`.
-    pub fn deviation_from_revolution(&self, frame: &Frame, limit: f64) -> Option<Deviation> {
+    /// angle of its own: small for a body of revolution. `None` beyond the bound.
+    pub fn deviation_from_revolution(&self, frame: &Frame, bound: Bound) -> Option<Deviation> {
         let operations = golden_rotations(frame, TURNS, self.target_in_place());
         let samples = &self.samples.mixed;
         let count = samples.len().min(SURVEY);
-        self.worst(count, Bound::plain(limit), |i| {
+        self.worst(count, bound, |i| {
             (&samples[i], &operations[i % operations.len()])
         })
         .ok()

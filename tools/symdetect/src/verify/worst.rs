@@ -7,7 +7,6 @@ use crate::verify::deviation::{Bound, Deviation};
 use crate::verify::operation::Operation;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use tmesh::{Frame, Isometry};
 
 /// Tests that a thread does in one go: half a millisecond, long against the microseconds that handing them over takes.
 const SHARE: usize = 512;
@@ -20,15 +19,15 @@ impl Shape {
         let enough = ARITHMETIC.min(0.1 * bound.limit);
         let find =
             |within| self.near_enough((image, sample.triangle), &operation.target, within, enough);
+        let most = self.most(bound);
         // A little beyond the bound, so that what is found within it is found exactly.
-        if let Some(n) = find(1.01 * bound.most()) {
+        if let Some(n) = find(1.01 * most) {
             let passes = n.distance <= bound.limit
-                || (n.distance <= bound.most()
-                    && n.distance - bound.limit <= self.explained(sample.triangle, n.triangle));
+                || bound.facets && self.facets_explain(sample, operation, &n, bound);
             return (n.distance, passes);
         }
         // Where many triangles are about equally far, an open search would visit them all.
-        let mut within = 4.0 * bound.most();
+        let mut within = 4.0 * most;
         while within < 2.0 {
             if let Some(n) = find(within) {
                 return (n.distance, false);
@@ -38,23 +37,14 @@ impl Shape {
         (find(f64::INFINITY).map_or(1.0, |n| n.distance), false)
     }
 
-    /// Distance of the image of a sample under an isometry of the frame from any triangle, if within a limit.
-    pub fn distance_of_image(
-        &self,
-        frame: &Frame,
-        isometry: Isometry,
-        sample: &Sample,
-        within: f64,
-    ) -> Option<f64> {
-        let image = frame.to_world(isometry.apply(frame.to_canonical(sample.point)));
-        let hit = self.nearest(image, sample.triangle, &Target::Any, within)?;
-        Some(hit.distance)
-    }
-
-    /// The deviation between two triangles that facets explain: what they explain for both.
-    fn explained(&self, a: u32, b: u32) -> f64 {
-        let bulge = |t: u32| self.facets().around(self.triangles[t as usize]);
-        bulge(a).min(bulge(b))
+    /// Whether the image of a sample is on the surface, whatever the regions there.
+    pub fn lands(&self, operation: &Operation, sample: &Sample, bound: Bound) -> bool {
+        let image = operation.motion.apply(sample.point);
+        let hit = self.nearest(image, sample.triangle, &Target::Any, self.most(bound));
+        hit.is_some_and(|hit| {
+            hit.distance <= bound.limit
+                || bound.facets && self.facets_explain(sample, operation, &hit, bound)
+        })
     }
 
     /// Runs tests 0 to `count - 1`; `job` names sample and operation of each. Returns the largest

@@ -7,9 +7,9 @@ use geom::edges::Edges;
 use geom::flat::Regions;
 use glam::DVec3;
 
-/// Cosine of the angle between triangles of one flat: cosines between normals of coordinates in single precision are
-/// no better known. The angle is 0.08 degrees.
-const COPLANAR: f64 = 1.0 - SINGLE;
+/// Cosine of the angle up to which directions count as the same, of normals in one flat and of edges in one line:
+/// cosines between directions from coordinates in single precision are no better known. The angle is 0.08 degrees.
+pub const SAME_DIRECTION: f64 = 1.0 - SINGLE;
 
 /// Triangles that lie in one plane and hang together.
 pub struct Flats {
@@ -24,7 +24,7 @@ impl Flats {
     pub fn new(triangles: &[[u32; 3]], normals: &[DVec3], edges: &Edges) -> Self {
         let count = triangles.len() as u32;
         let regions = Regions::grow(&edges.across(), 0..count, |seed, t| {
-            normals[t as usize].dot(normals[seed as usize]) > COPLANAR
+            normals[t as usize].dot(normals[seed as usize]) > SAME_DIRECTION
         });
         let corners = regions.of.iter().zip(triangles);
         let corners = corners.flat_map(|(&flat, corners)| corners.iter().map(move |&v| (flat, v)));

@@ -5,4 +5,4 @@ mod flats;
 mod outlines;
 
 pub use faces::{Exactness, Faces, Surface};
-pub use flats::Flats;
+pub use flats::{Flats, SAME_DIRECTION};

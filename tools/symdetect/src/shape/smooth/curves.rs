@@ -1,0 +1,155 @@
+//! Curves that sharp edges are chords of.
+
+use crate::shape::smooth::facets::{Facets, SMOOTH, is_straight};
+use crate::shape::smooth::heights::Heights;
+use crate::shape::table::Table;
+use geom::edges::EdgeUse;
+use glam::DVec3;
+
+/// A sharp edge, as it was drawn: edges that only divide it are one.
+struct Chord {
+    /// Its edges in order, and where each of them starts and ends along it.
+    edges: Vec<(u32, [f64; 2])>,
+    /// The vertices that it ends at.
+    ends: [u32; 2],
+    length: f64,
+}
+
+/// Sharp edges with the vertices that they join.
+struct SharpEdges<'a> {
+    facets: &'a Facets<'a>,
+    at_vertex: Table,
+}
+
+/// Lets the borders of facets follow the curves that they are chords of: the circle through the corners of a polyline
+/// at one of its ends, the narrower one.
+pub fn follow(facets: &Facets<'_>, heights: &mut [Heights]) {
+    let sharp: Vec<u32> = (0..facets.edges.len() as u32)
+        .filter(|e| !facets.is_smooth(*e as usize))
+        .collect();
+    let at = |&e: &u32| facets.edges.ends[e as usize].map(|v| (v, e));
+    let pairs: Vec<(u32, u32)> = sharp.iter().flat_map(at).collect();
+    let edges = SharpEdges {
+        facets,
+        at_vertex: Table::new(facets.vertices.len(), pairs.into_iter()),
+    };
+    let chords = edges.chords(&sharp);
+    let both = chords.iter().enumerate();
+    let ends: Vec<(u32, u32)> = both
+        .flat_map(|(i, c)| c.ends.map(|v| (v, i as u32)))
+        .collect();
+    let at_end = Table::new(facets.vertices.len(), ends.into_iter());
+    for chord in &chords {
+        let [k, l] = chord
+            .ends
+            .map(|v| edges.curvature(&chords, at_end.of(v), v));
+        let curvature = if k.length_squared() > l.length_squared() {
+            k
+        } else {
+            l
+        };
+        if curvature != DVec3::ZERO {
+            edges.bend(chord, curvature, heights);
+        }
+    }
+}
+
+impl SharpEdges<'_> {
+    /// Joins edges at vertices where they only go straight on. Linear.
+    fn chords(&self, sharp: &[u32]) -> Vec<Chord> {
+        let mut seen = vec![false; self.facets.edges.len()];
+        let mut chords = Vec::new();
+        for &first in sharp {
+            if seen[first as usize] {
+                continue;
+            }
+            let [start, _] = self.facets.edges.ends[first as usize];
+            // Back to where the chord starts, then along it.
+            let (mut edge, mut from) = (first, start);
+            while let Some(next) = self.straight_on(edge, from) {
+                if next == first {
+                    break;
+                }
+                (edge, from) = (next, self.other_end(next, from));
+            }
+            let mut chord = Chord {
+                edges: Vec::new(),
+                ends: [from; 2],
+                length: 0.0,
+            };
+            let mut next = Some(edge);
+            while let Some(edge) = next.filter(|e| !seen[*e as usize]) {
+                seen[edge as usize] = true;
+                let end = self.other_end(edge, chord.ends[1]);
+                let [p, q] = [chord.ends[1], end].map(|v| self.facets.vertices[v as usize]);
+                let start = chord.length;
+                chord.length += (q - p).length();
+                chord.edges.push((edge, [start, chord.length]));
+                chord.ends[1] = end;
+                next = self.straight_on(edge, end);
+            }
+            chords.push(chord);
+        }
+        chords
+    }
+
+    fn other_end(&self, edge: u32, vertex: u32) -> u32 {
+        let [a, b] = self.facets.edges.ends[edge as usize];
+        if a == vertex { b } else { a }
+    }
+
+    /// The edge that goes straight on beyond one of the ends of another.
+    fn straight_on(&self, edge: u32, vertex: u32) -> Option<u32> {
+        let &[e, f] = self.at_vertex.of(vertex) else {
+            return None;
+        };
+        let here = self.facets.vertices[vertex as usize];
+        let away = |edge: u32| {
+            let end = self.facets.vertices[self.other_end(edge, vertex) as usize];
+            (end - here).normalize_or_zero()
+        };
+        is_straight(away(e), away(f)).then_some(if e == edge { f } else { e })
+    }
+
+    /// Curvature vector of the polyline at a vertex where two chords meet, zero where it has a corner.
+    fn curvature(&self, chords: &[Chord], there: &[u32], vertex: u32) -> DVec3 {
+        let &[e, f] = there else {
+            return DVec3::ZERO;
+        };
+        let here = self.facets.vertices[vertex as usize];
+        let [a, b] = [e, f].map(|i| {
+            let [p, q] = chords[i as usize].ends;
+            let end = if p == vertex { q } else { p };
+            self.facets.vertices[end as usize] - here
+        });
+        let (m, n) = (a.normalize_or_zero(), b.normalize_or_zero());
+        if -m.dot(n) < SMOOTH {
+            return DVec3::ZERO;
+        }
+        (m + n) * (2.0 / (a.length() + b.length()))
+    }
+
+    /// Lets facets along a chord follow a curve of this curvature.
+    fn bend(&self, chord: &Chord, curvature: DVec3, heights: &mut [Heights]) {
+        let facets = self.facets;
+        for &(edge, [from, to]) in &chord.edges {
+            let middle = (0.5 * chord.length).clamp(from, to);
+            let border = 0.5 * middle * (chord.length - middle) * curvature.length();
+            for u in facets.edges.around(edge as usize) {
+                let height = -0.125 * (to - from).powi(2) * curvature.dot(facets.normal(u));
+                follow_side(&mut heights[u.triangle as usize], u, [height, border]);
+            }
+        }
+    }
+}
+
+/// Raises a triangle to the height of a curve above one of its sides, which is as uncertain as it is higher.
+fn follow_side(heights: &mut Heights, u: &EdgeUse, [height, border]: [f64; 2]) {
+    let side = &mut heights.side[u.corner as usize];
+    let old = f64::from(*side);
+    if height.abs() > old.abs() {
+        *side = height as f32;
+        heights.slack = heights.slack.max((height - old).abs() as f32);
+    }
+    heights.border[u.corner as usize] = border as f32;
+}

@@ -1,0 +1,166 @@
+//! Facets and the smooth edges between them.
+
+use crate::shape::flat::{Flats, SAME_DIRECTION};
+use crate::shape::table::Table;
+use geom::edges::{EdgeUse, Edges, apex_of};
+use geom::measure::double_area_vector;
+use glam::DVec3;
+
+/// Cosine of the angle between facets of one smooth surface at most: half a radian, by which kernels turn unless told
+/// otherwise, and a degree for what rounding adds; just below the 30 degrees above which an edge is a feature wherever
+/// the tools ask.
+pub const SMOOTH: f64 = 0.8704;
+
+/// The facets of a surface: flats of one or more triangles.
+pub struct Facets<'a> {
+    /// Vertices of the surface.
+    pub vertices: &'a [DVec3],
+    /// Its triangles.
+    pub triangles: &'a [[u32; 3]],
+    /// Their unit normals.
+    pub normals: &'a [DVec3],
+    /// Their edges.
+    pub edges: Edges,
+    /// The flats.
+    pub flats: Flats,
+    /// Whether each flat is a single triangle.
+    pub single: Vec<bool>,
+}
+
+/// A smooth edge between two facets.
+pub struct Fold {
+    /// The edge in a triangle of either.
+    pub uses: [EdgeUse; 2],
+    /// The flats.
+    pub flats: [u32; 2],
+    /// Extent of either facet across the edge.
+    pub widths: [f64; 2],
+    /// The angle between them, radians, positive where the body is convex.
+    pub turn: f64,
+}
+
+impl<'a> Facets<'a> {
+    /// The facets of a surface with these unit normals. Linear.
+    pub fn new(vertices: &'a [DVec3], triangles: &'a [[u32; 3]], normals: &'a [DVec3]) -> Self {
+        let edges = Edges::new(triangles);
+        let flats = Flats::new(triangles, normals, &edges);
+        let mut count = vec![0_u32; flats.count()];
+        flats.of.iter().for_each(|f| count[*f as usize] += 1);
+        let single = count.into_iter().map(|c| c == 1).collect();
+        Self {
+            vertices,
+            triangles,
+            normals,
+            edges,
+            flats,
+            single,
+        }
+    }
+
+    /// Corners of a triangle.
+    pub fn corners(&self, triangle: usize) -> [DVec3; 3] {
+        self.triangles[triangle].map(|v| self.vertices[v as usize])
+    }
+
+    /// The flat of the triangle of a use of an edge.
+    pub fn flat(&self, u: &EdgeUse) -> u32 {
+        self.flats.of[u.triangle as usize]
+    }
+
+    /// The normal there.
+    pub fn normal(&self, u: &EdgeUse) -> DVec3 {
+        self.normals[u.triangle as usize]
+    }
+
+    /// Ends of an edge in the order of a triangle that uses it.
+    pub fn ends(&self, u: &EdgeUse) -> [DVec3; 2] {
+        let corners = self.corners(u.triangle as usize);
+        [0, 1].map(|i| corners[(u.corner as usize + i) % 3])
+    }
+
+    /// The corner of the triangle across from the edge.
+    pub fn apex(&self, u: &EdgeUse) -> DVec3 {
+        self.vertices[apex_of(&self.triangles[u.triangle as usize], u.corner) as usize]
+    }
+
+    /// Whether facets of one smooth surface meet at an edge.
+    pub fn is_smooth(&self, edge: usize) -> bool {
+        match self.edges.around(edge) {
+            [u, v] => u.forward != v.forward && self.normal(u).dot(self.normal(v)) >= SMOOTH,
+            _ => false,
+        }
+    }
+
+    /// All smooth edges between different flats.
+    pub fn folds(&self) -> Vec<Fold> {
+        let smooth = (0..self.edges.len()).filter(|e| self.is_smooth(*e));
+        smooth.filter_map(|e| self.fold(e)).collect()
+    }
+
+    fn fold(&self, edge: usize) -> Option<Fold> {
+        let [u, v] = self.edges.around(edge) else {
+            return None;
+        };
+        let flats = [self.flat(u), self.flat(v)];
+        if flats[0] == flats[1] {
+            return None;
+        }
+        let [a, b] = self.ends(u);
+        let along = (b - a).normalize_or_zero();
+        let across = |v: &u32| (self.vertices[*v as usize] - a).cross(along).length();
+        let widths = flats.map(|f| (self.flats.corners(f).iter().map(across)).fold(0.0, f64::max));
+        let [m, n] = [u, v].map(|u| self.normal(u));
+        let angle = libm::atan2(m.cross(n).length(), m.dot(n));
+        let convex = m.dot(self.apex(v) - a) <= 0.0;
+        Some(Fold {
+            uses: [*u, *v],
+            flats,
+            widths,
+            turn: if convex { angle } else { -angle },
+        })
+    }
+
+    /// The vertices of each flat at which its border turns; the others only divide its sides or its inside. n log n.
+    pub fn turning_points(&self) -> Table {
+        let mut sides: Vec<(u32, u32, DVec3)> = Vec::new();
+        for e in 0..self.edges.len() {
+            let around = self.edges.around(e);
+            if matches!(around, [u, v] if self.flat(u) == self.flat(v)) {
+                continue;
+            }
+            let [a, b] = self.edges.ends[e];
+            let along = self.vertices[b as usize] - self.vertices[a as usize];
+            let along = along.normalize_or_zero();
+            for u in around {
+                sides.push((self.flat(u), a, along));
+                sides.push((self.flat(u), b, -along));
+            }
+        }
+        sides.sort_by_key(|s| (s.0, s.1));
+        let turns = |at: &&[(u32, u32, DVec3)]| match at {
+            [s, t] => !is_straight(s.2, t.2),
+            _ => true,
+        };
+        let at_vertices = sides.chunk_by(|s, t| (s.0, s.1) == (t.0, t.1));
+        let corners: Vec<(u32, u32)> = at_vertices
+            .filter(turns)
+            .map(|s| (s[0].0, s[0].1))
+            .collect();
+        Table::new(self.flats.count(), corners.into_iter())
+    }
+
+    /// Area of each flat.
+    pub fn areas(&self) -> Vec<f64> {
+        let mut area = vec![0.0; self.flats.count()];
+        for (t, &flat) in self.flats.of.iter().enumerate() {
+            let [a, b, c] = self.corners(t);
+            area[flat as usize] += 0.5 * double_area_vector(a, b, c).length();
+        }
+        area
+    }
+}
+
+/// Whether two unit vectors away from a point are the two halves of a straight line.
+pub fn is_straight(a: DVec3, b: DVec3) -> bool {
+    -a.dot(b) > SAME_DIRECTION
+}

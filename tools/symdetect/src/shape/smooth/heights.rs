@@ -1,0 +1,180 @@
+//! Heights of the shape above triangles.
+
+use crate::shape::smooth::curvature::outer;
+use crate::shape::smooth::facets::Facets;
+use geom::edges::EdgeUse;
+use geom::measure::double_area_vector;
+use glam::{DMat3, DVec3};
+
+/// The shape above one triangle, in single precision: heights are small against coordinates.
+#[derive(Clone, Copy, Default)]
+pub struct Heights {
+    /// Height above each corner: zero but for vertices that only divide a facet.
+    pub corner: [f32; 3],
+    /// Height above the middle of each side, over what it is at its ends.
+    pub side: [f32; 3],
+    /// Height there of the other diagonal of the quadrilateral that the triangle makes with the one beyond.
+    pub flipped: [f32; 3],
+    /// How well heights are known.
+    pub slack: f32,
+    /// How far the curve that each side is a chord of may be from it.
+    pub border: [f32; 3],
+}
+
+impl Heights {
+    /// Height of the shape at barycentric coordinates.
+    pub fn shape(&self, b: [f64; 3]) -> f64 {
+        let corners: f64 = (0..3).map(|c| b[c] * f64::from(self.corner[c])).sum();
+        corners + bubble(self.side, b)
+    }
+
+    /// The heights, least and largest, between which the shape may be at barycentric coordinates.
+    pub fn range(&self, b: [f64; 3]) -> [f64; 2] {
+        let mut range = [0.0_f64; 2];
+        let flipped = (0..3).map(|c| bubble_of(self.flipped[c], b, c));
+        for height in flipped.chain([self.shape(b)]) {
+            range = [range[0].min(height), range[1].max(height)];
+        }
+        range
+    }
+
+    /// The most that the triangle hides.
+    pub fn most(&self) -> f64 {
+        let largest = |x: [f32; 3]| x.iter().fold(0.0_f32, |m, h| m.max(h.abs()));
+        let above = largest(self.corner) + largest(self.side);
+        let above = above.max(largest(self.flipped)) + self.slack;
+        above.max(largest(self.border)).into()
+    }
+}
+
+/// A quadratic function that is zero at the corners, from its values in the middles of the sides.
+fn bubble(side: [f32; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|c| bubble_of(side[c], b, c)).sum()
+}
+
+fn bubble_of(side: f32, b: [f64; 3], c: usize) -> f64 {
+    4.0 * f64::from(side) * b[c] * b[(c + 1) % 3]
+}
+
+/// Barycentric coordinates of a point in the plane of a triangle.
+pub fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
+    let n = double_area_vector(a, b, c);
+    let whole = n.length_squared();
+    if whole <= 0.0 {
+        return [1.0, 0.0, 0.0];
+    }
+    let part = |a: DVec3, b: DVec3| (double_area_vector(a, b, p).dot(n) / whole).clamp(0.0, 1.0);
+    [part(b, c), part(c, a), part(a, b)]
+}
+
+/// Heights of quadratic patches with these curvatures through the corners of the facets.
+pub fn patches(facets: &Facets<'_>, curvature: &[DMat3]) -> Vec<Heights> {
+    let corners = facets.turning_points();
+    let mut planes = vec![None; facets.flats.count()];
+    let with_normals = facets.flats.of.iter().zip(facets.normals);
+    for (&flat, &normal) in with_normals {
+        let flat = flat as usize;
+        if planes[flat].is_none() && !facets.single[flat] && curvature[flat] != DMat3::ZERO {
+            let corners = corners.of(flat as u32);
+            let corners = corners.iter().map(|v| facets.vertices[*v as usize]);
+            planes[flat] = Patch::through(&corners.collect::<Vec<_>>(), normal, curvature[flat]);
+        }
+    }
+    let heights = |(t, &flat): (usize, &u32)| {
+        let (corners, h) = (facets.corners(t), curvature[flat as usize]);
+        let side = |c: usize| {
+            let e = corners[(c + 1) % 3] - corners[c];
+            (0.125 * e.dot(h * e)) as f32
+        };
+        let patch = planes[flat as usize].as_ref();
+        Heights {
+            side: [0, 1, 2].map(side),
+            corner: corners.map(|p| patch.map_or(0.0, |q: &Patch| q.height(p) as f32)),
+            slack: patch.map_or(0.0, |q| q.off as f32),
+            ..Heights::default()
+        }
+    };
+    facets.flats.of.iter().enumerate().map(heights).collect()
+}
+
+/// A quadratic function in the plane of a facet.
+#[derive(Clone)]
+struct Patch {
+    middle: DVec3,
+    curvature: DMat3,
+    slope: DVec3,
+    constant: f64,
+    /// How far it is from the corners of the facet at most.
+    off: f64,
+}
+
+impl Patch {
+    /// The patch that passes closest to the corners of a polygon, by least squares; exactly where there are three.
+    fn through(corners: &[DVec3], normal: DVec3, curvature: DMat3) -> Option<Self> {
+        let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        let size = (corners.iter().map(|p| (p - middle).length())).fold(0.0, f64::max);
+        let x = normal.any_orthonormal_vector();
+        let y = normal.cross(x);
+        let mut patch = Self {
+            middle,
+            curvature,
+            slope: DVec3::ZERO,
+            constant: 0.0,
+            off: 0.0,
+        };
+        let (mut matrix, mut right) = (DMat3::ZERO, DVec3::ZERO);
+        for p in corners {
+            let at = (p - middle) / size;
+            let row = DVec3::new(at.dot(x), at.dot(y), 1.0);
+            matrix += outer(row, row);
+            right -= row * patch.height(*p);
+        }
+        // Corners on one line tell no plane.
+        if matrix.determinant() <= f64::EPSILON * corners.len() as f64 {
+            return None;
+        }
+        let solution = matrix.inverse() * right;
+        patch.slope = (x * solution.x + y * solution.y) / size;
+        patch.constant = solution.z;
+        patch.off = (corners.iter().map(|p| patch.height(*p).abs())).fold(0.0, f64::max);
+        Some(patch)
+    }
+
+    fn height(&self, p: DVec3) -> f64 {
+        let d = p - self.middle;
+        self.constant + self.slope.dot(d) - 0.5 * d.dot(self.curvature * d)
+    }
+}
+
+/// Sets the heights of the diagonals that another drawing of the same corners may have: where two single triangles make
+/// a convex quadrilateral, either of its diagonals may have been drawn.
+pub fn flip(facets: &Facets<'_>, heights: &mut [Heights]) {
+    for edge in (0..facets.edges.len()).filter(|e| facets.is_smooth(*e)) {
+        let [u, v] = facets.edges.around(edge) else {
+            continue;
+        };
+        let single = |u: &EdgeUse| facets.single[facets.flat(u) as usize];
+        if !(single(u) && single(v)) {
+            continue;
+        }
+        if let Some(height) = other_diagonal(facets, [u, v]) {
+            for u in [u, v] {
+                heights[u.triangle as usize].flipped[u.corner as usize] = height as f32;
+            }
+        }
+    }
+}
+
+/// Height of the other diagonal above an edge where they cross, seen along the normal between.
+fn other_diagonal(facets: &Facets<'_>, [u, v]: [&EdgeUse; 2]) -> Option<f64> {
+    let normal = (facets.normal(u) + facets.normal(v)).normalize_or_zero();
+    let [a, b] = facets.ends(u);
+    let [c, d] = [u, v].map(|u| facets.apex(u));
+    // The point of p q that the line r s passes.
+    let crossing = |p: DVec3, q: DVec3, r: DVec3, s: DVec3| {
+        let across = normal.cross(s - r);
+        let (x, y) = (across.dot(p - r), across.dot(q - r));
+        (x * y < 0.0).then(|| p.lerp(q, x / (x - y)))
+    };
+    Some((crossing(c, d, a, b)? - crossing(a, b, c, d)?).dot(normal))
+}

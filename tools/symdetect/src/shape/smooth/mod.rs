@@ -1,0 +1,21 @@
+//! The smooth shape that facets stand for, and how far it may be from them, place by place.
+//!
+//! Corners of a drawn surface lie on the shape that was drawn. Between them the shape bends as the facets on either
+//! side do: a facet stands for the quadratic patch through its corners whose normal, in the middle of each side, is
+//! halfway between its own and that of the facet beyond (the triangle of Morley, Aeronautical Quarterly 19, 1968; as
+//! a discrete shape operator, Grinspun, Gingold, Reisman and Zorin, Computer Graphics Forum 25, 2006).
+//!
+//! Flat faces, sharp edges between them and straight edges so hide nothing; arcs hide their sagitta. A place may be
+//! anywhere between the facet and the patch, since facets of flat and of curved faces look alike where they meet, and
+//! between the two ways of dividing a quadrilateral into triangles. How well the patch is known is told by the patches
+//! next to it.
+
+mod curvature;
+mod curves;
+mod facets;
+mod heights;
+mod slack;
+mod surface;
+
+pub use facets::SMOOTH;
+pub use surface::SmoothSurface;

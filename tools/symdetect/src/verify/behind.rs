@@ -1,0 +1,86 @@
+//! Whether deviations are explained by facets: comparison of the shapes behind them.
+
+use crate::shape::{Motion, Sample, Shape};
+use crate::verify::deviation::Bound;
+use crate::verify::operation::Operation;
+use geom::tree::Nearest;
+
+/// Cosine of the angle to a facet's normal at which a point is above it rather than beyond its edge: that of about half
+/// the largest turn between facets of one smooth surface, `2 c^2 - 1 = 0.87`, and as much again.
+const ABOVE: f64 = 0.9;
+
+/// An image of a place above the facet that it should be on.
+pub struct Apart {
+    /// Height above the facet.
+    pub facets: f64,
+    /// Distance between what either facet may stand for; zero where that overlaps.
+    pub gap: f64,
+    /// Height of the shape behind the first facet above that behind the second.
+    pub shapes: f64,
+    /// How well that is known.
+    pub slack: f64,
+}
+
+impl Shape {
+    /// The largest deviation that may be within a bound.
+    pub fn most(&self, bound: Bound) -> f64 {
+        match bound.facets {
+            true => bound.limit + 2.0 * self.smooth().largest(),
+            false => bound.limit,
+        }
+    }
+
+    /// Whether the shapes that the facets stand for agree within a bound where the image of a sample is near a point
+    /// of the surface.
+    pub fn facets_explain(
+        &self,
+        sample: &Sample,
+        operation: &Operation,
+        hit: &Nearest,
+        bound: Bound,
+    ) -> bool {
+        let (motion, limit) = (&operation.motion, bound.limit);
+        let explained = |hit: &Nearest| {
+            let apart = self.apart(sample, motion, hit);
+            apart.is_some_and(|a| a.gap <= limit + a.slack)
+        };
+        if explained(hit) {
+            return true;
+        }
+        // Near an edge, another face may be nearer than the one that the place is on.
+        let image = motion.apply(sample.point);
+        let normal = motion.linear * self.normals[sample.triangle as usize];
+        let (triangle, target) = (sample.triangle, &operation.target);
+        let alike = self.nearest_alike((image, normal), triangle, target, self.most(bound));
+        if alike.is_some_and(|hit| explained(&hit)) {
+            return true;
+        }
+        let surface = (&self.vertices[..], &self.triangles[..]);
+        let at_edges = |place| self.smooth().at_edges(surface, place, hit.distance);
+        let here = at_edges((sample.triangle, sample.point));
+        hit.distance <= limit + here + at_edges((hit.triangle, hit.point))
+    }
+
+    /// How far apart facets, and the shapes behind them, are where the image of a sample is near a point of the
+    /// surface; `None` where the image is not above the facet but beyond its edge.
+    pub fn apart(&self, sample: &Sample, motion: &Motion, hit: &Nearest) -> Option<Apart> {
+        let [from, to] = [sample.triangle, hit.triangle].map(|t| self.normals[t as usize]);
+        let facets = (motion.apply(sample.point) - hit.point).dot(to);
+        if facets.abs() < ABOVE * hit.distance {
+            return None;
+        }
+        let above = |t: u32, p| self.smooth().above(t, self.corners(t), p);
+        let here = above(sample.triangle, sample.point);
+        let there = above(hit.triangle, hit.point);
+        // The other way around where the motion exchanges the sides of an interface.
+        let side = (motion.linear * from).dot(to).signum();
+        let [a, b] = here.range.map(|h| facets + side * h);
+        let [low, high] = there.range;
+        Some(Apart {
+            facets,
+            gap: (a.min(b) - high).max(low - a.max(b)).max(0.0),
+            shapes: facets + side * here.shape - there.shape,
+            slack: here.slack + there.slack,
+        })
+    }
+}
