@@ -126,12 +126,12 @@ fn sizes_that_are_not_kept_are_said() {
     let wedge = run("wedgecut", &["-q", "--edge-length", "0.1"], &found).success();
     said(
         "tetwedge",
-        &["--keep-surface"],
+        &["--keep-surface", "--edge-length", "0.05"],
         &wedge,
         &[
             "volume ",
-            " asked for by edges of 0.1: ",
-            " above, most at ",
+            " asked for by edges of 0.05: ",
+            " above, most ",
         ],
     );
     let own = ["--keep-surface", "--region", "body:max-volume=1e-5"];
