@@ -128,11 +128,7 @@ fn sizes_that_are_not_kept_are_said() {
         "tetwedge",
         &["--keep-surface", "--edge-length", "0.05"],
         &wedge,
-        &[
-            "volume ",
-            " asked for by edges of 0.05: ",
-            " above, most ",
-        ],
+        &["volume ", " asked for by edges of 0.05: ", " above, most "],
     );
     let own = ["--keep-surface", "--region", "body:max-volume=1e-5"];
     said("tetwedge", &own, &wedge, &["of 1e-5 asked for in 'body'"]);
