@@ -45,10 +45,26 @@ pub fn detect(
 fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, Error> {
     query.limits.facets = query.params.facets && query.facets_hide_something();
     let mut outcome = search(&query, log);
-    if query.limits.facets && outcome.found.as_ref().is_some_and(|f| !query.is_meant(f)) {
-        log("facets alone do not explain the deviations: the drawing itself counts");
-        query.limits.facets = false;
-        outcome = search(&query, log);
+    if let Some(found) = outcome
+        .found
+        .take_if(|f| query.limits.facets && !query.is_drawn(f))
+    {
+        let is_meant = query.is_meant(&found);
+        if is_meant && !found.axisymmetric {
+            outcome.found = Some(found);
+        } else {
+            // A body that any rotation takes to itself within its facets is drawn as it was meant if it has a rotation.
+            log("what the drawing itself has is looked for");
+            query.limits.facets = false;
+            let drawn = search(&query, log);
+            let has_rotation = drawn.found.as_ref().is_some_and(|f| f.group.order > 1);
+            if is_meant && !has_rotation {
+                query.limits.facets = true;
+                outcome.found = Some(found);
+            } else {
+                outcome = drawn;
+            }
+        }
     }
     if let Some(found) = outcome.found {
         return Ok(query.detection(found, &outcome.rotations, log));

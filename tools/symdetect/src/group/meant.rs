@@ -13,15 +13,20 @@ impl Query<'_> {
         self.shape.smooth().largest() > self.shape.precision
     }
 
+    /// Whether the drawing itself has a group, within the tolerance.
+    pub fn is_drawn(&self, found: &Found) -> bool {
+        found.verified.deviation.value <= self.limits.tolerance * found.radius
+    }
+
     /// Whether the drawing itself has a group within the tolerance, or differs from it because it was drawn with other
     /// facets: then the shape behind them explains most of how far images are beyond the tolerance (half of the sum of
     /// squares or more, a coefficient of determination). Of a feature that is there once, in a drawing that is the same
     /// everywhere else, it explains next to nothing, however coarse the facets are.
     pub fn is_meant(&self, found: &Found) -> bool {
-        let (shape, limit) = (self.shape, self.limits.tolerance * found.radius);
-        if found.verified.deviation.value <= limit {
+        if self.is_drawn(found) {
             return true;
         }
+        let (shape, limit) = (self.shape, self.limits.tolerance * found.radius);
         let matrices: Vec<DMat3> = match found.axisymmetric {
             true => golden_turns(1).collect(),
             false => (found.group.generators().into_iter())

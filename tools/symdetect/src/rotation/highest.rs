@@ -58,18 +58,26 @@ impl OrderSearch<'_> {
         }
     }
 
-    /// The highest of the orders that pass a scan which holds.
+    /// The highest of the orders that pass a scan which holds. Where another one above half of it holds as well, all do:
+    /// the rotations that they make together are as near to any angle as the two are to each other.
     fn of_scan(&self, frame: &Frame, radius: f64) -> Option<Rotation> {
         let bound = self.limits.bound(radius);
+        let mut highest: Option<Rotation> = None;
         // Near a body of revolution many orders fail at the same few places.
         let mut obstacles: Vec<DVec3> = Vec::new();
         for order in self.scan(frame, bound, 0.0) {
+            if highest.as_ref().is_some_and(|h| 2 * order <= h.order) {
+                break;
+            }
             if (obstacles.iter()).any(|p| self.stumbles(frame, order, *p, self.shape.most(bound))) {
                 continue;
             }
             match self.shape.verify_rotation(frame, order, bound, self.depth) {
+                Ok((deviation, _)) if highest.is_some() => {
+                    return Some(self.of_revolution(frame, radius, deviation));
+                }
                 Ok((deviation, permutation)) => {
-                    return Some(Rotation {
+                    highest = Some(Rotation {
                         frame: *frame,
                         radius,
                         order,
@@ -89,6 +97,6 @@ impl OrderSearch<'_> {
                 Err(_) => {}
             }
         }
-        None
+        highest
     }
 }
