@@ -50,7 +50,7 @@ fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, 
         .take_if(|f| query.limits.facets && !query.is_drawn(f))
     {
         let is_meant = query.is_meant(&found);
-        if is_meant && !found.axisymmetric {
+        if is_meant && !found.axisymmetric && query.has_drawn_rotation(&found) {
             outcome.found = Some(found);
         } else {
             // A body that any rotation takes to itself within its facets is drawn as it was meant if it has a rotation.

@@ -18,6 +18,15 @@ impl Query<'_> {
         found.verified.deviation.value <= self.limits.tolerance * found.radius
     }
 
+    /// Whether a group has the rotation that the drawing itself has about its axis. The features of a body are in its
+    /// drawing, with all rotations of them: a drawing of order 7 is not one of order 321, however far facets reach.
+    pub fn has_drawn_rotation(&self, found: &Found) -> bool {
+        let mut search = self.search(2..=self.params.max_order);
+        search.limits.facets = false;
+        let drawn = search.find(found.frame.origin, found.frame.rotation.z_axis, false);
+        drawn.is_none_or(|own| !own.distinct || found.group.order.is_multiple_of(own.order))
+    }
+
     /// Whether the drawing itself has a group within the tolerance, or differs from it because it was drawn with other
     /// facets: then the shape behind them explains most of how far images are beyond the tolerance (half of the sum of
     /// squares or more, a coefficient of determination). Of a feature that is there once, in a drawing that is the same
