@@ -1,6 +1,6 @@
 //! Orders that a few samples do not rule out.
 
-use crate::budget::SCAN;
+use crate::budget::{QUICK, SCAN};
 use crate::rotation::find::OrderSearch;
 use crate::shape::{Motion, Random, Sample, Shape, Target};
 use crate::threads;
@@ -26,14 +26,7 @@ struct Scan<'a> {
 
 impl<'a> Scan<'a> {
     fn new(shape: &'a Shape, frame: &'a Frame, bound: Bound, outliers: f64) -> Self {
-        let samples = &shape.samples.mixed;
-        let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
-        let misses = |i: &usize| {
-            let off = |turn: &&Operation| !shape.lands(turn, &samples[*i], bound);
-            turns.iter().filter(off).count()
-        };
-        let mut places: Vec<usize> = (0..SCAN.min(samples.len())).collect();
-        places.sort_by_cached_key(|i| std::cmp::Reverse(misses(i)));
+        let places = shape.telling_samples(frame, bound);
         Self {
             shape,
             frame,
@@ -61,6 +54,23 @@ impl<'a> Scan<'a> {
             }
         }
         Some(self.outliers - left)
+    }
+}
+
+impl Shape {
+    /// The numbers of a few samples that tell one turn about a frame's axis from others: those that most turns take off
+    /// the surface, in that order. On a flange, they are at its holes.
+    pub fn telling_samples(&self, frame: &Frame, bound: Bound) -> Vec<usize> {
+        let samples = &self.samples.mixed;
+        let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
+        let misses = |i: &usize| {
+            let off = |turn: &&Operation| !self.lands(turn, &samples[*i], bound);
+            turns.iter().filter(off).count()
+        };
+        let mut places: Vec<usize> = (0..QUICK.min(samples.len())).collect();
+        places.sort_by_cached_key(|i| std::cmp::Reverse(misses(i)));
+        places.truncate(SCAN);
+        places
     }
 }
 
