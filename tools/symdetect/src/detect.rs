@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::group::Found;
 use crate::params::Params;
 use crate::report::Detection;
-use crate::rotation::{Query, Rotation};
+use crate::rotation::{Drawn, Query, Rotation};
 use crate::shape::Shape;
 use crate::threads;
 use glam::DVec3;
@@ -40,29 +40,34 @@ pub fn detect(
     })
 }
 
-/// The group of the shape that the drawing stands for, or that of the drawing where it is meant as it is; without one,
-/// what comes nearest.
+/// The group of the drawing, or that of the shape behind its facets where that is more and meant; without one, what
+/// comes nearest.
 fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, Error> {
-    query.limits.facets = query.params.facets && query.facets_hide_something();
+    query.limits.facets = false;
     let mut outcome = search(&query, log);
-    if let Some(found) = outcome
-        .found
-        .take_if(|f| query.limits.facets && !query.is_drawn(f))
-    {
-        let is_meant = query.is_meant(&found);
-        if is_meant && !found.axisymmetric {
-            outcome.found = Some(found);
-        } else {
-            // A body that any rotation takes to itself within its facets is drawn as it was meant if it has a rotation.
-            log("what the drawing itself has is looked for");
-            query.limits.facets = false;
-            let drawn = search(&query, log);
-            let has_rotation = drawn.found.as_ref().is_some_and(|f| f.group.order > 1);
-            if is_meant && !has_rotation {
-                query.limits.facets = true;
-                outcome.found = Some(found);
-            } else {
-                outcome = drawn;
+    let is_round = outcome.found.as_ref().is_some_and(|f| f.axisymmetric);
+    if query.params.facets && query.facets_hide_something() && !is_round {
+        log("the shape behind the facets is looked at");
+        query.limits.facets = true;
+        query.drawn = (outcome.found.as_ref())
+            .filter(|f| f.group.order > 1)
+            .map(|f| Drawn {
+                axis: f.frame.rotation.z_axis,
+                group: f.group,
+            });
+        let behind = search(&query, log);
+        let is_behind =
+            (behind.found.as_ref()).map(|found| query.is_behind(found, outcome.found.as_ref()));
+        match is_behind {
+            Some(true) => outcome = behind,
+            None if outcome.found.is_none() => outcome = behind,
+            _ => {
+                query.limits.facets = false;
+                if let (Some(drawn), Some(found)) = (&mut outcome.found, &behind.found) {
+                    drawn.axisymmetric = found.axisymmetric
+                        && found.group.order == drawn.group.order
+                        && query.is_meant(found);
+                }
             }
         }
     }

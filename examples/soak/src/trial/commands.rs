@@ -19,7 +19,9 @@ pub fn stages(solid: &Solid, seed: u64) -> Vec<Stage> {
     }
     let mut cut = stage("wedgecut");
     if dice.chance(0.15) {
-        let divisors: Vec<usize> = (1..=order).filter(|d| order.is_multiple_of(*d)).collect();
+        // A body of order 2 may have more about another axis, of which 2 is no divisor.
+        let least = if order <= 2 { 1 } else { order };
+        let divisors: Vec<usize> = (1..=least).filter(|d| least.is_multiple_of(*d)).collect();
         cut.extend(["--order".to_owned(), dice.pick(&divisors).to_string()]);
     }
     if dice.chance(0.15) {

@@ -38,7 +38,7 @@ impl Query<'_> {
             }
             let z = found.frame.rotation.z_axis;
             candidates.retain(|c| !self.same_axis(c.frame.rotation.z_axis, z));
-            let mut search = self.search(self.orders());
+            let mut search = self.search_about(z);
             search.depth = Depth::Full;
             let lower = search.find(found.frame.origin, z, false);
             candidates.extend(lower.filter(|r| r.order < found.group.order));

@@ -13,19 +13,25 @@ impl Query<'_> {
         self.shape.smooth().largest() > self.shape.precision
     }
 
-    /// Whether the drawing itself has a group, within the tolerance.
-    pub fn is_drawn(&self, found: &Found) -> bool {
-        found.verified.deviation.value <= self.limits.tolerance * found.radius
+    /// Whether the group of the shape behind the facets of a drawing is more than that of the drawing, and meant.
+    ///
+    /// It is more if it has all operations of the drawing's. A drawing that has a rotation, of a body that any rotation
+    /// takes to itself within its facets, is drawn as it was meant.
+    pub fn is_behind(&self, found: &Found, drawn: Option<&Found>) -> bool {
+        let is_more = drawn.is_none_or(|drawn| {
+            let [a, b] = [found, drawn].map(|f| f.frame.rotation.z_axis);
+            let has_all = !self.same_axis(a, b) || drawn.group.is_subgroup_of(found.group);
+            let is_round = found.axisymmetric && drawn.group.order > 1;
+            found.group.size() > drawn.group.size() && has_all && !is_round
+        });
+        is_more && self.is_meant(found)
     }
 
-    /// Whether the drawing itself has a group within the tolerance, or differs from it because it was drawn with other
-    /// facets: then the shape behind them explains most of how far images are beyond the tolerance (half of the sum of
-    /// squares or more, a coefficient of determination). Of a feature that is there once, in a drawing that is the same
-    /// everywhere else, it explains next to nothing, however coarse the facets are.
+    /// Whether the drawing differs from a group because it was drawn with other facets: then the shape behind them
+    /// explains most of how far images are beyond the tolerance (half of the sum of squares or more, a coefficient of
+    /// determination). Of a feature that is there once, in a drawing that is the same everywhere else, it explains next
+    /// to nothing, however coarse the facets are.
     pub fn is_meant(&self, found: &Found) -> bool {
-        if self.is_drawn(found) {
-            return true;
-        }
         let (shape, limit) = (self.shape, self.limits.tolerance * found.radius);
         let matrices: Vec<DMat3> = match found.axisymmetric {
             true => golden_turns(1).collect(),

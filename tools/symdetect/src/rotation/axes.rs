@@ -29,10 +29,14 @@ impl Query<'_> {
         if let Some(axis) = self.params.axis {
             return (vec![axis], self.about(axis).into_iter().collect());
         }
-        let search = self.search(self.orders());
-        let find = |d: &DVec3| search.find(self.centre, *d, false);
+        let find = |d: &DVec3| self.search_about(*d).find(self.centre, *d, false);
         let principal = candidates::principal(self.shape, self.parallel);
         let mut directions = principal.directions;
+        // No other axis than one of an order above two can have such an order.
+        let main = (self.drawn).filter(|d| d.group.order > 2 && !principal.isotropic);
+        if let Some(main) = main {
+            directions = vec![main.axis];
+        }
         let mut found: Vec<Rotation> = Vec::new();
         for d in &directions {
             found.extend(find(d));
@@ -45,7 +49,7 @@ impl Query<'_> {
             "principal directions tried, {} have a rotation",
             found.len()
         ));
-        let has_high = found.iter().any(Rotation::is_high);
+        let has_high = main.is_some() || found.iter().any(Rotation::is_high);
         if principal.isotropic || (principal.degenerate && !has_high) {
             let tried = directions.len();
             directions.extend(candidates::higher(self.shape));
@@ -65,7 +69,7 @@ impl Query<'_> {
 
     /// The rotation about an axis the user gave: as given if that is as good as an adjusted one.
     fn about(&self, axis: DVec3) -> Option<Rotation> {
-        let search = self.search(self.orders());
+        let search = self.search_about(axis);
         let given = search.find(self.centre, axis, true);
         let good = |g: &Rotation| g.deviation.value <= self.noise(g.radius);
         if given.as_ref().is_some_and(good) {

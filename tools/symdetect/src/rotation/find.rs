@@ -57,6 +57,8 @@ pub struct OrderSearch<'a> {
     pub shape: &'a Shape,
     /// Orders looked for.
     pub orders: RangeInclusive<u32>,
+    /// A number that they are multiples of.
+    pub multiples: u32,
     /// Tolerances.
     pub limits: Limits,
     /// How thoroughly they are verified.

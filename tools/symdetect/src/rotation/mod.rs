@@ -13,5 +13,5 @@ mod scan;
 pub use axes::FIRST_DIRECTIONS;
 pub use find::{Rotation, powers};
 pub use limits::OUTLIERS;
-pub use query::Query;
+pub use query::{Drawn, Query};
 pub use refine::{Canonical, Fit, refine};

@@ -10,7 +10,7 @@ use crate::verify::Depth;
 use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use std::ops::RangeInclusive;
-use tmesh::Frame;
+use tmesh::{Frame, Group};
 
 /// A body and what is wanted of it.
 pub struct Query<'a> {
@@ -24,6 +24,17 @@ pub struct Query<'a> {
     pub parallel: f64,
     /// The centre, given or that of mass, in the coordinates of the shape.
     pub centre: DVec3,
+    /// The group of the drawing, where that of the shape behind it is looked for.
+    pub drawn: Option<Drawn>,
+}
+
+/// A group about an axis that is known already.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn {
+    /// Unit direction of the axis.
+    pub axis: DVec3,
+    /// The group.
+    pub group: Group,
 }
 
 impl<'a> Query<'a> {
@@ -40,6 +51,7 @@ impl<'a> Query<'a> {
             parallel: Tolerance::new(extent, shape.precision, params.tolerance).parallel(),
             limits: Limits::new(params.tolerance, params.facets),
             centre: params.center.map_or(DVec3::ZERO, |c| shape.of_world(c)),
+            drawn: None,
         }
     }
 
@@ -56,11 +68,22 @@ impl<'a> Query<'a> {
         }
     }
 
+    /// A search for the orders asked for about one axis, by quick tests. What is behind the facets of a drawing has the
+    /// rotation of the drawing.
+    pub fn search_about(&self, axis: DVec3) -> OrderSearch<'a> {
+        let drawn = (self.drawn).filter(|d| self.same_axis(d.axis, axis));
+        OrderSearch {
+            multiples: drawn.map_or(1, |d| d.group.order),
+            ..self.search(self.orders())
+        }
+    }
+
     /// A search for orders about one axis, by quick tests.
     pub fn search(&self, orders: RangeInclusive<u32>) -> OrderSearch<'a> {
         OrderSearch {
             shape: self.shape,
             orders,
+            multiples: 1,
             limits: self.limits,
             depth: Depth::Quick,
         }

@@ -69,7 +69,9 @@ impl OrderSearch<'_> {
     /// The share `outliers` of them may be off.
     pub fn scan(&self, frame: &Frame, bound: Bound, outliers: f64) -> Vec<u32> {
         let scan = Scan::new(self.shape, frame, bound, outliers);
-        let orders: Vec<u32> = self.orders.clone().collect();
+        let orders: Vec<u32> = (self.orders.clone())
+            .filter(|n| n.is_multiple_of(self.multiples))
+            .collect();
         let misses = threads::map(&orders, |&n| scan.misses(n));
         let mut passed: Vec<(usize, u32)> = (misses.into_iter().zip(orders))
             .filter_map(|(misses, n)| Some((misses?, n)))

@@ -39,25 +39,24 @@ impl Shape {
         (permutation.get(last) == last).then_some(permutation)
     }
 
-    /// Runs `check` with regions in place; should that fail while the bare geometry passes, with the
+    /// Runs `check` with regions in place; should that fail while the bare geometry (`None`) passes, with the
     /// permutation of regions that the motion makes.
     pub fn with_permutation(
         &self,
         motion: Motion,
         bound: Bound,
-        check: impl Fn(&Permutation) -> Result<Deviation, Deviation>,
+        check: impl Fn(Option<&Permutation>) -> Result<Deviation, Deviation>,
     ) -> Result<(Deviation, Permutation), Deviation> {
         let identity = Permutation::identity(self.region_count());
-        let failed = match check(&identity) {
+        let failed = match check(Some(&identity)) {
             Ok(deviation) => return Ok((deviation, identity)),
             Err(failed) => failed,
         };
         if self.region_count() > 2
-            // What is too far from any triangle is too far from those of every permutation.
-            && (self.nearest(failed.image, 0, &Target::Any, self.most(bound))).is_some()
+            && check(None).is_ok()
             && let Some(permutation) = self.vote(&motion, self.most(bound))
             && !permutation.is_identity()
-            && let Ok(deviation) = check(&permutation)
+            && let Ok(deviation) = check(Some(&permutation))
         {
             return Ok((deviation, permutation));
         }

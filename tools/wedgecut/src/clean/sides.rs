@@ -1,6 +1,5 @@
-//! Collapsing short edges at the sides of a wedge, which a cut leaves wherever it passes points closely.
+//! Collapsing short edges at the faces of a cell, which a cut leaves wherever it passes points closely.
 
-use crate::cell::{Cell, Class, Face};
 use crate::surface::Surface;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::Triangle;
@@ -12,14 +11,12 @@ const TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// next short edge.
 const HEIGHT: f64 = 0.5;
 
-/// Joins the ends of edges shorter than `length` (model units) of which one end at least is on a side
-/// of the wedge: the cut leaves such edges wherever it passes points closely. The point on the side
-/// stays. Unlike [`super::collapse_short_edges`], for lengths at which shape matters: nothing is joined that
+/// Joins the ends of edges shorter than `length` (model units) of which one end at least is on a face
+/// of the cell, be it a side, the plane across the axis or what divides a face into images: the cut leaves such edges
+/// wherever it passes points closely. The point on the face stays. Unlike [`super::collapse_short_edges`], for lengths at which shape matters: nothing is joined that
 /// would turn a face over, flatten it, lay it into a side or pinch the surface. Returns the number of
 /// points joined.
-pub fn collapse_at_sides(surface: &mut Surface, cell: &Cell, length: f64) -> usize {
-    let sides = cell.which(Face::is_radial).fold(0, |bits, f| bits | 1 << f);
-    let on_side = |class: Class| class.bound() & sides;
+pub fn collapse_at_sides(surface: &mut Surface, length: f64) -> usize {
     let mut short: Vec<(f64, [u32; 2])> = Vec::new();
     let mut around: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
     for face in &surface.faces {
@@ -27,7 +24,7 @@ pub fn collapse_at_sides(surface: &mut Surface, cell: &Cell, length: f64) -> usi
             let (v, w) = (face.vertices[k], face.vertices[(k + 1) % 3]);
             let d = surface.points[v as usize].distance(surface.points[w as usize]);
             let classes = [v, w].map(|v| surface.classes[v as usize]);
-            if d < length && classes.iter().any(|&c| on_side(c) != 0) {
+            if d < length && classes.iter().any(|c| c.bound() != 0) {
                 short.push((d, [v.min(w), v.max(w)]));
                 around.insert(v, Vec::new());
                 around.insert(w, Vec::new());

@@ -233,7 +233,7 @@ impl Cutter<'_> {
             (near, slide) => near.min(slide),
         };
         if near > 0.0 && !self.cell.faces.is_empty() {
-            let joined = collapse_at_sides(surface, self.cell, near);
+            let joined = collapse_at_sides(surface, near);
             notes.push(format!(
                 "{joined} points within {near:.1e} of others on a cut plane joined to them"
             ));
