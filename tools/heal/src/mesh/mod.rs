@@ -4,3 +4,4 @@ mod build;
 mod skin;
 
 pub use build::build;
+pub use skin::surface;
