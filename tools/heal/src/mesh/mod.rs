@@ -5,3 +5,4 @@ mod found;
 mod skin;
 
 pub use build::build;
+pub use skin::surface;
