@@ -7,6 +7,7 @@
 mod document;
 mod error;
 mod facet;
+mod imprint;
 mod leak;
 mod meeting;
 mod mesh;

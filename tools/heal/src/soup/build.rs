@@ -1,12 +1,14 @@
 //! From polygons in groups to a document.
 
 use super::closure::open_surface;
+use super::imprinted::{imprinted, touches};
 use super::mending::Mending;
 use super::solids::label;
 use super::surface::{NONE, Surface};
 use super::tables::tables;
 use super::weld;
-use crate::document::{Imported, check_scale, document};
+use crate::document::{Imported, check_scale, document, tolerance};
+use crate::imprint::Overlap;
 use crate::words::unique_names;
 use crate::{HealError, Repair, Repairing};
 use interchange::parsed::Soup;
@@ -36,9 +38,9 @@ pub fn build(
         mending.remove_flat();
     }
     let solids = mending.tell_solids();
-    if mending.surface.groups.len() > 1 {
-        mending.merge(true)?;
-    }
+    let several = mending.surface.groups.len() > 1;
+    let apart = several.then(|| mending.surface.clone());
+    let merged = if several { mending.merge(true) } else { Ok(()) };
     let Mending {
         surface,
         edges,
@@ -62,7 +64,24 @@ pub fn build(
         return Err(HealError::BadSurface(first.refusal()));
     }
     notices.extend(repairs.iter().map(Repair::sentence));
-    let mut labels = label(&surface, &edges, solids)?;
+    let told = merged.and_then(|()| label(&surface, &edges, solids));
+    let apart = apart.as_ref().unwrap_or(&surface);
+    let tolerance = tolerance(&apart.points, relative_precision);
+    let (surface, mut labels) = match told {
+        told if repairing == Repairing::Off => (surface, told?),
+        Ok(labels) if !(labels.crosses || several && touches(apart, &tolerance)) => {
+            (surface, labels)
+        }
+        told => match imprinted(apart, &tolerance, Overlap::default(), solids) {
+            Ok(imprinted) => (imprinted.surface, imprinted.labels),
+            Err(reason) => match told {
+                Ok(labels) => (surface, labels),
+                Err(error) => {
+                    return Err(HealError::BadSurface(format!("{error}; {reason}")));
+                }
+            },
+        },
+    };
     notices.append(&mut labels.notices);
     let mut labelled = tables(surface, labels, solids);
     labelled.relative_precision = relative_precision;

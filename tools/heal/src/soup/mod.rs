@@ -3,6 +3,7 @@
 mod build;
 mod closure;
 mod coincident;
+mod imprinted;
 mod mending;
 mod needles;
 mod notices;

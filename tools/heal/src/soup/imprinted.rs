@@ -1,0 +1,172 @@
+//! Solids that cross, overlap or touch with different triangles, and those that cross themselves, with sides.
+
+use super::solids::Labels;
+use super::surface::{NONE, Surface};
+use crate::imprint::{Complex, Overlap, Settled, is_related, overlay, settle};
+use crate::meeting::meetings;
+use crate::words::{place, short};
+use geom::contacts::contacts;
+use geom::edges::Edges;
+use geom::tolerance::Tolerance;
+use interchange::text::counted;
+
+/// A surface whose triangles meet in common vertices and edges only, and the solids on its sides.
+pub struct Imprinted {
+    /// The surface.
+    pub surface: Surface,
+    /// The solids on either side of its triangles.
+    pub labels: Labels,
+}
+
+/// Makes one complex of the triangles of all solids.
+///
+/// # Errors
+/// Why that is not possible, for the end of a sentence.
+pub fn imprinted(
+    surface: &Surface,
+    tolerance: &Tolerance,
+    rule: Overlap,
+    solids: usize,
+) -> Result<Imprinted, String> {
+    let solid = &surface.solid;
+    let crosses_itself = crossing_themselves(surface, solids);
+    let overlay = overlay(complex_of(surface), solid, tolerance.equal());
+    let complex = &overlay.complex;
+    let met = meetings(&complex.points, &complex.triangles, |t| t, |_| true);
+    if let Some(first) = met.lowest {
+        let (one, many) = ("pair of triangles is left", "pairs of triangles are left");
+        return Err(format!(
+            "they could not be made one complex: {} that cross, the first at {}",
+            counted(met.count, one, many),
+            place(first.point)
+        ));
+    }
+    let Some(settled) = settle(complex, solid, &crosses_itself, rule) else {
+        return Err("what is inside them cannot be told".to_owned());
+    };
+    let notices = notices(surface, &settled, overlay.largest, solids, tolerance);
+    if rule == Overlap::Refuse
+        && let Some(first) = settled
+            .overlaps
+            .iter()
+            .find(|c| !c.nested && c.thickness > tolerance.equal())
+    {
+        return Err(format!(
+            "{} and {} overlap by a volume of {}, which --overlap refuse does not allow",
+            surface.group_name(first.loser.min(first.winner)),
+            surface.group_name(first.loser.max(first.winner)),
+            short(first.volume)
+        ));
+    }
+    Ok(Imprinted {
+        labels: labels(&settled, notices),
+        surface: sided(surface, complex, &settled),
+    })
+}
+
+fn complex_of(surface: &Surface) -> Complex {
+    Complex {
+        points: surface.points.clone(),
+        triangles: surface.triangles.clone(),
+        source: (0..surface.triangles.len() as u32).collect(),
+    }
+}
+
+/// Whether solids touch without crossing and with different triangles.
+pub fn touches(surface: &Surface, tolerance: &Tolerance) -> bool {
+    let mut complex = complex_of(surface);
+    let edges = Edges::new(&surface.triangles);
+    let solid_of = |t: u32| surface.solid[t as usize];
+    is_related(&mut complex, &edges, solid_of, tolerance.equal())
+}
+
+/// Which solids have triangles that meet away from common vertices and edges.
+fn crossing_themselves(surface: &Surface, solids: usize) -> Vec<bool> {
+    let mut crosses = vec![false; solids];
+    contacts(
+        &surface.points,
+        &surface.triangles,
+        |t| t,
+        |contact| {
+            let [a, b] = contact.triangles.map(|t| surface.solid[t as usize]);
+            if a == b {
+                crosses[a as usize] = true;
+            }
+            true
+        },
+    );
+    crosses
+}
+
+fn sided(surface: &Surface, complex: &Complex, settled: &Settled) -> Surface {
+    let of = |list: &[u32]| -> Vec<u32> {
+        let sources = settled.triangles.iter().map(|t| t.1 as usize);
+        sources.map(|s| list[s]).collect()
+    };
+    Surface {
+        points: complex.points.clone(),
+        triangles: settled.triangles.iter().map(|t| t.0).collect(),
+        group: of(&surface.group),
+        solid: settled.triangles.iter().map(|t| t.2[1]).collect(),
+        partner: settled.triangles.iter().map(|t| t.2[0]).collect(),
+        source: of(&surface.source),
+        groups: surface.groups.clone(),
+        group_word: surface.group_word,
+    }
+}
+
+fn labels(settled: &Settled, notices: Vec<String>) -> Labels {
+    Labels {
+        front: settled.triangles.iter().map(|t| t.2[0]).collect(),
+        back: settled.triangles.iter().map(|t| t.2[1]).collect(),
+        turned: vec![false; settled.triangles.len()],
+        notices,
+        crosses: false,
+    }
+}
+
+/// What was done, a sentence each.
+fn notices(
+    surface: &Surface,
+    settled: &Settled,
+    largest: f64,
+    solids: usize,
+    tolerance: &Tolerance,
+) -> Vec<String> {
+    let mut notices = Vec::new();
+    let name = |solid: u32| match solids {
+        1 => "the surface".to_owned(),
+        _ => surface.group_name(solid),
+    };
+    for &(solid, volume) in &settled.doubled {
+        notices.push(format!(
+            "{} crosses or touches itself: it is taken as the union of its parts, which have a volume of {} more than once",
+            name(solid),
+            short(volume)
+        ));
+    }
+    let interfaces = settled.triangles.iter().filter(|t| t.2[0] != NONE).count();
+    if solids > 1 {
+        let (one, many) = ("triangle is", "triangles are");
+        notices.push(format!(
+            "solids that touch with different triangles are given the same ones: {} between solids, nothing is moved by \
+             more than {}",
+            counted(interfaces, one, many),
+            short(largest)
+        ));
+    }
+    for claim in &settled.overlaps {
+        if claim.thickness <= tolerance.equal() {
+            continue;
+        }
+        let [winner, loser] = [claim.winner, claim.loser].map(name);
+        notices.push(match claim.nested {
+            true => format!("{winner} lies inside {loser}: its place is cut out of that"),
+            false => format!(
+                "{loser} and {winner} overlap by a volume of {}: {winner} has it",
+                short(claim.volume)
+            ),
+        });
+    }
+    notices
+}
