@@ -16,6 +16,7 @@ mod read;
 mod repair;
 mod shells;
 mod sides;
+mod smooth;
 mod soup;
 mod welded;
 mod words;

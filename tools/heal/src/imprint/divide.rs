@@ -1,14 +1,14 @@
-//! Division of triangles at the vertices and segments in them.
+//! Division of flat faces at the vertices and segments in them.
 
 use geom::cdt::{Cdt, CdtError, NONE};
 use glam::DVec3;
 use robust::{Coord, orient2d};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// A triangle that is to be divided.
+/// A face that is to be divided.
 pub struct Division {
-    /// Its border: corners and what lies on edges, in order.
-    pub border: Vec<u32>,
+    /// The sides of its border, each with the face on the left, seen against the normal.
+    pub border: Vec<[u32; 2]>,
     /// Vertices in the interior.
     pub inside: Vec<u32>,
     /// Segments between vertices of it.
@@ -32,10 +32,10 @@ struct Part {
 }
 
 impl Division {
-    /// The triangles that it is divided into, with the orientation of the border; nothing where it has no area.
-    /// `None` where it cannot be divided: its border crosses itself.
-    pub fn divide(&self, points: &[DVec3], parts: &mut Parts) -> Option<Vec<[u32; 3]>> {
-        let mut ids: Vec<u32> = [self.border.as_slice(), &self.inside].concat();
+    /// The parts that segments divide it into, a list of triangles each; nothing where it has no area. `None` where it
+    /// cannot be divided: its border crosses itself.
+    pub fn divide(&self, points: &[DVec3], parts: &mut Parts) -> Option<Vec<Vec<[u32; 3]>>> {
+        let mut ids: Vec<u32> = [self.border.as_flattened(), &self.inside].concat();
         ids.sort_unstable();
         ids.dedup();
         if ids.len() < 3 {
@@ -60,19 +60,15 @@ impl Division {
 
     /// Sides of the border that are there once; what is there twice, back and forth, is no border.
     fn sides(&self, local: impl Fn(u32) -> u32) -> Vec<[u32; 2]> {
-        let n = self.border.len();
         let mut odd: FxHashSet<[u32; 2]> = FxHashSet::default();
-        let mut sides = Vec::with_capacity(n);
-        for i in 0..n {
-            let side = [self.border[i], self.border[(i + 1) % n]].map(&local);
-            if side[0] != side[1] {
-                sides.push(side);
-                if !odd.insert(sorted(side)) {
-                    odd.remove(&sorted(side));
-                }
+        for side in &self.border {
+            let side = sorted(side.map(&local));
+            if side[0] != side[1] && !odd.insert(side) {
+                odd.remove(&side);
             }
         }
-        sides.retain(|s| odd.contains(&sorted(*s)));
+        let mut sides: Vec<[u32; 2]> = odd.into_iter().collect();
+        sides.sort_unstable();
         sides
     }
 
@@ -156,9 +152,9 @@ fn enclosed(cdt: &Cdt, is_border: &FxHashSet<[u32; 2]>) -> Vec<bool> {
 }
 
 /// The triangles of the parts that segments bound; a part that is known is divided as it was the first time.
-fn collect(cdt: &Cdt, inside: &[bool], ids: &[u32], parts: &mut Parts) -> Vec<[u32; 3]> {
+fn collect(cdt: &Cdt, inside: &[bool], ids: &[u32], parts: &mut Parts) -> Vec<Vec<[u32; 3]>> {
     let mut seen = vec![false; inside.len()];
-    let mut triangles = Vec::new();
+    let mut all = Vec::new();
     for first in 0..inside.len() {
         if !inside[first] || seen[first] {
             continue;
@@ -179,9 +175,9 @@ fn collect(cdt: &Cdt, inside: &[bool], ids: &[u32], parts: &mut Parts) -> Vec<[u
                 }
             }
         }
-        triangles.extend(parts.divided(part, border, used));
+        all.push(parts.divided(part, border, used));
     }
-    triangles
+    all
 }
 
 impl Parts {

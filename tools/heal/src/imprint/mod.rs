@@ -8,12 +8,16 @@
 //! they are numbers that are rounded, and what is nearer than they are certain is one. That no two triangles cross in the
 //! end is decided exactly.
 
+mod curves;
 mod divide;
+mod faces;
 mod near;
 mod overlay;
 mod relate;
 mod settle;
 
+pub use curves::Curves;
+pub use faces::{Complex, Faces};
 pub use overlay::overlay;
-pub use relate::{Complex, is_related};
+pub use relate::{Reach, is_related};
 pub use settle::{Overlap, Settled, settle};

@@ -75,17 +75,27 @@ pub fn crossing(e: [DVec3; 2], f: [DVec3; 2], within: f64) -> Option<[f64; 2]> {
         .then_some([s, t])
 }
 
-/// Where a segment passes through the interior of a triangle, farther than a distance from its edges and from the ends
-/// of the segment: the place along the segment.
-pub fn piercing(e: [DVec3; 2], t: &[DVec3; 3], within: f64) -> Option<f64> {
-    let normal = (t[1] - t[0]).cross(t[2] - t[0]);
+/// Where a segment passes through a triangle, farther than a distance from those of its edges that are on the border of a face and from
+/// the ends of the segment: the place along the segment.
+pub fn piercing(e: [DVec3; 2], t: &[DVec3; 3], border: [bool; 3], within: f64) -> Option<f64> {
+    let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero();
     let [g, h] = e.map(|p| (p - t[0]).dot(normal));
-    if g.signum() == h.signum() || g == 0.0 || h == 0.0 {
+    // What ends in the plane crosses the border of the face, or ends in it.
+    if g.signum() == h.signum() || g.abs().min(h.abs()) <= within {
         return None;
     }
     let s = g / (g - h);
     let p = e[0] + (e[1] - e[0]) * s;
-    let off = |i: usize| beside(p, t[i], t[(i + 1) % 3]).1 > within;
+    let clear_of = |i: usize| {
+        let (a, b) = (t[i], t[(i + 1) % 3]);
+        let above = (b - a).cross(p - a).dot(normal) > 0.0;
+        let near = beside(p, a, b).1 <= within;
+        if border[i] {
+            above && !near
+        } else {
+            above || near
+        }
+    };
     let clear = e.iter().all(|x| x.distance(p) > within);
-    (is_over(p, t, normal) && clear && (0..3).all(off)).then_some(s)
+    (clear && (0..3).all(clear_of)).then_some(s)
 }

@@ -1,12 +1,13 @@
 //! The rounds.
 
+use super::curves::Curves;
 use super::divide::{Division, Parts, sorted};
-use super::relate::{Complex, Relations, relate};
+use super::faces::{Complex, Faces};
+use super::relate::{Reach, Relations, relate};
 use geom::edges::Edges;
 use geom::grid::Grid;
-use geom::measure::double_area_vector;
 use geom::sets::DisjointSets;
-use geom::tree::Search;
+use geom::tree::{Search, Tree};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -27,9 +28,9 @@ pub struct Overlay {
     pub done: bool,
 }
 
-/// Divides triangles until none has anything within the distance that it does not have in common with it. `solid` has
-/// the solid of each source.
-pub fn overlay(mut complex: Complex, solid: &[u32], within: f64) -> Overlay {
+/// Divides faces until none has anything within reach that it does not have in common with it. `solid` has the solid of
+/// each source. With `curved`, what touches within facets is related in the first round.
+pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, curved: bool) -> Overlay {
     let points = complex.points.len();
     let mut overlay = Overlay {
         complex: Complex::default(),
@@ -38,12 +39,18 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64) -> Overlay {
         done: false,
     };
     let mut is_new = vec![true; complex.triangles.len()];
-    for _ in 0..ROUNDS {
+    for round in 0..ROUNDS {
         let edges = Edges::new(&complex.triangles);
+        let faces = Faces::new(&complex, &edges);
+        let curves = (curved && round == 0).then(|| Curves::new(&complex, &edges, solid));
         let before = complex.points.len();
         let source = complex.source.clone();
+        let reach = Reach {
+            equal: within,
+            curves: curves.as_ref(),
+        };
         let solid_of = |t: u32| solid[source[t as usize] as usize];
-        let mut found = relate(&mut complex, &edges, solid_of, within, |t| {
+        let mut found = relate(&mut complex, &edges, &faces, solid_of, reach, |t| {
             is_new[t as usize]
         });
         if found.is_empty() {
@@ -52,13 +59,14 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64) -> Overlay {
         }
         overlay.largest = overlay.largest.max(found.largest);
         let ids = ids(&complex.points, before, &mut found.same, within);
-        is_new = Round {
+        let round = Round {
             edges: &edges,
+            faces: &faces,
             found: &found,
             ids: &ids,
-            within,
-        }
-        .run(&mut complex);
+            within: within.max(found.largest),
+        };
+        is_new = round.run(&mut complex);
     }
     overlay.added = complex.points.len() - points;
     overlay.complex = complex;
@@ -89,59 +97,95 @@ fn ids(points: &[DVec3], before: usize, same: &mut DisjointSets, within: f64) ->
 
 struct Round<'a> {
     edges: &'a Edges,
+    faces: &'a Faces,
     found: &'a Relations,
     ids: &'a [u32],
+    /// How far apart things are that are related.
     within: f64,
 }
+
+type Sides = Vec<[u32; 2]>;
 
 impl Round<'_> {
     fn id(&self, v: u32) -> u32 {
         self.ids[v as usize]
     }
 
-    /// Divides the triangles; which of the resulting ones are new.
+    /// Divides the faces; which of the resulting triangles are new.
     fn run(&self, complex: &mut Complex) -> Vec<bool> {
         let chains = self.chains();
-        let borders = self.borders(&complex.triangles, &chains);
+        let borders: Vec<Sides> = (0..self.faces.triangles.len())
+            .map(|f| self.border(complex, f, &chains))
+            .collect();
         let inside = self.inside(&borders);
         let segments = self.segments(complex, &borders, &inside);
+        let mut related = vec![false; borders.len()];
+        for f in self.found.pairs.iter().flatten() {
+            related[*f as usize] = true;
+        }
         let mut parts = Parts::default();
         let mut divided = Complex {
             points: std::mem::take(&mut complex.points),
             ..Complex::default()
         };
         let mut is_new = Vec::new();
-        for (t, corners) in complex.triangles.iter().enumerate() {
-            let border = &borders[t];
-            let within = inside.get(&(t as u32));
-            let across = segments.get(&(t as u32));
-            let whole = border[..] == corners[..] && within.is_none() && across.is_none();
-            let list = if whole {
-                vec![*corners]
-            } else {
-                let [a, b, c] = corners.map(|v| divided.points[v as usize]);
-                let division = Division {
-                    border: border.clone(),
-                    inside: within.cloned().unwrap_or_default(),
-                    segments: across.cloned().unwrap_or_default(),
-                    normal: double_area_vector(a, b, c),
-                };
-                match division.divide(&divided.points, &mut parts) {
-                    Some(list) => list,
-                    None => vec![corners.map(|v| self.id(v))],
-                }
+        let mut count = 0;
+        for (f, triangles) in self.faces.triangles.iter().enumerate() {
+            let whole = || {
+                let ids = triangles.iter().map(|&t| complex.triangles[t as usize]);
+                vec![ids.map(|t| t.map(|v| self.id(v))).collect::<Vec<_>>()]
             };
-            for corners in list {
-                if corners[0] != corners[1] && corners[1] != corners[2] && corners[0] != corners[2]
-                {
-                    divided.triangles.push(corners);
-                    divided.source.push(complex.source[t]);
-                    is_new.push(!whole);
+            let is_whole = !related[f] && self.is_as_it_was(complex, triangles, &chains);
+            let list = if is_whole {
+                whole()
+            } else {
+                let areas = triangles.iter().map(|&t| {
+                    let [a, b, c] =
+                        complex.triangles[t as usize].map(|v| divided.points[v as usize]);
+                    (b - a).cross(c - a)
+                });
+                let key = f as u32;
+                let division = Division {
+                    normal: areas.sum(),
+                    border: borders[f].clone(),
+                    inside: inside.get(&key).cloned().unwrap_or_default(),
+                    segments: segments.get(&key).cloned().unwrap_or_default(),
+                };
+                division
+                    .divide(&divided.points, &mut parts)
+                    .unwrap_or_else(whole)
+            };
+            let source = complex.source[triangles[0] as usize];
+            for part in list {
+                for corners in part {
+                    let [a, b, c] = corners;
+                    if a != b && b != c && a != c {
+                        divided.triangles.push(corners);
+                        divided.source.push(source);
+                        divided.face.push(count);
+                        is_new.push(!is_whole);
+                    }
                 }
+                count += 1;
             }
         }
+        divided.number_faces();
         *complex = divided;
         is_new
+    }
+
+    fn is_as_it_was(
+        &self,
+        complex: &Complex,
+        triangles: &[u32],
+        chains: &[Option<Vec<u32>>],
+    ) -> bool {
+        triangles.iter().all(|&t| {
+            let edges = self.faces.edges[t as usize];
+            let corners = complex.triangles[t as usize];
+            corners.iter().all(|&v| self.id(v) == v)
+                && edges.iter().all(|&e| chains[e as usize].is_none())
+        })
     }
 
     /// Of each edge: its vertices from the lower end to the higher one.
@@ -163,89 +207,76 @@ impl Round<'_> {
         chains
     }
 
-    /// Of each triangle: the vertices of its edges, in order.
-    fn borders(&self, triangles: &[[u32; 3]], chains: &[Option<Vec<u32>>]) -> Vec<Vec<u32>> {
-        let corners = |t: &[u32; 3]| t.iter().map(|&v| self.id(v)).collect();
-        let mut sides: Vec<[Option<(u32, bool)>; 3]> = vec![[None; 3]; triangles.len()];
-        for (e, chain) in chains.iter().enumerate() {
-            if chain.is_some() {
-                for u in self.edges.around(e) {
-                    sides[u.triangle as usize][u.corner as usize] = Some((e as u32, u.forward));
+    /// The sides of a face.
+    fn border(&self, complex: &Complex, f: usize, chains: &[Option<Vec<u32>>]) -> Sides {
+        let mut sides = Sides::new();
+        for &t in &self.faces.triangles[f] {
+            let (t, corners) = (t as usize, complex.triangles[t as usize]);
+            for i in (0..3).filter(|&i| self.faces.border[t][i]) {
+                let [a, b] = [corners[i], corners[(i + 1) % 3]];
+                let e = self.faces.edges[t][i] as usize;
+                match &chains[e] {
+                    Some(chain) => sides.extend(chain.windows(2).map(|w| [w[0], w[1]])),
+                    None => sides.push([self.id(a), self.id(b)]),
                 }
             }
         }
-        let border = |(t, corners_of): (usize, &[u32; 3])| -> Vec<u32> {
-            if sides[t].iter().all(Option::is_none) {
-                return corners(corners_of);
-            }
-            let mut border = Vec::new();
-            for i in 0..3 {
-                match sides[t][i].and_then(|(e, f)| Some((chains[e as usize].as_ref()?, f))) {
-                    Some((chain, true)) => border.extend(&chain[..chain.len() - 1]),
-                    Some((chain, false)) => border.extend(chain[1..].iter().rev()),
-                    None => border.push(self.id(corners_of[i])),
-                }
-            }
-            border.dedup();
-            while border.len() > 1 && border[0] == border[border.len() - 1] {
-                border.pop();
-            }
-            border
-        };
-        triangles.iter().enumerate().map(border).collect()
+        sides.iter_mut().for_each(|s| *s = sorted(*s));
+        sides.retain(|s| s[0] != s[1]);
+        sides
     }
 
-    fn inside(&self, borders: &[Vec<u32>]) -> FxHashMap<u32, Vec<u32>> {
-        let of = self.found.inside.iter().filter_map(|(&t, list)| {
+    fn inside(&self, borders: &[Sides]) -> FxHashMap<u32, Vec<u32>> {
+        let of = self.found.inside.iter().filter_map(|(&f, list)| {
+            let border: FxHashSet<u32> = borders[f as usize].iter().flatten().copied().collect();
             let mut list: Vec<u32> = list.iter().map(|&v| self.id(v)).collect();
             list.sort_unstable();
             list.dedup();
-            list.retain(|v| !borders[t as usize].contains(v));
-            (!list.is_empty()).then_some((t, list))
+            list.retain(|v| !border.contains(v));
+            (!list.is_empty()).then_some((f, list))
         });
         of.collect()
     }
 
-    /// Of each triangle: segments across it, between vertices that it has in common with another one. Two triangles have
-    /// convex parts of planes in common: what joins two of their common vertices is in both.
+    /// Of each face: segments across it, between vertices that it has in common with another one: parts of the border
+    /// of that, or of the line in which both cross.
     fn segments(
         &self,
         complex: &Complex,
-        borders: &[Vec<u32>],
+        borders: &[Sides],
         inside: &FxHashMap<u32, Vec<u32>>,
-    ) -> FxHashMap<u32, Vec<[u32; 2]>> {
-        let mut segments: FxHashMap<u32, Vec<[u32; 2]>> = FxHashMap::default();
-        let all = |t: u32| -> FxHashSet<u32> {
-            let within = inside.get(&t).into_iter().flatten();
-            borders[t as usize].iter().chain(within).copied().collect()
+    ) -> FxHashMap<u32, Sides> {
+        let mut segments: FxHashMap<u32, Sides> = FxHashMap::default();
+        let mut trees: FxHashMap<u32, Tree> = FxHashMap::default();
+        let all = |f: u32| -> FxHashSet<u32> {
+            let within = inside.get(&f).into_iter().flatten();
+            let border = borders[f as usize].iter().flatten();
+            border.chain(within).copied().collect()
         };
-        for pair in &self.found.pairs {
+        let mut pairs: Vec<[u32; 2]> = self.found.pairs.iter().copied().collect();
+        pairs.sort_unstable();
+        for pair in pairs {
             let [first, second] = pair.map(all);
             let mut common: Vec<u32> = first.intersection(&second).copied().collect();
             if common.len() < 2 {
                 continue;
             }
             common.sort_unstable();
-            let is_common = |v: &u32| common.binary_search(v).is_ok();
-            let mut new = Vec::new();
-            for t in pair {
-                let border = &borders[*t as usize];
-                let n = border.len();
-                let sides = (0..n).map(|i| [border[i], border[(i + 1) % n]]);
-                new.extend(sides.filter(|s| s.iter().all(is_common)).map(sorted));
-            }
-            new.extend(on_line(&complex.points, &common, self.within));
-            for t in pair {
-                let border = &borders[*t as usize];
-                let n = border.len();
-                let sides: FxHashSet<[u32; 2]> = (0..n)
-                    .map(|i| sorted([border[i], border[(i + 1) % n]]))
-                    .collect();
-                for s in &new {
-                    if !sides.contains(s) {
-                        segments.entry(*t).or_default().push(*s);
-                    }
-                }
+            let line = on_line(&complex.points, &common, self.within);
+            for [own, other] in [pair, [pair[1], pair[0]]] {
+                let sides: FxHashSet<[u32; 2]> = borders[own as usize].iter().copied().collect();
+                let tree = trees.entry(own).or_insert_with(|| {
+                    let triangles = self.faces.triangles[own as usize].iter();
+                    Tree::new(triangles.map(|&t| complex.corners(t)))
+                });
+                let of_other = borders[other as usize].iter().chain(&line);
+                let across = of_other.copied().filter(|s| {
+                    let middle = 0.5 * s.map(|v| complex.points[v as usize]).iter().sum::<DVec3>();
+                    s.iter().all(|v| common.binary_search(v).is_ok())
+                        && !sides.contains(s)
+                        && tree.nearest(middle, 2.0 * self.within).is_some()
+                });
+                segments.entry(own).or_default().extend(across);
             }
         }
         for list in segments.values_mut() {

@@ -1,6 +1,6 @@
 //! Which solid each cell of the complex belongs to.
 
-use super::relate::Complex;
+use super::faces::Complex;
 use geom::cells::Cells;
 use geom::edges::Edges;
 use geom::measure::{tet_volume, triangle_area};

@@ -2,7 +2,9 @@
 
 use super::solids::Labels;
 use super::surface::{NONE, Surface};
-use crate::imprint::{Complex, Overlap, Settled, is_related, overlay, settle};
+use crate::imprint::{
+    Complex, Curves, Faces, Overlap, Reach, Settled, is_related, overlay, settle,
+};
 use crate::meeting::meetings;
 use crate::words::{place, short};
 use geom::contacts::contacts;
@@ -18,7 +20,8 @@ pub struct Imprinted {
     pub labels: Labels,
 }
 
-/// Makes one complex of the triangles of all solids.
+/// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
+/// more elsewhere, faces are divided where they cross.
 ///
 /// # Errors
 /// Why that is not possible, for the end of a sentence.
@@ -28,9 +31,27 @@ pub fn imprinted(
     rule: Overlap,
     solids: usize,
 ) -> Result<Imprinted, String> {
+    let mut reason = String::new();
+    let modes: &[bool] = if solids > 1 { &[true, false] } else { &[false] };
+    for &curved in modes {
+        match attempt(surface, tolerance, rule, (solids, curved)) {
+            Ok(imprinted) => return Ok(imprinted),
+            Err(why) => reason = why,
+        }
+    }
+    Err(reason)
+}
+
+fn attempt(
+    surface: &Surface,
+    tolerance: &Tolerance,
+    rule: Overlap,
+    (solids, curved): (usize, bool),
+) -> Result<Imprinted, String> {
     let solid = &surface.solid;
     let crosses_itself = crossing_themselves(surface, solids);
-    let overlay = overlay(complex_of(surface), solid, tolerance.equal());
+    let complex = complex_of(surface, tolerance);
+    let overlay = overlay(complex, solid, tolerance.equal(), curved);
     let complex = &overlay.complex;
     let met = meetings(&complex.points, &complex.triangles, |t| t, |_| true);
     if let Some(first) = met.lowest {
@@ -64,20 +85,31 @@ pub fn imprinted(
     })
 }
 
-fn complex_of(surface: &Surface) -> Complex {
-    Complex {
-        points: surface.points.clone(),
-        triangles: surface.triangles.clone(),
-        source: (0..surface.triangles.len() as u32).collect(),
-    }
+fn complex_of(surface: &Surface, tolerance: &Tolerance) -> Complex {
+    let alike = |s: u32, t: u32| {
+        let of = |t: u32| (surface.solid[t as usize], surface.group[t as usize]);
+        of(s) == of(t)
+    };
+    Complex::new(
+        surface.points.clone(),
+        surface.triangles.clone(),
+        tolerance.flat(),
+        alike,
+    )
 }
 
 /// Whether solids touch without crossing and with different triangles.
 pub fn touches(surface: &Surface, tolerance: &Tolerance) -> bool {
-    let mut complex = complex_of(surface);
+    let mut complex = complex_of(surface, tolerance);
     let edges = Edges::new(&surface.triangles);
+    let faces = Faces::new(&complex, &edges);
+    let curves = Curves::new(&complex, &edges, &surface.solid);
+    let reach = Reach {
+        equal: tolerance.equal(),
+        curves: Some(&curves),
+    };
     let solid_of = |t: u32| surface.solid[t as usize];
-    is_related(&mut complex, &edges, solid_of, tolerance.equal())
+    is_related(&mut complex, &edges, &faces, solid_of, reach)
 }
 
 /// Which solids have triangles that meet away from common vertices and edges.
