@@ -106,7 +106,7 @@ impl OrderSearch<'_> {
             return self.better(as_is, in_frame_for(&golden()));
         }
         let target = shape.target_in_place();
-        let candidates = self.scan(&start, bound, OUTLIERS);
+        let candidates = self.scan(&start, bound, OUTLIERS, self.multiples);
         let mut found =
             (candidates.into_iter().take(NEXT_BEST)).map(|n| in_frame_for(&powers(n, &target)));
         let found = found.find_map(|found| found);
