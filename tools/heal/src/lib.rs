@@ -4,6 +4,7 @@
 //! Points are welded, gaps of the size of rounding closed, triangles without area removed, inside and
 //! outside told apart. What cannot be repaired without guessing is an error that says where it is.
 
+mod contacts;
 mod document;
 mod error;
 mod facet;
@@ -21,6 +22,7 @@ mod soup;
 mod welded;
 mod words;
 
+pub use contacts::{Changed, Claimed, Contacts, Joined, Overlap};
 pub use document::Imported;
 pub use error::{HealError, OddEdges};
 pub use read::{read, read_with};

@@ -28,6 +28,8 @@ pub struct Patch {
 
 /// The smooth surfaces of all facets.
 pub struct Curves {
+    /// How far from the surface what touches it may be; `None` for what facets explain.
+    gap: Option<f64>,
     /// Of each triangle.
     pub patches: Vec<Patch>,
     /// Of each vertex: the other ends of sharp edges.
@@ -36,7 +38,7 @@ pub struct Curves {
 
 impl Curves {
     /// The surfaces behind the facets of solids.
-    pub fn new(complex: &Complex, edges: &Edges, solid: &[u32]) -> Self {
+    pub fn new(complex: &Complex, edges: &Edges, solid: &[u32], gap: Option<f64>) -> Self {
         let cosine = SMOOTH.cos();
         let normals: Vec<DVec3> = (0..complex.triangles.len() as u32)
             .map(|t| {
@@ -77,7 +79,11 @@ impl Curves {
             list.sort_unstable();
             list.dedup();
         }
-        Self { patches, sharp }
+        Self {
+            gap,
+            patches,
+            sharp,
+        }
     }
 
     /// How much of a feature a vertex is: 0 in a smooth surface, 1 on a sharp edge that goes on, 2 at a corner.
@@ -171,12 +177,6 @@ impl Patch {
         0.5 * over.sum::<f64>()
     }
 
-    /// How far a point may be from the patch to touch it: the patch is as uncertain as half of its height, and what is
-    /// flat is certain.
-    pub fn uncertain(&self) -> f64 {
-        0.5 * self.sagitta
-    }
-
     /// Height of a point over the facet's plane.
     pub fn height(&self, p: DVec3) -> f64 {
         (p - self.corners[0]).dot(self.normal)
@@ -189,10 +189,15 @@ impl Patch {
 }
 
 impl Curves {
+    /// How far a point may be from the surface behind a facet to touch it: that is as uncertain as half of its height
+    /// over the facet, and what is flat is certain.
+    pub fn uncertain(&self, t: u32) -> f64 {
+        self.gap.unwrap_or(0.5 * self.patches[t as usize].sagitta)
+    }
+
     /// How far from a facet's box what touches it may be.
     pub fn reach(&self, t: u32) -> f64 {
-        let patch = &self.patches[t as usize];
-        patch.sagitta + patch.uncertain()
+        self.patches[t as usize].sagitta + self.uncertain(t)
     }
 
     /// Where on a facet a vertex of another solid's facet lies, if it touches the surface behind it.
@@ -200,12 +205,12 @@ impl Curves {
         let [own, patch] = [of, t].map(|t| &self.patches[t as usize]);
         let p = complex.points[v as usize];
         let height = patch.height(p);
-        if patch.sagitta <= equal || !own.faces(patch) || height.abs() > self.reach(t) + equal {
+        if self.reach(t) <= equal || !own.faces(patch) || height.abs() > self.reach(t) + equal {
             return None;
         }
         let flat = p - patch.normal * height;
-        let at = spot(flat, &patch.corners, patch.uncertain().max(equal))?;
-        if (height - patch.over(flat)).abs() > patch.uncertain().max(equal) {
+        let at = spot(flat, &patch.corners, self.uncertain(t).max(equal))?;
+        if (height - patch.over(flat)).abs() > self.uncertain(t).max(equal) {
             return None;
         }
         let corner =
@@ -247,8 +252,12 @@ impl Curves {
         edges.around(e as usize).iter().find_map(|u| {
             let own = &self.patches[u.triangle as usize];
             let along = if u.forward { along } else { 1.0 - along };
-            own.faces(patch)
-                .then(|| (own.over_edge(u.corner as usize, along), own.uncertain()))
+            own.faces(patch).then(|| {
+                (
+                    own.over_edge(u.corner as usize, along),
+                    self.uncertain(u.triangle),
+                )
+            })
         })
     }
 }

@@ -20,4 +20,4 @@ pub use curves::Curves;
 pub use faces::{Complex, Faces};
 pub use overlay::overlay;
 pub use relate::{Reach, is_related};
-pub use settle::{Overlap, Settled, settle};
+pub use settle::{Settled, settle};

@@ -39,6 +39,18 @@ pub fn spot(p: DVec3, t: &[DVec3; 3], within: f64) -> Option<Spot> {
     is_over(p, t, normal).then_some(Spot::Inside)
 }
 
+/// Whether all of a triangle is farther than a distance from another one: over or under its plane, or beyond one of its
+/// edges. False says nothing.
+pub fn is_beside(p: &[DVec3; 3], t: &[DVec3; 3], within: f64) -> bool {
+    let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero();
+    let beyond = |from: DVec3, out: DVec3| p.iter().all(|x| (x - from).dot(out) > within);
+    let beyond_edge = |i: usize| {
+        let out = (t[(i + 1) % 3] - t[i]).cross(normal).normalize_or_zero();
+        beyond(t[i], out)
+    };
+    beyond(t[0], normal) || beyond(t[0], -normal) || (0..3).any(beyond_edge)
+}
+
 /// Whether a point lies over a triangle along its normal.
 fn is_over(p: DVec3, t: &[DVec3; 3], normal: DVec3) -> bool {
     (0..3).all(|i| (t[(i + 1) % 3] - t[i]).cross(p - t[i]).dot(normal) > 0.0)

@@ -29,8 +29,9 @@ pub struct Overlay {
 }
 
 /// Divides faces until none has anything within reach that it does not have in common with it. `solid` has the solid of
-/// each source. With `curved`, what touches within facets is related in the first round.
-pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, curved: bool) -> Overlay {
+/// each source. What touches the surfaces behind facets is related in the first round, up to a gap if one is given; a gap
+/// of zero leaves that out.
+pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, gap: Option<f64>) -> Overlay {
     let points = complex.points.len();
     let mut overlay = Overlay {
         complex: Complex::default(),
@@ -42,7 +43,8 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, curved: bool) -
     for round in 0..ROUNDS {
         let edges = Edges::new(&complex.triangles);
         let faces = Faces::new(&complex, &edges);
-        let curves = (curved && round == 0).then(|| Curves::new(&complex, &edges, solid));
+        let curved = gap != Some(0.0) && round == 0;
+        let curves = curved.then(|| Curves::new(&complex, &edges, solid, gap));
         let before = complex.points.len();
         let source = complex.source.clone();
         let reach = Reach {

@@ -2,11 +2,11 @@
 
 use super::curves::Curves;
 use super::faces::{Complex, Faces};
-use super::near::{Spot, crossing, piercing, spot};
+use super::near::{Spot, crossing, is_beside, piercing, spot};
 use geom::contacts::contact;
 use geom::edges::Edges;
 use geom::sets::DisjointSets;
-use geom::tree::{Search, pairs};
+use geom::tree::{Search, alignment, pairs};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -68,11 +68,8 @@ pub fn relate(
         complex,
         reach,
         |t| face[t as usize],
-        |s, t| {
-            if is_new(s) || is_new(t) {
-                near.push([s, t]);
-            }
-        },
+        |s, t| is_new(s) || is_new(t),
+        |s, t| near.push([s, t]),
     );
     near.sort_unstable();
     near.retain(|&[s, t]| solid_of(s) != solid_of(t) || meets(complex, s, t));
@@ -91,7 +88,11 @@ pub fn is_related(
     reach: Reach<'_>,
 ) -> bool {
     let mut near = Vec::new();
-    near_pairs(complex, reach, &solid_of, |s, t| near.push([s, t]));
+    let all = |_: u32, _: u32| true;
+    let search = near_pairs(complex, reach, &solid_of, all, |s, t| near.push([s, t]));
+    if search == Search::GaveUp {
+        return false;
+    }
     near.sort_unstable();
     let mut finder = Finder::new(complex, edges, faces, reach);
     finder.run(&near, &solid_of);
@@ -103,21 +104,33 @@ fn meets(complex: &Complex, s: u32, t: u32) -> bool {
     contact(&complex.points, p, q).is_some()
 }
 
-/// Calls `visit` with the pairs of triangles of different groups that may be within reach of each other, the lower one
-/// first.
+/// Calls `visit` with the pairs of triangles of different groups that are `wanted` and may be within reach of each
+/// other, the lower one first.
 fn near_pairs(
     complex: &Complex,
     reach: Reach<'_>,
     group: impl Fn(u32) -> u32,
+    wanted: impl Fn(u32, u32) -> bool,
     mut visit: impl FnMut(u32, u32),
 ) -> Search {
+    // Boxes only sort out pairs: those of a frame along the faces are smaller, and what turning rounds is less than the
+    // reach.
+    let frame = alignment(complex.triangles.len(), |t| complex.corners(t as u32));
     let boxes = (0..complex.triangles.len() as u32).map(|t| {
-        let [a, b, c] = complex.corners(t);
+        let [a, b, c] = (complex.corners(t)).map(|p| frame.map_or(p, |frame| frame * p));
         let reach = reach.of(t);
         [a.min(b).min(c) - reach, a.max(b).max(c) + reach]
     });
     pairs(boxes, group, |s, t| {
-        visit(s.min(t), s.max(t));
+        let (s, t) = (s.min(t), s.max(t));
+        if !wanted(s, t) {
+            return true;
+        }
+        let [p, q] = [s, t].map(|t| complex.corners(t));
+        let within = reach.of(s).max(reach.of(t));
+        if !(is_beside(&p, &q, within) || is_beside(&q, &p, within)) {
+            visit(s, t);
+        }
         true
     })
 }
@@ -359,7 +372,7 @@ impl<'a> Finder<'a> {
         {
             // A chord that dips into the facet of a surface that both stand for.
             let patch = &curves.patches[t as usize];
-            if (over + patch.over(place)).abs() <= allowed.max(patch.uncertain()).max(equal) {
+            if (over + patch.over(place)).abs() <= allowed.max(curves.uncertain(t)).max(equal) {
                 return false;
             }
         }

@@ -1,6 +1,7 @@
 //! Which solid each cell of the complex belongs to.
 
 use super::faces::Complex;
+use crate::contacts::Overlap;
 use geom::cells::Cells;
 use geom::edges::Edges;
 use geom::measure::{tet_volume, triangle_area};
@@ -9,18 +10,6 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// No solid.
 pub const NONE: u32 = u32::MAX;
-
-/// Which of two solids keeps the space that both claim, where neither lies inside the other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Overlap {
-    /// The one that the file lists later.
-    #[default]
-    Later,
-    /// The one that the file lists earlier.
-    Earlier,
-    /// None: files with such solids are refused.
-    Refuse,
-}
 
 /// Triangles with the solids on either side.
 pub struct Settled {

@@ -8,7 +8,6 @@ use super::surface::{NONE, Surface};
 use super::tables::tables;
 use super::weld;
 use crate::document::{Imported, check_scale, document, tolerance};
-use crate::imprint::Overlap;
 use crate::words::unique_names;
 use crate::{HealError, Repair, Repairing};
 use interchange::parsed::Soup;
@@ -33,7 +32,7 @@ pub fn build(
     let mut mending = Mending::new(welded(soup)?, relative_precision);
     mending.drop_collapsed()?;
     mending.merge(false)?;
-    if repairing == Repairing::Auto {
+    if repairing != Repairing::Off {
         mending.close()?;
         mending.remove_flat();
     }
@@ -67,15 +66,24 @@ pub fn build(
     let told = merged.and_then(|()| label(&surface, &edges, solids));
     let apart = apart.as_ref().unwrap_or(&surface);
     let tolerance = tolerance(&apart.points, relative_precision);
-    let (surface, mut labels) = match told {
-        told if repairing == Repairing::Off => (surface, told?),
-        Ok(labels) if !(labels.crosses || several && touches(apart, &tolerance)) => {
+    let mut joined = None;
+    let (surface, mut labels) = match (told, repairing) {
+        (told, Repairing::Off) => (surface, told?),
+        (Ok(labels), Repairing::Auto(contacts))
+            if !(labels.crosses || several && touches(apart, &tolerance, contacts)) =>
+        {
             (surface, labels)
         }
-        told => match imprinted(apart, &tolerance, Overlap::default(), solids) {
-            Ok(imprinted) => (imprinted.surface, imprinted.labels),
+        (told, Repairing::Auto(contacts)) => match imprinted(apart, &tolerance, contacts, solids) {
+            Ok(imprinted) => {
+                joined = Some(imprinted.joined);
+                (imprinted.surface, imprinted.labels)
+            }
             Err(reason) => match told {
-                Ok(labels) => (surface, labels),
+                Ok(mut labels) => {
+                    labels.notices.push(reason);
+                    (surface, labels)
+                }
                 Err(error) => {
                     return Err(HealError::BadSurface(format!("{error}; {reason}")));
                 }
@@ -87,7 +95,12 @@ pub fn build(
     labelled.relative_precision = relative_precision;
     labelled.notices = notices;
     labelled.repairs = repairs;
-    document(labelled, format)
+    let mut imported = document(labelled, format)?;
+    if let Some(joined) = &mut joined {
+        joined.tell_volumes(&imported.document);
+    }
+    imported.joined = joined;
+    Ok(imported)
 }
 
 /// The triangles of a soup by distinct points, in groups that have triangles.

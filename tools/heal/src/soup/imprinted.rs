@@ -2,13 +2,13 @@
 
 use super::solids::Labels;
 use super::surface::{NONE, Surface};
-use crate::imprint::{
-    Complex, Curves, Faces, Overlap, Reach, Settled, is_related, overlay, settle,
-};
+use crate::contacts::{Changed, Claimed, Contacts, Joined, Overlap};
+use crate::imprint::{Complex, Curves, Faces, Reach, Settled, is_related, overlay, settle};
 use crate::meeting::meetings;
 use crate::words::{place, short};
 use geom::contacts::contacts;
 use geom::edges::Edges;
+use geom::measure::tet_volume;
 use geom::tolerance::Tolerance;
 use interchange::text::counted;
 
@@ -18,6 +18,8 @@ pub struct Imprinted {
     pub surface: Surface,
     /// The solids on either side of its triangles.
     pub labels: Labels,
+    /// What was done.
+    pub joined: Joined,
 }
 
 /// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
@@ -28,13 +30,17 @@ pub struct Imprinted {
 pub fn imprinted(
     surface: &Surface,
     tolerance: &Tolerance,
-    rule: Overlap,
+    contacts: Contacts,
     solids: usize,
 ) -> Result<Imprinted, String> {
     let mut reason = String::new();
-    let modes: &[bool] = if solids > 1 { &[true, false] } else { &[false] };
-    for &curved in modes {
-        match attempt(surface, tolerance, rule, (solids, curved)) {
+    let crosses_itself = crossing_themselves(surface, solids);
+    let flat = Contacts {
+        gap: Some(0.0),
+        ..contacts
+    };
+    for contacts in [contacts, flat] {
+        match attempt(surface, tolerance, contacts, &crosses_itself) {
             Ok(imprinted) => return Ok(imprinted),
             Err(why) => reason = why,
         }
@@ -45,13 +51,12 @@ pub fn imprinted(
 fn attempt(
     surface: &Surface,
     tolerance: &Tolerance,
-    rule: Overlap,
-    (solids, curved): (usize, bool),
+    contacts: Contacts,
+    crosses_itself: &[bool],
 ) -> Result<Imprinted, String> {
     let solid = &surface.solid;
-    let crosses_itself = crossing_themselves(surface, solids);
     let complex = complex_of(surface, tolerance);
-    let overlay = overlay(complex, solid, tolerance.equal(), curved);
+    let overlay = overlay(complex, solid, tolerance.equal(), contacts.gap);
     let complex = &overlay.complex;
     let met = meetings(&complex.points, &complex.triangles, |t| t, |_| true);
     if let Some(first) = met.lowest {
@@ -62,11 +67,10 @@ fn attempt(
             place(first.point)
         ));
     }
-    let Some(settled) = settle(complex, solid, &crosses_itself, rule) else {
+    let Some(settled) = settle(complex, solid, crosses_itself, contacts.overlap) else {
         return Err("what is inside them cannot be told".to_owned());
     };
-    let notices = notices(surface, &settled, overlay.largest, solids, tolerance);
-    if rule == Overlap::Refuse
+    if contacts.overlap == Overlap::Refuse
         && let Some(first) = settled
             .overlaps
             .iter()
@@ -79,9 +83,17 @@ fn attempt(
             short(first.volume)
         ));
     }
+    let joined = joined(
+        surface,
+        &settled,
+        (overlay.largest, overlay.added),
+        tolerance,
+    );
+    let notices = notices(surface, &settled, &joined, tolerance);
     Ok(Imprinted {
         labels: labels(&settled, notices),
         surface: sided(surface, complex, &settled),
+        joined,
     })
 }
 
@@ -99,14 +111,14 @@ fn complex_of(surface: &Surface, tolerance: &Tolerance) -> Complex {
 }
 
 /// Whether solids touch without crossing and with different triangles.
-pub fn touches(surface: &Surface, tolerance: &Tolerance) -> bool {
+pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> bool {
     let mut complex = complex_of(surface, tolerance);
     let edges = Edges::new(&surface.triangles);
     let faces = Faces::new(&complex, &edges);
-    let curves = Curves::new(&complex, &edges, &surface.solid);
+    let curves = Curves::new(&complex, &edges, &surface.solid, contacts.gap);
     let reach = Reach {
         equal: tolerance.equal(),
-        curves: Some(&curves),
+        curves: (contacts.gap != Some(0.0)).then_some(&curves),
     };
     let solid_of = |t: u32| surface.solid[t as usize];
     is_related(&mut complex, &edges, &faces, solid_of, reach)
@@ -157,14 +169,55 @@ fn labels(settled: &Settled, notices: Vec<String>) -> Labels {
     }
 }
 
+/// What was done, before volumes afterwards are known.
+fn joined(
+    surface: &Surface,
+    settled: &Settled,
+    (largest, points): (f64, usize),
+    tolerance: &Tolerance,
+) -> Joined {
+    let name = |solid: u32| surface.groups[solid as usize].clone();
+    let thick = settled
+        .overlaps
+        .iter()
+        .filter(|c| c.thickness > tolerance.equal());
+    let solids = surface.solid.iter().max().map_or(0, |m| *m as usize + 1);
+    let mut before = vec![0.0; solids];
+    let origin = surface.corners(0)[0];
+    for (t, &solid) in (0..).zip(&surface.solid) {
+        let [a, b, c] = surface.corners(t);
+        before[solid as usize] += tet_volume(origin, a, b, c);
+    }
+    Joined {
+        interfaces: settled.triangles.iter().filter(|t| t.2[0] != NONE).count(),
+        largest,
+        points,
+        overlaps: thick
+            .map(|c| Claimed {
+                by: name(c.winner),
+                from: name(c.loser),
+                volume: c.volume,
+            })
+            .collect(),
+        volumes: (0_u32..)
+            .zip(before)
+            .map(|(solid, volume)| Changed {
+                name: name(solid),
+                before: volume.abs(),
+                after: 0.0,
+            })
+            .collect(),
+    }
+}
+
 /// What was done, a sentence each.
 fn notices(
     surface: &Surface,
     settled: &Settled,
-    largest: f64,
-    solids: usize,
+    joined: &Joined,
     tolerance: &Tolerance,
 ) -> Vec<String> {
+    let solids = surface.solid.iter().max().map_or(0, |m| *m as usize + 1);
     let mut notices = Vec::new();
     let name = |solid: u32| match solids {
         1 => "the surface".to_owned(),
@@ -177,14 +230,12 @@ fn notices(
             short(volume)
         ));
     }
-    let interfaces = settled.triangles.iter().filter(|t| t.2[0] != NONE).count();
-    if solids > 1 {
-        let (one, many) = ("triangle is", "triangles are");
+    if joined.interfaces > 0 {
+        let (one, many) = ("triangle", "triangles");
         notices.push(format!(
-            "solids that touch with different triangles are given the same ones: {} between solids, nothing is moved by \
-             more than {}",
-            counted(interfaces, one, many),
-            short(largest)
+            "solids that touch have the same {} there; nothing was moved by more than {}",
+            counted(joined.interfaces, one, many),
+            short(joined.largest)
         ));
     }
     for claim in &settled.overlaps {
