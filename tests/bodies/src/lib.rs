@@ -17,6 +17,7 @@ pub mod orbits;
 mod output;
 mod placement;
 pub mod random_solid;
+pub mod rounds;
 pub mod structured;
 pub mod swept;
 pub mod torn;

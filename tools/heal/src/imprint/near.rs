@@ -68,8 +68,9 @@ fn beside(p: DVec3, a: DVec3, b: DVec3) -> (f64, f64) {
     (f, p.distance(a + along * f))
 }
 
-/// Where two segments pass each other within a distance, away from the ends of both: the place along either.
-pub fn crossing(e: [DVec3; 2], f: [DVec3; 2], within: f64) -> Option<[f64; 2]> {
+/// Where two segments pass each other within a distance, farther than `clear` from the ends of both: the place along
+/// either.
+pub fn crossing(e: [DVec3; 2], f: [DVec3; 2], within: f64, clear: f64) -> Option<[f64; 2]> {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
     let normal = u.cross(v);
     let size = normal.length_squared();
@@ -82,9 +83,8 @@ pub fn crossing(e: [DVec3; 2], f: [DVec3; 2], within: f64) -> Option<[f64; 2]> {
         return None;
     }
     let (p, q) = (e[0] + u * s, f[0] + v * t);
-    let clear = |x: DVec3, ends: [DVec3; 2]| ends.iter().all(|y| x.distance(*y) > within);
-    (p.distance(q) <= within && clear(p, f) && clear(p, e) && clear(q, e) && clear(q, f))
-        .then_some([s, t])
+    let is_clear = |x: DVec3| e.iter().chain(&f).all(|y| x.distance(*y) > clear);
+    (p.distance(q) <= within && is_clear(p) && is_clear(q)).then_some([s, t])
 }
 
 /// Where a segment passes through a triangle, farther than a distance from those of its edges that are on the border of a face and from

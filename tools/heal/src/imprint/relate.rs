@@ -295,13 +295,18 @@ impl<'a> Finder<'a> {
             (along, x, y)
         };
         let equal = self.reach.equal;
-        let found = crossing(p, q, equal).map(|along| {
+        let found = crossing(p, q, equal, equal).map(|along| {
             let (along, x, y) = at(along);
             (along, 0.5 * (x + y), 0.5 * x.distance(y))
         });
         let found = found.or_else(|| {
             let curves = self.reach.curves.filter(|_| others)?;
-            let (along, x, y) = at(crossing(p, q, self.reach.of(s).max(self.reach.of(t)))?);
+            let (along, x, y) = at(crossing(
+                p,
+                q,
+                self.reach.of(s).max(self.reach.of(t)),
+                equal,
+            )?);
             let first = curves.edge_over(e, along[0], t, self.edges);
             let second = curves.edge_over(f, along[1], s, self.edges);
             let (first, second) = (first?, second?);
