@@ -175,7 +175,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Relates vertices first: edges whose ends are related do not cross.
+    /// Relates vertices first, then edges, then edges and faces: what is related already does not cross beside that.
     fn run(&mut self, near: &[[u32; 2]], solid_of: impl Fn(u32) -> u32) {
         for &[s, t] in near {
             let others = solid_of(s) != solid_of(t);
@@ -189,6 +189,13 @@ impl<'a> Finder<'a> {
                 for j in 0..3 {
                     any |= self.edges([s, t], [i, j], others);
                 }
+            }
+            self.related(any, s, t);
+        }
+        for &[s, t] in near {
+            let others = solid_of(s) != solid_of(t);
+            let mut any = false;
+            for i in 0..3 {
                 any |= self.pierce(s, i, t, others) | self.pierce(t, i, s, others);
             }
             // Faces with the same border may be cut into triangles in two ways.
@@ -381,11 +388,21 @@ impl<'a> Finder<'a> {
                 return false;
             }
         }
+        if self.reach.curves.is_some() && self.has_vertex_near(e, place, self.reach.of(s)) {
+            return false;
+        }
         let new = self.add(place);
         self.pierced.insert([e, face]);
         self.on_edge(e, along, new);
         self.inside(t, new);
         true
+    }
+
+    /// Whether a vertex that an edge will be bent to is near a place of it: then the edge will not be there.
+    fn has_vertex_near(&self, e: u32, place: DVec3, within: f64) -> bool {
+        let on = self.found.on_edge.get(&e).into_iter().flatten();
+        let mut places = on.map(|&(_, v)| self.complex.points[v as usize]);
+        places.any(|p| p.distance(place) <= within)
     }
 
     fn add(&mut self, place: DVec3) -> u32 {
