@@ -1,7 +1,7 @@
 //! From polygons in groups to a document.
 
-use super::closure::open_surface;
 use super::imprinted::{imprinted, touches};
+use super::mended::Mended;
 use super::mending::Mending;
 use super::solids::label;
 use super::surface::{NONE, Surface};
@@ -22,13 +22,26 @@ use interchange::parsed::Soup;
 /// # Errors
 /// Open surfaces; solids that overlap, cross, or touch with different triangles; with [`Repairing::Off`], surfaces that
 /// have triangles to be dropped.
-pub fn build(
-    mut soup: Soup,
-    format: &'static str,
-    repairing: Repairing,
-) -> Result<Imported, HealError> {
-    let relative_precision = soup.relative_precision;
+pub fn build(soup: Soup, format: &str, repairing: Repairing) -> Result<Imported, HealError> {
+    label_mended(mend(soup, Solids::Groups, repairing)?, format, repairing)
+}
+
+/// What the solids of a soup are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solids {
+    /// Groups, where each of them is closed.
+    Groups,
+    /// All groups together.
+    Whole,
+}
+
+/// Welds a soup, mends it and tells its solids.
+///
+/// # Errors
+/// Surfaces that stay open; with [`Repairing::Off`], surfaces that have triangles to be dropped.
+pub fn mend(mut soup: Soup, solids: Solids, repairing: Repairing) -> Result<Mended, HealError> {
     let mut notices = std::mem::take(&mut soup.notices);
+    let relative_precision = soup.relative_precision;
     let mut mending = Mending::new(welded(soup)?, relative_precision);
     mending.drop_collapsed()?;
     mending.merge(false)?;
@@ -36,34 +49,47 @@ pub fn build(
         mending.close()?;
         mending.remove_flat();
     }
-    let solids = mending.tell_solids();
-    let several = mending.surface.groups.len() > 1;
+    match solids {
+        Solids::Groups => mending.tell_solids(),
+        Solids::Whole => mending.surface.make_one_solid(),
+    }
+    if mending.surface.solids.len() < mending.surface.groups.len() {
+        mending.merge(true)?;
+    }
+    mending.check_closed()?;
+    if repairing == Repairing::Off
+        && let Some(first) = mending.repairs.first()
+    {
+        return Err(HealError::BadSurface(first.refusal()));
+    }
+    notices.extend(mending.repairs.iter().map(Repair::sentence));
+    Ok(Mended { mending, notices })
+}
+
+/// The document of a mended surface.
+///
+/// # Errors
+/// Solids that overlap, cross, or touch with different triangles.
+pub fn label_mended(
+    mended: Mended,
+    format: &str,
+    repairing: Repairing,
+) -> Result<Imported, HealError> {
+    let Mended {
+        mut mending,
+        mut notices,
+    } = mended;
+    let several = mending.surface.solids.len() > 1;
     let apart = several.then(|| mending.surface.clone());
     let merged = if several { mending.merge(true) } else { Ok(()) };
     let Mending {
         surface,
         edges,
-        odd,
         repairs,
+        relative_precision,
         ..
     } = mending;
-    if surface.triangles.is_empty() {
-        return Err(HealError::BadSurface(
-            "all its triangles cancel each other in pairs".to_owned(),
-        ));
-    }
-    if solids == 1
-        && let Some(error) = open_surface(&surface, &edges, &odd)
-    {
-        return Err(error);
-    }
-    if repairing == Repairing::Off
-        && let Some(first) = repairs.first()
-    {
-        return Err(HealError::BadSurface(first.refusal()));
-    }
-    notices.extend(repairs.iter().map(Repair::sentence));
-    let told = merged.and_then(|()| label(&surface, &edges, solids));
+    let told = merged.and_then(|()| label(&surface, &edges));
     let apart = apart.as_ref().unwrap_or(&surface);
     let tolerance = tolerance(&apart.points, relative_precision);
     let mut joined = None;
@@ -74,7 +100,7 @@ pub fn build(
         {
             (surface, labels)
         }
-        (told, Repairing::Auto(contacts)) => match imprinted(apart, &tolerance, contacts, solids) {
+        (told, Repairing::Auto(contacts)) => match imprinted(apart, &tolerance, contacts) {
             Ok(imprinted) => {
                 joined = Some(imprinted.joined);
                 (imprinted.surface, imprinted.labels)
@@ -91,7 +117,7 @@ pub fn build(
         },
     };
     notices.append(&mut labels.notices);
-    let mut labelled = tables(surface, labels, solids);
+    let mut labelled = tables(surface, labels);
     labelled.relative_precision = relative_precision;
     labelled.notices = notices;
     labelled.repairs = repairs;
@@ -116,6 +142,7 @@ fn welded(soup: Soup) -> Result<Surface, HealError> {
     check_scale(&points)?;
     let names = soup.groups.into_iter().map(|g| g.name).collect();
     let (group, groups) = used_groups(group, names);
+    let groups = unique_names(groups.iter().map(String::as_str), "region");
     Ok(Surface {
         solid: group.clone(),
         partner: vec![NONE; triangles.len()],
@@ -123,7 +150,8 @@ fn welded(soup: Soup) -> Result<Surface, HealError> {
         points,
         triangles,
         group,
-        groups: unique_names(groups.iter().map(String::as_str), "region"),
+        solids: groups.clone(),
+        groups,
         group_word: soup.group_word,
     })
 }

@@ -31,10 +31,9 @@ pub fn imprinted(
     surface: &Surface,
     tolerance: &Tolerance,
     contacts: Contacts,
-    solids: usize,
 ) -> Result<Imprinted, String> {
     let mut reason = String::new();
-    let crosses_itself = crossing_themselves(surface, solids);
+    let crosses_itself = crossing_themselves(surface);
     let flat = Contacts {
         gap: Some(0.0),
         ..contacts
@@ -78,8 +77,8 @@ fn attempt(
     {
         return Err(format!(
             "{} and {} overlap by a volume of {}, which --overlap refuse does not allow",
-            surface.group_name(first.loser.min(first.winner)),
-            surface.group_name(first.loser.max(first.winner)),
+            surface.solid_name(first.loser.min(first.winner)),
+            surface.solid_name(first.loser.max(first.winner)),
             short(first.volume)
         ));
     }
@@ -125,8 +124,8 @@ pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> 
 }
 
 /// Which solids have triangles that meet away from common vertices and edges.
-fn crossing_themselves(surface: &Surface, solids: usize) -> Vec<bool> {
-    let mut crosses = vec![false; solids];
+fn crossing_themselves(surface: &Surface) -> Vec<bool> {
+    let mut crosses = vec![false; surface.solids.len()];
     contacts(
         &surface.points,
         &surface.triangles,
@@ -155,6 +154,7 @@ fn sided(surface: &Surface, complex: &Complex, settled: &Settled) -> Surface {
         partner: settled.triangles.iter().map(|t| t.2[0]).collect(),
         source: of(&surface.source),
         groups: surface.groups.clone(),
+        solids: surface.solids.clone(),
         group_word: surface.group_word,
     }
 }
@@ -176,12 +176,12 @@ fn joined(
     (largest, points): (f64, usize),
     tolerance: &Tolerance,
 ) -> Joined {
-    let name = |solid: u32| surface.groups[solid as usize].clone();
+    let name = |solid: u32| surface.solids[solid as usize].clone();
     let thick = settled
         .overlaps
         .iter()
         .filter(|c| c.thickness > tolerance.equal());
-    let solids = surface.solid.iter().max().map_or(0, |m| *m as usize + 1);
+    let solids = surface.solids.len();
     let mut before = vec![0.0; solids];
     let origin = surface.corners(0)[0];
     for (t, &solid) in (0..).zip(&surface.solid) {
@@ -217,11 +217,11 @@ fn notices(
     joined: &Joined,
     tolerance: &Tolerance,
 ) -> Vec<String> {
-    let solids = surface.solid.iter().max().map_or(0, |m| *m as usize + 1);
+    let solids = surface.solids.len();
     let mut notices = Vec::new();
     let name = |solid: u32| match solids {
         1 => "the surface".to_owned(),
-        _ => surface.group_name(solid),
+        _ => surface.solid_name(solid),
     };
     for &(solid, volume) in &settled.doubled {
         notices.push(format!(

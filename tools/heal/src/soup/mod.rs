@@ -4,6 +4,7 @@ mod build;
 mod closure;
 mod coincident;
 mod imprinted;
+mod mended;
 mod mending;
 mod needles;
 mod notices;
@@ -13,5 +14,8 @@ mod surface;
 mod tables;
 mod weld;
 
-pub use build::build;
+pub use build::{Solids, build, label_mended, mend};
 pub use closure::odd_edges;
+pub use mended::{Mended, join};
+pub use mending::Mending;
+pub use surface::{NONE, Surface};

@@ -150,7 +150,8 @@ pub fn powers(n: u32, target: &Target) -> Vec<Canonical> {
     some_powers(n).into_iter().map(canonical).collect()
 }
 
-fn golden() -> Vec<Canonical> {
+/// A dozen rotations spread over the whole turn, for an adjustment where no order is to be preferred.
+pub fn golden() -> Vec<Canonical> {
     let canonical = |matrix| Canonical {
         matrix,
         target: Target::Any,

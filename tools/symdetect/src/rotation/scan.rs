@@ -10,7 +10,7 @@ use tmesh::{Frame, Isometry};
 
 /// Turns that tell which samples are taken off the surface by most turns; and powers of an order that a place is tried
 /// under.
-const TELLING_TURNS: usize = 4;
+pub const TELLING_TURNS: usize = 4;
 
 /// A few samples, to be tried under many orders.
 struct Scan<'a> {
