@@ -21,7 +21,7 @@ mod welded;
 mod words;
 
 pub use assembly::{Naming, Part, assemble, read_part};
-pub use document::Imported;
+pub use document::{Imported, check_scale};
 pub use error::{HealError, OddEdges};
 pub use read::{read, read_with};
 pub use repair::{Repair, RepairKind, Repairing};

@@ -20,6 +20,8 @@ struct Scan<'a> {
     places: Vec<usize>,
     /// Deviations beyond which a sample is off.
     bound: Bound,
+    /// Where images may land.
+    target: Target,
     /// Samples that may be off.
     outliers: usize,
 }
@@ -27,7 +29,8 @@ struct Scan<'a> {
 impl<'a> Scan<'a> {
     fn new(shape: &'a Shape, frame: &'a Frame, bound: Bound, outliers: f64) -> Self {
         let samples = &shape.samples.mixed;
-        let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
+        let target = shape.target_of_any_exchange();
+        let turns = golden_rotations(frame, TELLING_TURNS, target.clone());
         let misses = |i: &usize| {
             let off = |turn: &&Operation| !shape.lands(turn, &samples[*i], bound);
             turns.iter().filter(off).count()
@@ -40,10 +43,11 @@ impl<'a> Scan<'a> {
             outliers: (outliers * places.len() as f64) as usize,
             places,
             bound,
+            target,
         }
     }
 
-    /// How many samples are off under an order, if not too many for it to hold. Regions do not count here.
+    /// How many samples are off under an order, if not too many for it to hold. Regions do not count here where they may be exchanged.
     fn misses(&self, n: u32) -> Option<usize> {
         let samples = &self.shape.samples.mixed;
         let mut left = self.outliers;
@@ -55,7 +59,7 @@ impl<'a> Scan<'a> {
             } else {
                 1 + random.after(i / 2).below(n as usize - 1) as i64
             };
-            let turn = Operation::new(self.frame, Isometry::rotation(k, n), Target::Any);
+            let turn = Operation::new(self.frame, Isometry::rotation(k, n), self.target.clone());
             if !self.shape.lands(&turn, &samples[i], self.bound) {
                 left = left.checked_sub(1)?;
             }
