@@ -1,6 +1,7 @@
 //! From a mesh with labels to a document.
 
 mod build;
+mod found;
 mod skin;
 
 pub use build::build;

@@ -2,6 +2,7 @@
 
 use crate::report::defects::Defects;
 use crate::report::detection::{Detection, OrderResidual};
+use crate::report::nearly::Nearly;
 use heal::Repair;
 use kit::{InputFile, Session};
 use serde::Serialize;
@@ -33,6 +34,8 @@ pub struct Report<'a> {
     /// Further axes, and orders that do not hold.
     #[serde(flatten)]
     pub search: ReportSearch<'a>,
+    /// A rotation that nearly holds, and what breaks it; null where there is none.
+    pub nearly: Option<&'a Nearly>,
     /// How the rotation and the mirrors permute regions.
     #[serde(flatten)]
     pub permutations: ReportPermutations,
@@ -167,6 +170,7 @@ impl<'a> Report<'a> {
                 other_axes: &found.search.other_axes,
                 rejected: &found.search.rejected,
             },
+            nearly: found.nearly.as_ref(),
             permutations: ReportPermutations::of(symmetry),
             triangles: document.templates.iter().map(|t| t.triangles.len()).sum(),
             regions: (document.regions.iter())
