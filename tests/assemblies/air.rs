@@ -1,7 +1,10 @@
 //! Bodies in air.
 
 use crate::motor::{assert_regions, motor, regions};
-use bodies::{Body, Gear, HelicalGear, Material, Placement, Prism, Ratchet, Tessellation, cube};
+use bodies::{
+    AlternatingWheel, Antiprism, Body, Gear, HelicalGear, Material, Placement, Prism, Ratchet,
+    SawWheel, Tessellation, cube,
+};
 use serde_json::Value;
 use support::{EXACT_STL, encode, pipe, read, run};
 
@@ -59,7 +62,29 @@ fn a_motor_in_a_cylinder_of_air() {
 
 #[test]
 fn bodies_of_other_groups_anywhere_in_space() {
-    let bodies: [(&str, Body); 4] = [
+    let antiprism = Antiprism {
+        order: 5,
+        radius: 1.0,
+        bore: 0.4,
+        height: 0.8,
+    };
+    let [radius, bore, height] = [1.0, 0.4, 0.5];
+    let alternating = AlternatingWheel {
+        order: 4,
+        radius,
+        bore,
+        height,
+    };
+    let saw = SawWheel {
+        order: 9,
+        radius,
+        bore,
+        height,
+    };
+    let bodies: [(&str, Body); 7] = [
+        ("antiprism", antiprism.build()),
+        ("alternating", alternating.build()),
+        ("saw", saw.build()),
         (
             "ratchet",
             Ratchet {
