@@ -9,6 +9,7 @@ mod cli;
 mod error;
 mod memory;
 mod prepare;
+mod remeshed;
 mod status;
 mod surface;
 

@@ -1,0 +1,168 @@
+//! How far the shape may be from the triangles that stand for it, and how long edges are to be.
+
+use super::Patches;
+use crate::input::{Rules, Surface};
+use geom::eigen::symmetric;
+use geom::measure::triangle_area;
+use glam::{DMat3, DVec3};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// What the facets of a surface hide.
+pub struct Allowance {
+    /// Of each triangle, how far the surface may be from it.
+    pub reach: Vec<f64>,
+    /// Of each vertex, the length of edges wanted there.
+    pub size: Vec<f64>,
+}
+
+/// By how much lengths of edges grow over a distance: such that each of a row of edges is half as long again as the one
+/// before.
+const GRADING: f64 = 0.5;
+
+/// How a surface bends around a vertex, times area.
+#[derive(Clone, Copy, Default)]
+struct Bend {
+    /// Sum of turn times length times the square of direction.
+    tensor: DMat3,
+    area: f64,
+    /// Sum of the turns times length, and of their squares.
+    turn: [f64; 2],
+}
+
+impl Bend {
+    fn add(&mut self, other: &Self) {
+        self.tensor += other.tensor;
+        self.area += other.area;
+        self.turn[0] += other.turn[0];
+        self.turn[1] += other.turn[1];
+    }
+
+    /// The angle by which facets turn, and the largest curvature.
+    fn read(&self) -> (f64, f64) {
+        let Self { tensor, area, turn } = self;
+        let rows = tensor.transpose().to_cols_array_2d();
+        let values = symmetric(rows).values;
+        let largest = values.into_iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let curvature = if *area > 0.0 { largest / area } else { 0.0 };
+        let angle = if turn[0] > 0.0 {
+            turn[1] / turn[0]
+        } else {
+            0.0
+        };
+        (angle, curvature)
+    }
+}
+
+impl Allowance {
+    /// Measures a surface. A facet that turns by an angle along an arc of some curvature is as wide as their ratio, and hides
+    /// the height of that arc above its chord. n log n.
+    pub fn new(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Self {
+        let mut bends = bends(surface, rules, patches);
+        // Once more over the neighbours: needles have normals that mean nothing.
+        let mut around = vec![Bend::default(); bends.len()];
+        for t in curved(surface, patches) {
+            let corners = surface.triangles[t];
+            for v in corners {
+                for w in corners {
+                    let bend = bends[w as usize];
+                    around[v as usize].add(&bend);
+                }
+            }
+        }
+        std::mem::swap(&mut bends, &mut around);
+        let read: Vec<(f64, f64)> = bends.iter().map(Bend::read).collect();
+        let mut size = vec![f64::INFINITY; bends.len()];
+        let mut height = vec![0.0_f64; bends.len()];
+        for (v, &(angle, curvature)) in read.iter().enumerate() {
+            if curvature > 0.0 && angle > 0.0 {
+                let height_of = |length: f64| 0.125 * length * length * curvature;
+                let widest =
+                    (rules.turn / curvature).min((8.0 * rules.deviation / curvature).sqrt());
+                size[v] = widest.max(angle / curvature);
+                height[v] = height_of(size[v]);
+            }
+        }
+        let reach = |t: usize| {
+            let corners = surface.triangles[t].map(|v| height[v as usize]);
+            let largest = corners.into_iter().fold(0.0, f64::max);
+            match patches.planes[patches.of[t] as usize] {
+                Some(_) => rules.flat,
+                None => largest.min(rules.deviation).max(rules.flat),
+            }
+        };
+        Self {
+            reach: (0..surface.triangles.len()).map(reach).collect(),
+            size: graded(surface, patches, size),
+        }
+    }
+}
+
+/// Triangles that are not part of flat faces.
+fn curved(surface: &Surface, patches: &Patches) -> impl Iterator<Item = usize> {
+    let all = 0..surface.triangles.len();
+    all.filter(|&t| patches.planes[patches.of[t] as usize].is_none())
+}
+
+/// How the curved patches bend around each vertex.
+fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<Bend> {
+    let mut bends = vec![Bend::default(); surface.points.len()];
+    for t in curved(surface, patches) {
+        let [a, b, c] = surface.corners(t as u32);
+        for v in surface.triangles[t] {
+            bends[v as usize].area += triangle_area(a, b, c) / 3.0;
+        }
+    }
+    for edge in 0..patches.edges.len() {
+        let Some(both) = patches.smooth(surface, rules, edge) else {
+            continue;
+        };
+        let is_curved = |t: u32| patches.planes[patches.of[t as usize] as usize].is_none();
+        if !both.iter().any(|u| is_curved(u.triangle)) {
+            continue;
+        }
+        let turn = patches.turn(surface, both);
+        let ends = patches.edges.ends[edge];
+        let [a, b] = ends.map(|v| surface.points[v as usize]);
+        let (length, along) = (a.distance(b), (b - a).normalize_or_zero());
+        for v in ends {
+            let bend = &mut bends[v as usize];
+            bend.tensor += outer(along) * (0.5 * turn * length);
+            bend.turn[0] += turn.abs() * length;
+            bend.turn[1] += turn * turn * length;
+        }
+    }
+    bends
+}
+
+fn outer(a: DVec3) -> DMat3 {
+    DMat3::from_cols(a * a.x, a * a.y, a * a.z)
+}
+
+/// Lets sizes grow from the smaller ones.
+fn graded(surface: &Surface, patches: &Patches, mut size: Vec<f64>) -> Vec<f64> {
+    let mut at = vec![Vec::new(); size.len()];
+    for &[a, b] in &patches.edges.ends {
+        at[a as usize].push(b);
+        at[b as usize].push(a);
+    }
+    let finite = (0..size.len()).filter(|&v| size[v].is_finite());
+    let mut heap: BinaryHeap<Reverse<(u64, u32)>> = finite
+        .map(|v| Reverse((size[v].to_bits(), v as u32)))
+        .collect();
+    // Bits of positive numbers are in their order.
+    while let Some(Reverse((bits, v))) = heap.pop() {
+        if size[v as usize].to_bits() != bits {
+            continue;
+        }
+        for &w in &at[v as usize] {
+            let distance = surface.points[v as usize].distance(surface.points[w as usize]);
+            let longest = size[v as usize] + GRADING * distance;
+            if longest < size[w as usize] {
+                size[w as usize] = longest;
+                heap.push(Reverse((longest.to_bits(), w)));
+            }
+        }
+    }
+    size
+}
