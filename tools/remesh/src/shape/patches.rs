@@ -122,6 +122,7 @@ impl Patches {
         }
         let mut border = vec![0.0; count];
         let mut like = vec![0.0; count];
+        let mut smooth = vec![0.0; count];
         for edge in 0..self.edges.len() {
             let [a, b] = self.edges.ends[edge].map(|v| surface.points[v as usize]);
             let length = a.distance(b);
@@ -138,6 +139,7 @@ impl Patches {
                         let (w, x) = (width(f), width(g));
                         for (facet, like_it) in [(f, w <= 2.0 * x), (g, x <= 2.0 * w)] {
                             border[facet as usize] += length;
+                            smooth[facet as usize] += length;
                             like[facet as usize] += if like_it { length } else { 0.0 };
                         }
                     }
@@ -149,9 +151,11 @@ impl Patches {
                 }
             }
         }
-        let pairs = border.iter().zip(&like);
-        pairs
-            .map(|(border, like)| *like <= ALIKE * border)
-            .collect()
+        // A single triangle is one of the facets of whatever goes on smoothly beside it.
+        let is_face = |f: usize| match members[f].len() {
+            0..=3 => smooth[f] == 0.0,
+            _ => like[f] <= ALIKE * border[f],
+        };
+        (0..count).map(is_face).collect()
     }
 }
