@@ -8,7 +8,7 @@ pub use change::Change;
 pub use triangle::quality;
 
 use crate::input::{Rules, Surface};
-use crate::shape::{Curves, Envelope, Patches};
+use crate::shape::{Allowance, Curves, Envelope, Patches};
 use fit::Sample;
 use geom::flat::Plane;
 use glam::DVec3;
@@ -35,6 +35,8 @@ pub struct Mesh<'a> {
     pub held: Vec<bool>,
     /// Length of edges wanted at each vertex.
     pub size: Vec<f64>,
+    /// Width of the input's facets at each vertex.
+    pub width: Vec<f64>,
     /// Vertex ids; [`NONE`] three times for triangles that are gone.
     pub triangles: Vec<[u32; 3]>,
     /// Patch of each triangle.
@@ -54,7 +56,7 @@ impl<'a> Mesh<'a> {
         surface: &Surface,
         rules: Rules<'a>,
         (patches, curves): (&'a Patches, &Curves),
-        (envelope, size): (&'a Envelope, &[f64]),
+        (envelope, allowance): (&'a Envelope, &Allowance),
     ) -> Self {
         let mut around = vec![Vec::new(); surface.points.len()];
         for (t, corners) in surface.triangles.iter().enumerate() {
@@ -74,7 +76,8 @@ impl<'a> Mesh<'a> {
                 .map(|v| rules.held[v] || curves.corner[v])
                 .collect(),
             held: rules.held.to_vec(),
-            size: size.to_vec(),
+            size: allowance.size.clone(),
+            width: allowance.width.clone(),
             triangles: surface.triangles.clone(),
             patch: patches.of.clone(),
             around,
@@ -159,6 +162,11 @@ impl<'a> Mesh<'a> {
         2.0 * self.length([a, b]) / (self.size[a as usize] + self.size[b as usize])
     }
 
+    /// Length of an edge over the width of the input's facets there.
+    pub fn relative_to_drawn(&self, [a, b]: [u32; 2]) -> f64 {
+        2.0 * self.length([a, b]) / (self.width[a as usize] + self.width[b as usize])
+    }
+
     /// Quality of a triangle, from 0 to 1; 1 in flat faces, where only borders count.
     pub fn quality_of(&self, [a, b, c]: [u32; 3], patch: u32) -> f64 {
         match self.planes[patch as usize] {
@@ -199,6 +207,7 @@ impl<'a> Mesh<'a> {
         self.fixed.push(false);
         self.held.push(false);
         self.size.push(size);
+        self.width.push(size);
         self.around.push(Vec::new());
         self.points.len() as u32 - 1
     }
@@ -210,6 +219,7 @@ impl<'a> Mesh<'a> {
         self.fixed.pop();
         self.held.pop();
         self.size.pop();
+        self.width.pop();
         self.around.pop();
     }
 }

@@ -105,14 +105,14 @@ fn crossings(surface: &Surface) -> Vec<(glam::DVec3, f64)> {
 fn once(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     let patches = Patches::new(surface, rules);
     let curves = Curves::new(surface, rules, &patches);
-    let allowance = Allowance::new(surface, rules, &patches);
+    let allowance = Allowance::new(surface, rules, &patches, &curves);
     let envelope = Envelope::new(surface, &patches, &curves, &allowance);
     let active = sharp(surface, &patches);
     let mut mesh = Mesh::new(
         surface,
         *rules,
         (&patches, &curves),
-        (&envelope, &allowance.size),
+        (&envelope, &allowance),
     );
     let mut told = Told::default();
     told.collapsed += collapse_all(&mut mesh, &active, [DETAIL, DETAIL]);
@@ -167,12 +167,10 @@ fn ordered(mesh: &Mesh<'_>, wanted: impl Fn([u32; 2]) -> Option<f64>) -> Vec<[u3
 
 fn collapse_all(mesh: &mut Mesh<'_>, active: &[bool], [short, detail]: [f64; 2]) -> usize {
     let is_short = |mesh: &Mesh<'_>, edge: [u32; 2]| {
-        let limit = if is_active(mesh, active, edge) {
-            short
-        } else {
-            detail
+        let (limit, relative) = match is_active(mesh, active, edge) {
+            true => (short, mesh.relative(edge)),
+            false => (detail, mesh.relative_to_drawn(edge)),
         };
-        let relative = mesh.relative(edge);
         (relative < limit).then_some(relative)
     };
     let edges = ordered(mesh, |e| is_short(mesh, e));

@@ -1,6 +1,7 @@
 //! How far the shape may be from the triangles that stand for it, and how long edges are to be.
 
-use super::Patches;
+use super::arc::Arc;
+use super::{Curves, Patches};
 use crate::input::{Rules, Surface};
 use geom::eigen::symmetric;
 use geom::measure::triangle_area;
@@ -14,6 +15,8 @@ pub struct Allowance {
     pub reach: Vec<f64>,
     /// Of each vertex, the length of edges wanted there.
     pub size: Vec<f64>,
+    /// Of each vertex, how wide facets are there as they are drawn.
+    pub width: Vec<f64>,
 }
 
 /// By how much lengths of edges grow over a distance: such that each of a row of edges is half as long again as the one
@@ -38,26 +41,22 @@ impl Bend {
         self.turn[1] += other.turn[1];
     }
 
-    /// The angle by which facets turn, and the largest curvature.
-    fn read(&self) -> (f64, f64) {
+    /// The arc of the largest curvature.
+    fn read(&self) -> Option<Arc> {
         let Self { tensor, area, turn } = self;
         let rows = tensor.transpose().to_cols_array_2d();
         let values = symmetric(rows).values;
         let largest = values.into_iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let curvature = if *area > 0.0 { largest / area } else { 0.0 };
-        let angle = if turn[0] > 0.0 {
-            turn[1] / turn[0]
-        } else {
-            0.0
-        };
-        (angle, curvature)
+        let (angle, curvature) = (turn[1] / turn[0], largest / area);
+        let is_bent = turn[0] > 0.0 && *area > 0.0 && curvature > 0.0;
+        is_bent.then_some(Arc { angle, curvature })
     }
 }
 
 impl Allowance {
     /// Measures a surface. A facet that turns by an angle along an arc of some curvature is as wide as their ratio, and hides
     /// the height of that arc above its chord. n log n.
-    pub fn new(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Self {
+    pub fn new(surface: &Surface, rules: &Rules<'_>, patches: &Patches, curves: &Curves) -> Self {
         let mut bends = bends(surface, rules, patches);
         // Once more over the neighbours: needles have normals that mean nothing.
         let mut around = vec![Bend::default(); bends.len()];
@@ -71,16 +70,15 @@ impl Allowance {
             }
         }
         std::mem::swap(&mut bends, &mut around);
-        let read: Vec<(f64, f64)> = bends.iter().map(Bend::read).collect();
         let mut size = vec![f64::INFINITY; bends.len()];
+        let mut width = size.clone();
         let mut height = vec![0.0_f64; bends.len()];
-        for (v, &(angle, curvature)) in read.iter().enumerate() {
-            if curvature > 0.0 && angle > 0.0 {
-                let height_of = |length: f64| 0.125 * length * length * curvature;
-                let widest =
-                    (rules.turn / curvature).min((8.0 * rules.deviation / curvature).sqrt());
-                size[v] = widest.max(angle / curvature);
-                height[v] = height_of(size[v]);
+        for (v, bend) in bends.iter().enumerate() {
+            let arc = bend.read();
+            height[v] = arc.map_or(0.0, |arc| arc.height(rules));
+            for arc in arc.into_iter().chain(curves.arcs[v]) {
+                size[v] = size[v].min(arc.size(rules));
+                width[v] = width[v].min(arc.width());
             }
         }
         let reach = |t: usize| {
@@ -94,6 +92,7 @@ impl Allowance {
         Self {
             reach: (0..surface.triangles.len()).map(reach).collect(),
             size: graded(surface, patches, size),
+            width: graded(surface, patches, width),
         }
     }
 }

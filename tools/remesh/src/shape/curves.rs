@@ -1,6 +1,7 @@
 //! Curves: chains of feature edges between corners.
 
 use super::Patches;
+use super::arc::Arc;
 use crate::input::{Rules, Surface};
 use geom::sets::DisjointSets;
 use rustc_hash::FxHashMap;
@@ -20,6 +21,8 @@ pub struct Curves {
     pub corner: Vec<bool>,
     /// How far the curve may be from each feature edge.
     pub reach: Vec<f64>,
+    /// The arc that the curve follows at each vertex, if it is on one.
+    pub arcs: Vec<Option<Arc>>,
 }
 
 impl Curves {
@@ -81,6 +84,7 @@ impl Curves {
             of: Vec::with_capacity(ends.len()),
             count: 0,
             reach: Vec::new(),
+            arcs: vec![None; surface.points.len()],
             corner,
             ends,
         };
@@ -97,7 +101,8 @@ impl Curves {
         curves
     }
 
-    /// Sets how far curves may be from their chords: the height of the arc that turns at the vertices as the edges do.
+    /// Sets how far curves may be from their chords, and how long these are to be, from the arcs that they stand for: as those
+    /// of [`super::Allowance`].
     fn allow(
         &mut self,
         surface: &Surface,
@@ -108,26 +113,37 @@ impl Curves {
             let [a, b] = self.ends[i as usize].map(|v| surface.points[v as usize]);
             a.distance(b)
         };
-        let height = |v: u32| {
-            let longest = at[v as usize]
-                .iter()
-                .map(|&i| length(i))
-                .fold(0.0, f64::max);
-            match self.corner[v as usize] {
+        let own = |v: u32| -> [f64; 3] {
+            let lengths = at[v as usize].iter().map(|&i| 0.5 * length(i)).sum();
+            let turn = match self.corner[v as usize] {
                 true => 0.0,
-                false => 0.125 * turns.get(&v).copied().unwrap_or(0.0) * longest,
-            }
+                false => turns.get(&v).copied().unwrap_or(0.0),
+            };
+            [turn, turn * turn, lengths]
         };
-        let reach: Vec<f64> = self
-            .ends
-            .iter()
-            .map(|&[a, b]| {
-                height(a)
-                    .max(height(b))
+        for (v, here) in (0..).zip(at) {
+            if here.is_empty() || self.corner[v as usize] {
+                continue;
+            }
+            // Over the neighbours, too: beside a short edge turns mean nothing.
+            let beside = here.iter().flat_map(|&i| self.ends[i as usize]);
+            let sums = beside
+                .map(own)
+                .fold([0.0; 3], |[a, b, c], [x, y, z]| [a + x, b + y, c + z]);
+            let (angle, curvature) = (sums[1] / sums[0], sums[0] / sums[2]);
+            if sums[0] > 0.0 && curvature > 0.0 {
+                self.arcs[v as usize] = Some(Arc { angle, curvature });
+            }
+        }
+        self.reach = (self.ends.iter())
+            .map(|ends| {
+                let arcs = ends.iter().filter_map(|&v| self.arcs[v as usize]);
+                let heights = arcs.map(|arc| arc.height(rules));
+                heights
+                    .fold(0.0, f64::max)
                     .min(rules.deviation)
                     .max(rules.flat)
             })
             .collect();
-        self.reach = reach;
     }
 }

@@ -2,6 +2,7 @@
 //! from its facets.
 
 mod allowance;
+mod arc;
 mod curves;
 mod envelope;
 mod patches;

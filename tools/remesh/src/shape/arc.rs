@@ -1,0 +1,32 @@
+//! Arcs that facets and chords stand for.
+
+use crate::input::Rules;
+
+/// An arc that is drawn by chords.
+#[derive(Clone, Copy, Debug)]
+pub struct Arc {
+    /// The angle by which chords turn, radians.
+    pub angle: f64,
+    /// Curvature, one over length.
+    pub curvature: f64,
+}
+
+impl Arc {
+    /// Length of a chord as it is drawn.
+    pub fn width(&self) -> f64 {
+        self.angle / self.curvature
+    }
+
+    /// Length of chords that turn as far as is wanted and are as far from the arc as may be; at least as they are drawn.
+    pub fn size(&self, rules: &Rules<'_>) -> f64 {
+        let turned = rules.turn / self.curvature;
+        let near = (8.0 * rules.deviation / self.curvature).sqrt();
+        turned.min(near).max(self.width())
+    }
+
+    /// Height of the arc above such a chord.
+    pub fn height(&self, rules: &Rules<'_>) -> f64 {
+        let length = self.size(rules);
+        0.125 * length * length * self.curvature
+    }
+}
