@@ -1,7 +1,7 @@
-//! The whole document: every template with a seam gets a new surface, and what follows it the shared face.
+//! The whole document: what stands for a curved surface is remeshed, every template with a seam gets a new surface, and what follows it the shared face.
 
 use crate::SurfaceError;
-use crate::remeshed::{smoothed, tolerance};
+use crate::shape::follow_shape;
 use crate::surface::{Other, impose, make};
 use mesher::{Climb, Deadline, LADDER, Log, Params, Piece, Sizes, TetGen};
 use tmesh::{Document, Template};
@@ -15,7 +15,7 @@ pub struct Report {
     pub remade: usize,
 }
 
-/// Makes the surfaces of all templates with a seam. `log` receives details while the work goes on.
+/// Remeshes all surfaces within the deviation, and makes those of templates with a seam. `log` receives details while the work goes on.
 ///
 /// # Errors
 /// See [`SurfaceError`].
@@ -28,11 +28,23 @@ pub fn prepare(
     if tets > 0 {
         return Err(SurfaceError::AlreadyFilled(tets));
     }
+    let mut facts = follow_shape(&mut document, params, log);
+    let (document, report) = settle_faces(document, params, log)?;
+    facts.extend(report.facts);
+    Ok((document, Report { facts, ..report }))
+}
+
+/// Makes the surfaces of all templates with a seam.
+///
+/// # Errors
+/// See [`SurfaceError`].
+pub fn settle_faces(
+    mut document: Document,
+    params: &Params,
+    log: Log<'_>,
+) -> Result<(Document, Report), SurfaceError> {
     let sizes = Sizes::new(&document);
     let mut report = Report::default();
-    if params.quality {
-        follow_shape(&mut document, &mut report);
-    }
     let seams: Vec<bool> = document
         .templates
         .iter()
@@ -93,47 +105,6 @@ pub fn prepare(
         document.wishes.keep_surface = Some(true);
     }
     Ok((document, report))
-}
-
-/// Remeshes the surfaces within the deviation.
-fn follow_shape(document: &mut Document, report: &mut Report) {
-    let tolerance = tolerance(document);
-    let deviation = if tolerance.drift() > tolerance.equal() && std::env::var("NODEV").is_err() {
-        tolerance.drift()
-    } else {
-        0.0
-    };
-    if deviation <= 0.0 {
-        return;
-    }
-    for index in 0..document.templates.len() {
-        let cosine = libm::cos(30.0_f64.to_radians());
-        let lengths = (deviation, tolerance.flat());
-        let Some(smoothed) = smoothed(document, index, lengths, cosine) else {
-            continue;
-        };
-        report.facts.push(format!(
-            "template {index}: {:?}, {} triangles for {}",
-            smoothed.told,
-            smoothed.template.triangles.len(),
-            document.templates[index].triangles.len()
-        ));
-        document.templates[index] = smoothed.template;
-        for (other, template) in document.templates.iter_mut().enumerate() {
-            for gluing in &mut template.gluings {
-                if other != index && gluing.other as usize == index {
-                    for pair in &mut gluing.vertex_pairs {
-                        pair[1] = smoothed.vertices[pair[1] as usize];
-                    }
-                    for pair in &mut gluing.triangle_pairs {
-                        pair[1] = smoothed.triangles[pair[1] as usize];
-                    }
-                    gluing.sort();
-                }
-            }
-        }
-        report.remade += 1;
-    }
 }
 
 fn has_seam(template: &Template, own: usize) -> bool {

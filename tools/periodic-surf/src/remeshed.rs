@@ -1,11 +1,14 @@
 //! The surface of a template, remeshed within the deviation.
 
-use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use mesher::{Faces, Piece};
 use remesh::{Rules, Surface, Told, remesh};
 use rustc_hash::FxHashMap;
 use tmesh::{Document, FixedSet, Template, Triangle};
+
+/// Edges in a whole turn of a curved surface: as many as solvers' guides ask for at least, 30 degrees each, the angle
+/// from which on edges are features.
+const SEGMENTS: f64 = 12.0;
 
 /// The bit of the axis; mirror walls have those below.
 const AXIS: u32 = u32::BITS - 1;
@@ -22,24 +25,19 @@ pub struct Smoothed {
     pub told: Told,
 }
 
-/// What counts as equal in a document.
-pub fn tolerance(document: &Document) -> Tolerance {
-    let points = document.templates.iter().flat_map(|t| &t.vertices);
-    let points: Vec<DVec3> = points.copied().collect();
-    let extent = Extent::about(&points, DVec3::ZERO, DVec3::Z);
-    let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
-    let residual = document.symmetry.as_ref().map_or(0.0, |s| s.residual);
-    Tolerance::new(extent, precision, residual)
+/// How far a surface may move.
+pub struct Remeshing {
+    /// At most so far, model units.
+    pub deviation: f64,
+    /// Within this of a plane, triangles are in one plane, model units.
+    pub flat: f64,
+    /// Angle from which on an edge is a feature, degrees.
+    pub feature_angle: f64,
 }
 
-/// Remeshes the surface of a template by at most `deviation` (model units); glued faces stay as they are, but for mirror
-/// walls, on which vertices stay. `None` where there is nothing to do.
-pub fn smoothed(
-    document: &Document,
-    index: usize,
-    (deviation, flat): (f64, f64),
-    feature: f64,
-) -> Option<Smoothed> {
+/// Remeshes the surface of a template; glued faces stay as they are, but for mirror walls, on which vertices stay.
+/// `None` where there is nothing to do.
+pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Option<Smoothed> {
     let template = &document.templates[index];
     let faces = Faces::new(Piece::of(document, index));
     let mut labels: FxHashMap<(u32, u32, u32, u32), u32> = FxHashMap::default();
@@ -75,10 +73,10 @@ pub fn smoothed(
         held: &held,
         bound: &bound,
         onto: &onto,
-        deviation,
-        flat,
-        feature,
-        turn: std::f64::consts::TAU / std::env::var("SEGS").map_or(12.0, |s| s.parse().unwrap()),
+        deviation: remeshing.deviation,
+        flat: remeshing.flat,
+        feature: libm::cos(remeshing.feature_angle.to_radians()),
+        turn: std::f64::consts::TAU / SEGMENTS,
     };
     let done = remesh(&surface, &rules)?;
     let new = |v: u32| done.vertices[v as usize];

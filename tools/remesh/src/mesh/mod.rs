@@ -11,6 +11,7 @@ use crate::input::{Rules, Surface};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
 use fit::Sample;
 use geom::flat::Plane;
+use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -181,6 +182,27 @@ impl<'a> Mesh<'a> {
             .iter()
             .map(|&t| self.quality_of(self.triangles[t as usize], self.patch[t as usize]));
         each.fold(1.0, f64::min)
+    }
+
+    /// Facets of curved patches: sets of triangles that are coplanar with the next one.
+    pub fn facets(&self) -> Vec<u32> {
+        let mut sets = DisjointSets::new(self.triangles.len());
+        for [a, b] in self.edges() {
+            let [s, t] = self.at_edge(a, b)[..] else {
+                continue;
+            };
+            if self.patch[s as usize] == self.patch[t as usize] {
+                let [p, q] =
+                    [s, t].map(|t| self.triangles[t as usize].map(|v| self.points[v as usize]));
+                if Plane::of(p).off(q) <= self.rules.flat || Plane::of(q).off(p) <= self.rules.flat
+                {
+                    sets.join(s, t);
+                }
+            }
+        }
+        (0..self.triangles.len() as u32)
+            .map(|t| sets.find(t))
+            .collect()
     }
 
     /// Whether a triangle is there.

@@ -107,7 +107,6 @@ fn once(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     let curves = Curves::new(surface, rules, &patches);
     let allowance = Allowance::new(surface, rules, &patches, &curves);
     let envelope = Envelope::new(surface, &patches, &curves, &allowance);
-    let active = sharp(surface, &patches);
     let mut mesh = Mesh::new(
         surface,
         *rules,
@@ -115,7 +114,10 @@ fn once(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
         (&envelope, &allowance),
     );
     let mut told = Told::default();
-    told.collapsed += collapse_all(&mut mesh, &active, [DETAIL, DETAIL]);
+    // What a cut leaves of facets is gone first; then there may be nothing else to do.
+    let none = vec![false; patches.planes.len()];
+    told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL]);
+    let active = sharp(&mesh);
     told.flipped += flip_all(&mut mesh, &active);
     for round in 0..ROUNDS {
         if round + 2 < ROUNDS {
@@ -130,21 +132,24 @@ fn once(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
 }
 
 /// Whether each patch is to be remeshed: whether it has facets with sharp corners.
-fn sharp(surface: &Surface, patches: &Patches) -> Vec<bool> {
+fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
+    let facets = mesh.facets();
+    let there = || (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32));
     let mut angles: FxHashMap<(u32, u32), f64> = FxHashMap::default();
-    for (t, corners) in surface.triangles.iter().enumerate() {
-        let points = surface.corners(t as u32);
+    for t in there() {
+        let corners = mesh.triangles[t];
+        let points = corners.map(|v| mesh.points[v as usize]);
         for i in 0..3 {
             let [p, q, r] = [0, 1, 2].map(|k| points[(i + k) % 3]);
-            *angles.entry((patches.facet[t], corners[i])).or_default() +=
-                (q - p).angle_between(r - p);
+            *angles.entry((facets[t], corners[i])).or_default() += (q - p).angle_between(r - p);
         }
     }
-    let mut active = vec![false; patches.planes.len()];
-    for (t, corners) in surface.triangles.iter().enumerate() {
-        let patch = patches.of[t] as usize;
-        let is_sharp = |v: &u32| angles[&(patches.facet[t], *v)].to_degrees() < SHARP;
-        active[patch] |= patches.planes[patch].is_none() && corners.iter().any(is_sharp);
+    let mut active = vec![false; mesh.planes.len()];
+    for t in there() {
+        let patch = mesh.patch[t] as usize;
+        let is_sharp = |v: u32| angles[&(facets[t], v)].to_degrees() < SHARP;
+        active[patch] |=
+            mesh.planes[patch].is_none() && mesh.triangles[t].into_iter().any(is_sharp);
     }
     active
 }

@@ -17,11 +17,13 @@ impl Arc {
         self.angle / self.curvature
     }
 
-    /// Length of chords that turn as far as is wanted and are as far from the arc as may be; at least as they are drawn.
+    /// Length of chords that turn as far as is wanted and are as far from the arc as may be; at least as they are drawn, and
+    /// twice the deviation, as shorter ones may all be one point.
     pub fn size(&self, rules: &Rules<'_>) -> f64 {
         let turned = rules.turn / self.curvature;
         let near = (8.0 * rules.deviation / self.curvature).sqrt();
-        turned.min(near).max(self.width())
+        let drawn = self.width().max(2.0 * rules.deviation);
+        turned.min(near).max(drawn)
     }
 
     /// Height of the arc above such a chord.
