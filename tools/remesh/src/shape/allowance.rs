@@ -3,6 +3,7 @@
 use super::arc::Arc;
 use super::{Curves, Patches};
 use crate::input::{Rules, Surface};
+use geom::edges::{EdgeUse, apex_of};
 use geom::eigen::symmetric;
 use geom::measure::triangle_area;
 use glam::{DMat3, DVec3};
@@ -103,8 +104,52 @@ fn curved(surface: &Surface, patches: &Patches) -> impl Iterator<Item = usize> {
     all.filter(|&t| patches.planes[patches.of[t] as usize].is_none())
 }
 
-/// How the curved patches bend around each vertex.
+/// A fold between facets of which one at least is curved.
+struct Fold {
+    ends: [u32; 2],
+    along: DVec3,
+    length: f64,
+    turn: f64,
+    /// Width of the narrower triangle.
+    width: f64,
+}
+
+/// The folds of the curved patches.
+fn folds(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<Fold> {
+    let is_curved = |t: u32| patches.planes[patches.of[t as usize] as usize].is_none();
+    let fold = |edge: usize| {
+        let both = patches.smooth(surface, rules, edge)?;
+        let ends = patches.edges.ends[edge];
+        let [a, b] = ends.map(|v| surface.points[v as usize]);
+        let width = |u: &EdgeUse| {
+            let apex = apex_of(&surface.triangles[u.triangle as usize], u.corner);
+            let apex = surface.points[apex as usize];
+            (apex - a).cross((b - a).normalize_or_zero()).length()
+        };
+        let curved = || both.iter().filter(|u| is_curved(u.triangle));
+        curved().next()?;
+        Some(Fold {
+            ends,
+            along: (b - a).normalize_or_zero(),
+            length: a.distance(b),
+            turn: patches.turn(surface, both),
+            width: curved().map(width).fold(f64::INFINITY, f64::min),
+        })
+    };
+    (0..patches.edges.len()).filter_map(fold).collect()
+}
+
+/// How the curved patches bend around each vertex. A fold beside a triangle that is narrower than those around it moves
+/// the surface by less, and counts for less: at needles normals mean nothing.
 fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<Bend> {
+    let folds = folds(surface, rules, patches);
+    let mut widths = vec![[0.0; 2]; surface.points.len()];
+    for fold in &folds {
+        for v in fold.ends {
+            widths[v as usize][0] += fold.length * fold.width;
+            widths[v as usize][1] += fold.length;
+        }
+    }
     let mut bends = vec![Bend::default(); surface.points.len()];
     for t in curved(surface, patches) {
         let [a, b, c] = surface.corners(t as u32);
@@ -112,23 +157,16 @@ fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<Bend> {
             bends[v as usize].area += triangle_area(a, b, c) / 3.0;
         }
     }
-    for edge in 0..patches.edges.len() {
-        let Some(both) = patches.smooth(surface, rules, edge) else {
-            continue;
-        };
-        let is_curved = |t: u32| patches.planes[patches.of[t as usize] as usize].is_none();
-        if !both.iter().any(|u| is_curved(u.triangle)) {
-            continue;
-        }
-        let turn = patches.turn(surface, both);
-        let ends = patches.edges.ends[edge];
-        let [a, b] = ends.map(|v| surface.points[v as usize]);
-        let (length, along) = (a.distance(b), (b - a).normalize_or_zero());
-        for v in ends {
+    for fold in &folds {
+        let mean = fold.ends.map(|v| widths[v as usize]).into_iter();
+        let [sum, length] = mean.fold([0.0; 2], |[s, l], [x, y]| [s + x, l + y]);
+        let counts = (fold.width * length / sum).min(1.0);
+        let turn = if sum > 0.0 { counts * fold.turn } else { 0.0 };
+        for v in fold.ends {
             let bend = &mut bends[v as usize];
-            bend.tensor += outer(along) * (0.5 * turn * length);
-            bend.turn[0] += turn.abs() * length;
-            bend.turn[1] += turn * turn * length;
+            bend.tensor += outer(fold.along) * (0.5 * turn * fold.length);
+            bend.turn[0] += turn.abs() * fold.length;
+            bend.turn[1] += turn * turn * fold.length;
         }
     }
     bends
