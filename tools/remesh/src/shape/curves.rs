@@ -113,11 +113,14 @@ impl Curves {
             let [a, b] = self.ends[i as usize].map(|v| surface.points[v as usize]);
             a.distance(b)
         };
-        let own = |v: u32| -> [f64; 3] {
-            let lengths = at[v as usize].iter().map(|&i| 0.5 * length(i)).sum();
+        // A turn beside an edge that is shorter than those around it moves the curve by less, and counts for less.
+        let own = |v: u32, mean: f64| -> [f64; 3] {
+            let here = || at[v as usize].iter().map(|&i| length(i));
+            let lengths = here().map(|length| 0.5 * length).sum();
+            let counts = (here().fold(f64::INFINITY, f64::min) / mean).min(1.0);
             let turn = match self.corner[v as usize] {
                 true => 0.0,
-                false => turns.get(&v).copied().unwrap_or(0.0),
+                false => counts * turns.get(&v).copied().unwrap_or(0.0),
             };
             [turn, turn * turn, lengths]
         };
@@ -127,8 +130,11 @@ impl Curves {
             }
             // Over the neighbours, too: beside a short edge turns mean nothing.
             let beside = here.iter().flat_map(|&i| self.ends[i as usize]);
+            let lengths = here.iter().flat_map(|&i| self.ends[i as usize]);
+            let lengths = lengths.flat_map(|v| at[v as usize].iter().map(|&i| length(i)));
+            let (sum, count) = lengths.fold((0.0, 0.0), |(s, n), l| (s + l, n + 1.0));
             let sums = beside
-                .map(own)
+                .map(|v| own(v, sum / count))
                 .fold([0.0; 3], |[a, b, c], [x, y, z]| [a + x, b + y, c + z]);
             let (angle, curvature) = (sums[1] / sums[0], sums[0] / sums[2]);
             if sums[0] > 0.0 && curvature > 0.0 {
