@@ -58,10 +58,11 @@ impl Allowance {
     /// Measures a surface. A facet that turns by an angle along an arc of some curvature is as wide as their ratio, and hides
     /// the height of that arc above its chord. n log n.
     pub fn new(surface: &Surface, rules: &Rules<'_>, patches: &Patches, curves: &Curves) -> Self {
-        let mut bends = bends(surface, rules, patches);
+        let bent = bent(surface, rules, patches);
+        let mut bends = bends(surface, rules, patches, &bent);
         // Once more over the neighbours: needles have normals that mean nothing.
         let mut around = vec![Bend::default(); bends.len()];
-        for t in curved(surface, patches) {
+        for t in curved(patches, &bent) {
             let corners = surface.triangles[t];
             for v in corners {
                 for w in corners {
@@ -87,6 +88,7 @@ impl Allowance {
             let largest = corners.into_iter().fold(0.0, f64::max);
             match patches.planes[patches.of[t] as usize] {
                 Some(_) => rules.flat,
+                None if !bent[patches.of[t] as usize] => rules.deviation,
                 None => largest.min(rules.deviation).max(rules.flat),
             }
         };
@@ -98,10 +100,45 @@ impl Allowance {
     }
 }
 
-/// Triangles that are not part of flat faces.
-fn curved(surface: &Surface, patches: &Patches) -> impl Iterator<Item = usize> {
-    let all = 0..surface.triangles.len();
-    all.filter(|&t| patches.planes[patches.of[t] as usize].is_none())
+/// Of each patch, whether it bends: whether its triangles have directions that are apart by so much that, over its width, the
+/// surface is farther than the deviation from a plane. Flat faces do not.
+fn bent(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
+    let count = patches.planes.len();
+    let (mut vector, mut area, mut border) =
+        (vec![DVec3::ZERO; count], vec![0.0; count], vec![0.0; count]);
+    for (t, &patch) in patches.of.iter().enumerate() {
+        let [a, b, c] = surface.corners(t as u32);
+        area[patch as usize] += triangle_area(a, b, c);
+        vector[patch as usize] += patches.normals[t] * triangle_area(a, b, c);
+    }
+    for (edge, ends) in patches.edges.ends.iter().enumerate() {
+        let [a, b] = ends.map(|v| surface.points[v as usize]);
+        let around = patches.edges.around(edge);
+        let of = |u: &EdgeUse| patches.of[u.triangle as usize] as usize;
+        if !matches!(around, [u, v] if of(u) == of(v)) {
+            around.iter().for_each(|u| border[of(u)] += a.distance(b));
+        }
+    }
+    let mut angle = vec![0.0_f64; count];
+    for (t, &patch) in patches.of.iter().enumerate() {
+        let mean = vector[patch as usize].normalize_or_zero();
+        let normal = patches.normals[t];
+        let off = libm::atan2(mean.cross(normal).length(), mean.dot(normal));
+        angle[patch as usize] = angle[patch as usize].max(off);
+    }
+    let is_bent = |patch: usize| {
+        // The height of a roof whose sides are off by that angle. What has no border is closed, and bends.
+        let width = 4.0 * area[patch] / border[patch];
+        let rise = 0.5 * width * angle[patch];
+        patches.planes[patch].is_none() && rise.is_nan() | (rise > rules.deviation)
+    };
+    (0..count).map(is_bent).collect()
+}
+
+/// Triangles of patches that bend.
+fn curved<'a>(patches: &'a Patches, bent: &'a [bool]) -> impl Iterator<Item = usize> + 'a {
+    let all = 0..patches.of.len();
+    all.filter(|&t| bent[patches.of[t] as usize])
 }
 
 /// A fold between facets of which one at least is curved.
@@ -115,8 +152,8 @@ struct Fold {
 }
 
 /// The folds of the curved patches.
-fn folds(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<Fold> {
-    let is_curved = |t: u32| patches.planes[patches.of[t as usize] as usize].is_none();
+fn folds(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool]) -> Vec<Fold> {
+    let is_curved = |t: u32| bent[patches.of[t as usize] as usize];
     let fold = |edge: usize| {
         let both = patches.smooth(surface, rules, edge)?;
         let ends = patches.edges.ends[edge];
@@ -141,8 +178,8 @@ fn folds(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<Fold> {
 
 /// How the curved patches bend around each vertex. A fold beside a triangle that is narrower than those around it moves
 /// the surface by less, and counts for less: at needles normals mean nothing.
-fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<Bend> {
-    let folds = folds(surface, rules, patches);
+fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool]) -> Vec<Bend> {
+    let folds = folds(surface, rules, patches, bent);
     let mut widths = vec![[0.0; 2]; surface.points.len()];
     for fold in &folds {
         for v in fold.ends {
@@ -151,7 +188,7 @@ fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<Bend> {
         }
     }
     let mut bends = vec![Bend::default(); surface.points.len()];
-    for t in curved(surface, patches) {
+    for t in curved(patches, bent) {
         let [a, b, c] = surface.corners(t as u32);
         for v in surface.triangles[t] {
             bends[v as usize].area += triangle_area(a, b, c) / 3.0;
@@ -176,7 +213,7 @@ fn outer(a: DVec3) -> DMat3 {
     DMat3::from_cols(a * a.x, a * a.y, a * a.z)
 }
 
-/// Lets sizes grow from the smaller ones.
+/// Lets sizes grow from the smaller ones, at most to that of the surface.
 fn graded(surface: &Surface, patches: &Patches, mut size: Vec<f64>) -> Vec<f64> {
     let mut at = vec![Vec::new(); size.len()];
     for &[a, b] in &patches.edges.ends {
@@ -201,5 +238,9 @@ fn graded(surface: &Surface, patches: &Patches, mut size: Vec<f64>) -> Vec<f64> 
             }
         }
     }
+    let low = surface.points.iter().copied().reduce(DVec3::min);
+    let high = surface.points.iter().copied().reduce(DVec3::max);
+    let largest = low.zip(high).map_or(0.0, |(a, b)| a.distance(b));
+    size.iter_mut().for_each(|size| *size = size.min(largest));
     size
 }

@@ -26,6 +26,9 @@ pub struct Patches {
 /// is as long as wide, on a sphere, along all. A face in which roundings of its own width end would need half.
 const ALIKE: f64 = 0.25;
 
+/// Cosine of a degree: what is bent by less is the same face, however wide.
+const SHALLOW: f64 = 0.999_847_695_156_391_2;
+
 impl Patches {
     /// Divides a surface. n log n.
     pub fn new(surface: &Surface, rules: &Rules<'_>) -> Self {
@@ -137,7 +140,11 @@ impl Patches {
                     let [f, g] = [u, v].map(|u| self.facet[u.triangle as usize]);
                     if f != g {
                         let (w, x) = (width(f), width(g));
+                        let shallow = self.normals[u.triangle as usize]
+                            .dot(self.normals[v.triangle as usize])
+                            >= SHALLOW;
                         for (facet, like_it) in [(f, w <= 2.0 * x), (g, x <= 2.0 * w)] {
+                            let like_it = like_it || shallow;
                             border[facet as usize] += length;
                             smooth[facet as usize] += length;
                             like[facet as usize] += if like_it { length } else { 0.0 };
