@@ -25,7 +25,7 @@ pub struct Allowance {
 const GRADING: f64 = 0.5;
 
 /// How a surface bends around a vertex, times area.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Bend {
     /// Sum of turn times length times the square of direction.
     tensor: DMat3,
@@ -35,6 +35,13 @@ struct Bend {
 }
 
 impl Bend {
+    /// Flat, of no area.
+    const NONE: Self = Self {
+        tensor: DMat3::ZERO,
+        area: 0.0,
+        turn: [0.0; 2],
+    };
+
     fn add(&mut self, other: &Self) {
         self.tensor += other.tensor;
         self.area += other.area;
@@ -61,7 +68,7 @@ impl Allowance {
         let bent = bent(surface, rules, patches);
         let mut bends = bends(surface, rules, patches, &bent);
         // Once more over the neighbours: needles have normals that mean nothing.
-        let mut around = vec![Bend::default(); bends.len()];
+        let mut around = vec![Bend::NONE; bends.len()];
         for t in curved(patches, &bent) {
             let corners = surface.triangles[t];
             for v in corners {
@@ -187,7 +194,7 @@ fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool])
             widths[v as usize][1] += fold.length;
         }
     }
-    let mut bends = vec![Bend::default(); surface.points.len()];
+    let mut bends = vec![Bend::NONE; surface.points.len()];
     for t in curved(patches, bent) {
         let [a, b, c] = surface.corners(t as u32);
         for v in surface.triangles[t] {
