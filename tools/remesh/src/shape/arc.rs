@@ -21,14 +21,15 @@ impl Arc {
     /// twice the deviation, as shorter ones may all be one point.
     pub fn size(&self, rules: &Rules<'_>) -> f64 {
         let turned = rules.turn / self.curvature;
-        let near = (8.0 * rules.deviation / self.curvature).sqrt();
+        // Half of the deviation: the chords that are there are as far from the arc on their part.
+        let near = (4.0 * rules.deviation / self.curvature).sqrt();
         let drawn = self.width().max(2.0 * rules.deviation);
         turned.min(near).max(drawn)
     }
 
-    /// Height of the arc above such a chord.
+    /// How far such chords and those as drawn may be apart: the heights of the arc above both.
     pub fn height(&self, rules: &Rules<'_>) -> f64 {
-        let length = self.size(rules);
-        0.125 * length * length * self.curvature
+        let (new, old) = (self.size(rules), self.width());
+        0.125 * (new * new + old * old) * self.curvature
     }
 }
