@@ -159,20 +159,39 @@ fn a_file_of_a_cad_program_is_told_the_way_to_triangles() {
     );
 }
 
-/// A surface written as VTK lost its symmetry, and the next tool asked for symdetect.
+/// A surface written in another format lost its symmetry, and the next tool asked for symdetect.
 #[test]
 fn what_a_foreign_format_loses_is_said() {
     let off = b"OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
-    let said = run("symdetect", &["--to", "vtk"], off);
+    let said = run("symdetect", &["--to", "stl"], off);
     assert_eq!(said.code, 0, "{}", said.stderr);
     assert!(
         said.stderr
-            .contains("vtk holds the mesh, not the symmetry C3v"),
+            .contains("stl holds the mesh, not the symmetry C3v"),
         "{}",
         said.stderr
     );
-    let said = run("symdetect", &["-q", "--to", "vtk"], off);
+    let said = run("symdetect", &["-q", "--to", "stl"], off);
     assert_eq!(said.stderr, "");
+    // VTK and VTU keep it, but not what is asked of elements.
+    let said = run("symdetect", &["--to", "vtk"], off);
+    assert!(!said.stderr.contains("vtk holds"), "{}", said.stderr);
+    let box_with_size =
+        b"8 3 0 0\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n\
+        6 0\n1\n4 1 4 3 2\n1\n4 5 6 7 8\n1\n4 1 2 6 5\n1\n4 2 3 7 6\n1\n4 3 4 8 7\n1\n4 4 1 5 8\n\
+        0\n1\n1 0.5 0.5 0.5 1 0.01\n";
+    let said = run(
+        "symdetect",
+        &["--from", "poly", "--to", "vtk"],
+        box_with_size,
+    );
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    assert!(
+        said.stderr
+            .contains("vtk holds the mesh and its symmetry, not what is asked of the elements"),
+        "{}",
+        said.stderr
+    );
     let detected = run("symdetect", &["-q"], off).stdout;
     let said = run("wedgecut", &["--to", "vtu"], &detected);
     assert_eq!(said.code, 0, "{}", said.stderr);
@@ -182,6 +201,22 @@ fn what_a_foreign_format_loses_is_said() {
         "{}",
         said.stderr
     );
+}
+
+/// A surface that had been saved as VTK had to go through symdetect again.
+#[test]
+fn a_surface_in_vtk_is_cut_like_the_document() {
+    let off = b"OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+    let pieces = ["tmesh", "vtk", "vtu"].map(|format| {
+        let found = run("symdetect", &["--to", format], off);
+        let cut = run("wedgecut", &["--edge-length", "0.2"], &found.stdout);
+        assert_eq!(cut.code, 0, "{format}: {}", cut.stderr);
+        let document = tmesh::read(cut.stdout.as_slice()).expect("valid");
+        (document.templates, document.instances, document.symmetry)
+    });
+    assert!(pieces[0].2.is_some());
+    assert_eq!(pieces[1], pieces[0]);
+    assert_eq!(pieces[2], pieces[0]);
 }
 
 /// A folder of files that is there is written into; a file in its place is not replaced.

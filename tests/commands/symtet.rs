@@ -111,8 +111,8 @@ fn a_stage_that_fails_is_named_with_its_code() {
         (&["cube.stl"], 2, "symtet: say where the mesh goes"),
         (
             &["cube.stl", "other.stl", "-o", "x.vtu"],
-            2,
-            "symtet: one input",
+            3,
+            "cannot read other.stl",
         ),
     ];
     for (arguments, code, message) in cases {
@@ -129,5 +129,38 @@ fn a_stage_that_fails_is_named_with_its_code() {
             said(&output)
         );
         assert!(output.stdout.is_empty() && !inner.join("x.vtu").exists());
+    }
+}
+
+#[test]
+fn several_inputs_are_one_body_with_a_region_each() {
+    let (_folder, inner) = folder();
+    std::fs::write(
+        inner.join("it's two.stl"),
+        binary_stl(b"", &unit_cube([1.0, 0.0, 0.0])),
+    )
+    .expect("it can be written");
+    let cases: [(&[&str], [&str; 2]); 2] = [
+        (&["cube.stl", "it's two.stl"], ["cube", "it's two"]),
+        (
+            &["cube.stl", "--region", "copper bar=it's two.stl"],
+            ["cube", "copper bar"],
+        ),
+    ];
+    for (inputs, names) in cases {
+        let size = format!("--region={}:max-volume=0.01", names[1]);
+        let arguments = [inputs, &["-q", "-o", "out.tmesh", "--to", "tmesh", &size]].concat();
+        let output = symtet(&inner, &arguments);
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        let bytes = std::fs::read(inner.join("out.tmesh")).expect("the mesh is there");
+        let mesh = tmesh::read(bytes.as_slice()).expect("valid");
+        let found: Vec<&str> = mesh.regions.iter().map(|r| r.name.as_str()).collect();
+        assert_eq!(found, names);
+        let tets = |id| {
+            let all = mesh.templates.iter().flat_map(|t| &t.tets);
+            all.filter(|t| t.region == id).count()
+        };
+        assert!(tets(2) > 100, "the size is for the second region");
+        assert!(mesh.history[0].arguments.iter().any(|a| a.contains("two")));
     }
 }

@@ -175,8 +175,7 @@ def with_vtk(path, kind):
         a = field.GetArray(n)
         if a is None:
             return None
-        lines = bytes(vtk_to_numpy(a).astype(np.uint8)).decode().splitlines()
-        return {int(l.split(' ', 1)[0]): l.split(' ', 1)[1] for l in lines}
+        return {int(a.GetComponent(0, i)): a.GetComponentName(i) for i in range(a.GetNumberOfComponents())}
     markers = data('marker')[fat] if len(fat) else np.zeros(0, int)
     r = result(p, tets, data('region')[at], names('region_names'), tris, markers, names('marker_names'))
     if kind == 'pvtu':

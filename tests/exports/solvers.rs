@@ -1,9 +1,9 @@
-//! Meshes for solvers: SU2, I-DEAS universal files, OpenFOAM.
+//! Meshes for solvers: SU2, I-DEAS universal files, OpenFOAM; the last also judged by OpenFOAM's `checkMesh`.
 
 use crate::referee::{close, is_there, python};
-use crate::tools::{coarse_mesh, rotassemble};
+use crate::tools::{coarse_mesh, mesh, rotassemble};
 use crate::via;
-use bodies::Body;
+use bodies::{Body, Prism, Ratchet};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
@@ -157,5 +157,89 @@ fn mirror_planes_of_a_sector_are_symmetry_planes() {
     let found = read("polymesh", &case);
     for wall in ["wall-a", "wall-b"] {
         assert_eq!(found["patches"][wall]["type"], "symmetryPlane", "{found}");
+    }
+}
+
+/// The settings that `checkMesh` asks for before it looks at a mesh.
+const DICTIONARIES: [(&str, &str); 3] = [
+    (
+        "controlDict",
+        "application none;\nstartFrom startTime;\nstartTime 0;\nstopAt endTime;\nendTime 1;\ndeltaT 1;\n\
+         writeControl timeStep;\nwriteInterval 1;\n",
+    ),
+    (
+        "fvSchemes",
+        "ddtSchemes {}\ngradSchemes {}\ndivSchemes {}\nlaplacianSchemes {}\ninterpolationSchemes {}\n\
+         snGradSchemes {}\n",
+    ),
+    ("fvSolution", ""),
+];
+
+/// What `checkMesh` says of the mesh of a case; nothing where OpenFOAM is not installed, which is said.
+#[track_caller]
+fn checked(case: &Path) -> Option<String> {
+    let system = case.join("system");
+    std::fs::create_dir_all(&system).expect("a folder");
+    for (name, entries) in DICTIONARIES {
+        let head =
+            format!("FoamFile {{ version 2.0; format ascii; class dictionary; object {name}; }}");
+        std::fs::write(system.join(name), format!("{head}\n{entries}")).expect("a file");
+    }
+    let mut command = Command::new("checkMesh");
+    command.args(["-constant", "-case"]).arg(case);
+    if std::env::var_os("WM_PROJECT_DIR").is_none() {
+        // Where Debian puts what OpenFOAM's own environment would name.
+        command.env("WM_PROJECT_DIR", "/usr/share/openfoam");
+    }
+    match command.output() {
+        Ok(output) => Some(String::from_utf8_lossy(&output.stdout).into_owned()),
+        Err(error) => {
+            println!("skipped: checkMesh (package openfoam): {error}");
+            None
+        }
+    }
+}
+
+#[test]
+fn openfoam_finds_no_fault() {
+    let prism = Prism {
+        order: 8,
+        ..Prism::default()
+    }
+    .build();
+    let ratchet = Ratchet {
+        order: 12,
+        ..Ratchet::default()
+    }
+    .build();
+    for (body, options, patches) in [
+        (&prism, &[][..], &[][..]),
+        (&prism, &["--sector"], &["symmetryPlane"; 2]),
+        (&ratchet, &["--sector"], &["cyclic"; 2]),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folder = folder.path();
+        let cut = ["--hub", "none", "--horizontal-mirror", "off"];
+        let input = mesh(folder, &encode(body, EXACT_STL), &cut);
+        let document = std::fs::read(&input).expect("a file");
+        let document = tmesh::read(document.as_slice()).expect("valid");
+        let case = folder.join("case");
+        export(&input, &case.join("constant/polyMesh"), options);
+        let boundary = std::fs::read_to_string(case.join("constant/polyMesh/boundary"));
+        let boundary = boundary.expect("a file");
+        for kind in patches {
+            let count = boundary.matches(&format!(" {kind};")).count();
+            assert_eq!(count, patches.len(), "{boundary}");
+        }
+        let Some(said) = checked(&case) else { return };
+        assert!(said.contains("\nMesh OK.\n"), "{options:?}: {said}");
+        let copies = if options.is_empty() {
+            document.instances.len()
+        } else {
+            1
+        };
+        let tets = copies * document.templates[0].tets.len();
+        let cells = said.lines().find_map(|l| l.trim().strip_prefix("cells:"));
+        assert_eq!(cells.map(str::trim), Some(tets.to_string().as_str()));
     }
 }

@@ -44,6 +44,8 @@ pub struct Entry {
     pub writer: Writer,
     /// Whether it has elements of second order.
     pub second_order: bool,
+    /// Whether a body that is stored as a whole keeps the symmetry found in it.
+    pub keeps_symmetry: bool,
     /// Whether it has conditions at mirror planes, [`WriteOptions::parities`].
     pub conditions: bool,
     /// Whether elements are listed in blocks of one region, so that meshes are best sorted by region.
@@ -97,6 +99,7 @@ const NOTHING: Entry = Entry {
     read: None,
     writer: Writer::None,
     second_order: true,
+    keeps_symmetry: false,
     conditions: false,
     by_region: false,
     first_id: 0,
@@ -176,6 +179,7 @@ table! {
         sniff: Sniff::Signature(vtk::looks_like),
         read: Some(vtk::read),
         writer: Writer::Mesh(vtk::write, vtk::size_estimate),
+        keeps_symmetry: true,
     }
     /// VTK XML unstructured grid.
     Vtu {
@@ -184,6 +188,7 @@ table! {
         sniff: Sniff::Signature(vtu::looks_like),
         read: Some(vtu::read),
         writer: Writer::Mesh(vtu::write, vtu::size_estimate),
+        keeps_symmetry: true,
     }
     /// VTK XML unstructured grid in pieces, one per instance.
     Pvtu {
@@ -324,6 +329,11 @@ impl Format {
     /// Whether a file holds a document as it is, with its templates and instances.
     pub fn holds_document(self) -> bool {
         matches!(self.entry().writer, Writer::Document(_))
+    }
+
+    /// Whether a file keeps the symmetry found in a body that is stored as a whole.
+    pub fn keeps_symmetry(self) -> bool {
+        self.entry().keeps_symmetry
     }
 }
 

@@ -96,7 +96,7 @@ pub struct Marker {
 /// What the document was read from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Source {
-    /// Name of the foreign format, such as `stl`.
+    /// Name of the foreign format, such as `stl`; of several files all of theirs, such as `obj, stl`.
     pub format: String,
     /// Triangles in the input, after welding.
     pub triangles: u64,

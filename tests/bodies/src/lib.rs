@@ -16,6 +16,7 @@ pub mod meshes;
 pub mod orbits;
 mod output;
 mod placement;
+mod polar;
 pub mod random_solid;
 pub mod structured;
 pub mod swept;
@@ -27,6 +28,7 @@ pub use chance::{Dice, Random};
 pub use orbits::{AlternatingWheel, Antiprism, SawWheel};
 pub use output::{Encoding, write};
 pub use placement::Placement;
+pub use polar::{Cell, PolarGrid};
 pub use swept::{
     Coating, Gear, HelicalGear, Impeller, PracticalTsv, Prism, Ratchet, Screw, Tessellation, Tsv,
     TwistedBar, cube,

@@ -40,7 +40,7 @@ pub struct Labelled {
 ///
 /// # Errors
 /// A region without volume.
-pub fn document(labelled: Labelled, format: &'static str) -> Result<Imported, HealError> {
+pub fn document(labelled: Labelled, format: &str) -> Result<Imported, HealError> {
     let Labelled {
         mut template,
         mut regions,

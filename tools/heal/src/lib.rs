@@ -4,6 +4,7 @@
 //! Points are welded, gaps of the size of rounding closed, triangles without area removed, inside and
 //! outside told apart. What cannot be repaired without guessing is an error that says where it is.
 
+mod assembly;
 mod document;
 mod error;
 mod facet;
@@ -19,6 +20,7 @@ mod soup;
 mod welded;
 mod words;
 
+pub use assembly::{Naming, Part, assemble, read_part};
 pub use document::Imported;
 pub use error::{HealError, OddEdges};
 pub use read::{read, read_with};

@@ -29,7 +29,7 @@ pub fn read_with(
 ///
 /// # Errors
 /// Surfaces that do not bound a body.
-fn heal(parsed: Parsed, format: Format, repairing: Repairing) -> Result<Imported, HealError> {
+pub fn heal(parsed: Parsed, format: Format, repairing: Repairing) -> Result<Imported, HealError> {
     let format = format.name();
     match parsed {
         Parsed::Document(document) => Ok(Imported {

@@ -6,7 +6,7 @@ use common::*;
 use glam::DVec3;
 use interchange::Format::{self, Vtk, Vtu};
 use interchange::{promise_title, sniff, write_document};
-use tmesh::{Document, Group, Kind, OUTSIDE, Outside, Promise};
+use tmesh::{Axis, Document, Group, Kind, OUTSIDE, Outside, Promise, RegionMap, Source, Symmetry};
 
 /// Two tetrahedra of different regions, with surface and interface.
 fn two_tets() -> Document {
@@ -61,6 +61,117 @@ fn surfaces_round_trip() {
         let volumes = volumes.map(|(id, name, v)| (id, name, round(v)));
         assert_eq!(regions(&imported), volumes);
         assert!(imported.document.source.is_some());
+    }
+}
+
+/// A surface with an axis through its tip; the numbers are such that few digits do not hold them.
+fn with_symmetry() -> Document {
+    let mut document = two_tets();
+    document.templates[0].tets.clear();
+    let radius = 0.61_f64.sqrt();
+    document.symmetry = Some(Symmetry {
+        group: Group::new(Kind::Cv, 1),
+        axis: Axis {
+            point: [0.1 + 0.2, 1.0 / 3.0, 1e-300],
+            direction: [0.0, 0.0, 1.0],
+        },
+        reference: [0.8, 0.6, 0.0],
+        residual: 1.0 / 7e9,
+        tolerance: 1e-3,
+        axisymmetric: false,
+        radius,
+        regions: vec![RegionMap {
+            pairs: vec![[0, 7], [7, 0]],
+        }],
+    });
+    let symmetry = document.symmetry.as_mut().unwrap();
+    let origin = DVec3::from_array(symmetry.axis.point);
+    let distances = document.templates[0].vertices.iter();
+    let distances = distances.map(|p| (*p - origin).truncate().length());
+    symmetry.radius = distances.fold(0.0, f64::max);
+    document.source = Some(Source {
+        sector_of: None,
+        format: "stl".to_owned(),
+        triangles: 7,
+        volume: 1.7 / 6.0,
+        boundary_area: 1.0,
+        precision: 1.0 / 3e7,
+    });
+    document
+}
+
+#[test]
+fn the_symmetry_of_a_surface_comes_back() {
+    let document = with_symmetry();
+    assert_eq!(tmesh::validate(&document), []);
+    for format in [Vtk, Vtu] {
+        let back = good(&written(&document, format), format);
+        assert_eq!(back.notices, Vec::<String>::new());
+        assert_eq!(back.document.symmetry, document.symmetry);
+        // The surface is known no better than in the file that it came from.
+        let precision = |d: &Document| d.source.as_ref().map(|s| s.precision);
+        assert_eq!(precision(&back.document), precision(&document));
+    }
+}
+
+/// Other programs move, scale and cut meshes and leave the symmetry beside them as it was.
+#[test]
+fn the_symmetry_of_a_surface_that_was_changed_is_ignored() {
+    let unchanged = with_symmetry();
+    let moved = |motion: fn(DVec3) -> DVec3| {
+        let mut document = unchanged.clone();
+        let vertices = &mut document.templates[0].vertices;
+        vertices.iter_mut().for_each(|p| *p = motion(*p));
+        document
+    };
+    let mut more = unchanged.clone();
+    let symmetry = more.symmetry.as_mut().unwrap();
+    symmetry.regions.push(symmetry.regions[0].clone());
+    let mut bent = unchanged.clone();
+    bent.symmetry.as_mut().unwrap().reference = [0.0, 0.6, 0.8];
+    for (document, part) in [
+        (moved(|p| 1.01 * p), "the surface has been changed since"),
+        (
+            moved(|p| p + DVec3::X),
+            "the surface has been changed since",
+        ),
+        (more, "C1v"),
+        (bent, "symmetry"),
+    ] {
+        for format in [Vtk, Vtu] {
+            let back = good(&written(&document, format), format);
+            assert_eq!(back.document.symmetry, None, "{part}");
+            let [notice] = &back.notices[..] else {
+                panic!("{:?}", back.notices)
+            };
+            assert!(notice.contains("symdetect can find it anew"), "{notice}");
+            assert!(notice.contains(part), "{notice}");
+        }
+    }
+    let broken = written(&unchanged, Vtk);
+    let broken = replaced(&broken, b"{\"group\":", b"{\"grupp\":");
+    let back = good(&broken, Vtk);
+    assert_eq!(back.document.symmetry, None);
+    assert_eq!(
+        back.notices,
+        ["its array 'symmetry' is not as expected: ignored"]
+    );
+}
+
+/// Names are words of other formats, and parts of tags.
+#[test]
+fn names_of_all_letters_come_back() {
+    let mut document = two_tets();
+    let names = ["50 % \"Kupfer\" & <Öl>", "a=b;c'd/%41"];
+    for (region, name) in document.regions.iter_mut().zip(names) {
+        region.name = name.to_owned();
+    }
+    document.markers[0].name = "METADATA".to_owned();
+    document.markers[1].name = "POINTS 4 double".to_owned();
+    for format in [Vtk, Vtu] {
+        let back = good(&written(&document, format), format).document;
+        assert_eq!(back.regions, document.regions);
+        assert_eq!(back.markers, document.markers);
     }
 }
 

@@ -1,7 +1,7 @@
-//! Reading the one input document.
+//! Reading what a tool works on.
 
 use crate::args::inputs;
-use crate::{Failure, Session};
+use crate::{Failure, InputFile, Session};
 use heal::{HealError, Imported, Repairing};
 use interchange::{Format, sniff};
 use std::fs::File;
@@ -12,20 +12,16 @@ use tmesh::{DecodeError, Document};
 impl Session {
     /// Fails where there is nothing to read: no file is named, and standard input is a terminal.
     pub(crate) fn check_input(&self) -> Result<(), Failure> {
-        if self.input_path().is_none() && std::io::stdin().is_terminal() {
+        let from_stream = self.inputs.iter().any(InputFile::is_standard_input);
+        if (from_stream || self.inputs.is_empty()) && std::io::stdin().is_terminal() {
             return Err(Failure::Usage(
                 "no input: name a file, or pipe a mesh into standard input (see --help)".to_owned(),
             ));
         }
-        Ok(())
+        self.check_names()
     }
 
-    fn input_path(&self) -> Option<&Path> {
-        let path = self.common.input.as_deref();
-        path.filter(|p| *p != Path::new("-"))
-    }
-
-    /// Reads the input named on the command line, whatever its format.
+    /// Reads the inputs named on the command line, whatever their formats.
     pub fn read(&self) -> Result<Document, Failure> {
         self.read_with(Repairing::Auto)
     }
@@ -33,11 +29,15 @@ impl Session {
     /// The same, where the caller says whether a surface may be repaired.
     pub fn read_with(&self, repairing: Repairing) -> Result<Document, Failure> {
         self.check_input()?;
-        let document = match self.input_path() {
-            Some(path) => self.read_file(path, self.common.from, repairing)?,
-            None => self
-                .read_from(std::io::stdin().lock(), (None, self.common.from), repairing)
-                .map_err(|text| Failure::Input(format!("standard input: {text}")))?,
+        let document = match &self.inputs[..] {
+            [] => self.read_stream(repairing)?,
+            [input] if input.region.is_none() && input.is_standard_input() => {
+                self.read_stream(repairing)?
+            }
+            [input] if input.region.is_none() => {
+                self.read_file(&input.path, self.common.from, repairing)?
+            }
+            _ => self.read_several(repairing)?,
         };
         let (vertices, triangles, tets) = document.templates.iter().fold((0, 0, 0), |n, t| {
             (
@@ -57,12 +57,22 @@ impl Session {
         self.read_file(path, None, Repairing::Auto)
     }
 
+    fn read_stream(&self, repairing: Repairing) -> Result<Document, Failure> {
+        self.read_from(std::io::stdin().lock(), (None, self.common.from), repairing)
+            .map_err(|text| Failure::Input(format!("standard input: {text}")))
+    }
+
     fn read_file(
         &self,
         path: &Path,
         from: Option<Format>,
         repairing: Repairing,
     ) -> Result<Document, Failure> {
+        self.read_from(self.open(path)?, (Some(path), from), repairing)
+            .map_err(|text| Failure::Input(format!("{}: {text}", path.display())))
+    }
+
+    pub(crate) fn open(&self, path: &Path) -> Result<File, Failure> {
         let name = path.display();
         let open = |e: std::io::Error| Failure::Input(format!("cannot read {name}: {e}"));
         let file = File::open(path).map_err(open)?;
@@ -71,8 +81,7 @@ impl Session {
                 "cannot read {name}: it is a directory"
             )));
         }
-        self.read_from(file, (Some(path), from), repairing)
-            .map_err(|text| Failure::Input(format!("{name}: {text}")))
+        Ok(file)
     }
 
     fn read_from(
@@ -82,23 +91,7 @@ impl Session {
         repairing: Repairing,
     ) -> Result<Document, String> {
         let mut input = BufReader::new(input);
-        let mut head = Vec::new();
-        let read = |e: std::io::Error| format!("cannot read: {e}");
-        // What the buffer holds tells the format: it is more than the comments before the first telling line of text.
-        let buffer = input.capacity() as u64;
-        (&mut input)
-            .take(buffer)
-            .read_to_end(&mut head)
-            .map_err(read)?;
-        if head.is_empty() {
-            return Err(DecodeError::Empty.to_string());
-        }
-        let format = match from.or_else(|| sniff(&head, path)) {
-            Some(format) => format,
-            None => {
-                return Err(unrecognized(&head, path));
-            }
-        };
+        let (mut head, format) = recognized(&mut input, (path, from))?;
         if format == Format::Tmesh {
             let (document, chunks) =
                 tmesh::read_with_chunks(head.as_slice().chain(input)).map_err(|e| e.to_string())?;
@@ -106,7 +99,7 @@ impl Session {
             let _ = self.read.set(chunks);
             return Ok(document);
         }
-        input.read_to_end(&mut head).map_err(read)?;
+        input.read_to_end(&mut head).map_err(unreadable)?;
         let imported = heal::read_with(&head, format, repairing).map_err(|error| {
             let text = error.to_string();
             if let HealError::NotClosed { edges, .. } = error {
@@ -114,6 +107,23 @@ impl Session {
             }
             text
         })?;
+        Ok(self.accept(imported))
+    }
+
+    /// All bytes of an input, and its format.
+    pub(crate) fn read_all(
+        &self,
+        input: impl Read,
+        path: Option<&Path>,
+    ) -> Result<(Vec<u8>, Format), String> {
+        let mut input = BufReader::new(input);
+        let (mut bytes, format) = recognized(&mut input, (path, self.common.from))?;
+        input.read_to_end(&mut bytes).map_err(unreadable)?;
+        Ok((bytes, format))
+    }
+
+    /// Tells and keeps what there is to say about what was read.
+    pub(crate) fn accept(&self, imported: Imported) -> Document {
         let Imported {
             document,
             notices,
@@ -124,7 +134,32 @@ impl Session {
         }
         let _ = self.notices.set(notices);
         let _ = self.repairs.set(repairs);
-        Ok(document)
+        document
+    }
+}
+
+fn unreadable(e: std::io::Error) -> String {
+    format!("cannot read: {e}")
+}
+
+/// The first bytes of an input, and the format that they or its name show.
+fn recognized(
+    input: &mut BufReader<impl Read>,
+    (path, from): (Option<&Path>, Option<Format>),
+) -> Result<(Vec<u8>, Format), String> {
+    let mut head = Vec::new();
+    // What the buffer holds tells the format: it is more than the comments before the first telling line of text.
+    let buffer = input.capacity() as u64;
+    input
+        .take(buffer)
+        .read_to_end(&mut head)
+        .map_err(unreadable)?;
+    if head.is_empty() {
+        return Err(DecodeError::Empty.to_string());
+    }
+    match from.or_else(|| sniff(&head, path)) {
+        Some(format) => Ok((head, format)),
+        None => Err(unrecognized(&head, path)),
     }
 }
 

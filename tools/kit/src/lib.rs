@@ -5,6 +5,7 @@
 mod args;
 mod failure;
 mod input;
+mod inputs;
 mod messages;
 mod output;
 mod run;
@@ -16,6 +17,7 @@ mod wishes;
 pub use args::CommonArgs;
 pub use failure::Failure;
 pub use geom::number::{about, grouped, number, point};
+pub use inputs::InputFile;
 pub use messages::MessageFormat;
 pub use output::{Closed, Output};
 pub use run::{Command, main};

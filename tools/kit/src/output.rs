@@ -272,6 +272,16 @@ impl Session {
                  tool needs tmesh"
             ));
         } else if let Some(symmetry) = &document.symmetry {
+            if format.keeps_symmetry() && document.is_plain() {
+                let sized = document.regions.iter().any(|r| r.max_volume.is_some());
+                if sized || !document.wishes.is_empty() {
+                    self.note(&format!(
+                        "{name} holds the mesh and its symmetry, not what is asked of the elements: the next tool \
+                         is to be told, or to get tmesh"
+                    ));
+                }
+                return;
+            }
             self.note(&format!(
                 "{name} holds the mesh, not the symmetry {} that was found: it is for looking at, and the next \
                  tool needs tmesh",

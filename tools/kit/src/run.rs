@@ -1,7 +1,7 @@
 //! The frame around a tool's run.
 
 use crate::messages::{Level, say, usage_sentence};
-use crate::{CommonArgs, Failure, MessageFormat, Session, unfinished};
+use crate::{CommonArgs, Failure, InputFile, MessageFormat, Session, unfinished};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
@@ -9,6 +9,13 @@ use std::process::ExitCode;
 pub trait Command: clap::Parser {
     /// The options every tool has.
     fn common(&self) -> &CommonArgs;
+
+    /// What is read, in this order; nothing for standard input. With several, or with a name for a region, they are one
+    /// body.
+    fn inputs(&self) -> Vec<InputFile> {
+        let input = self.common().input.iter().cloned();
+        input.map(InputFile::unnamed).collect()
+    }
 
     /// Does the work.
     fn run(self, session: &Session) -> Result<(), Failure>;
@@ -37,7 +44,7 @@ pub fn main<C: Command>() -> ExitCode {
         }
     };
     let name = C::command().get_name().to_owned();
-    let session = Session::new(&name, cli.common().clone(), &arguments);
+    let session = Session::new(&name, (cli.common().clone(), cli.inputs()), &arguments);
     let form = cli.common().message_format;
     std::panic::set_hook(Box::new({
         let name = name.clone();

@@ -1,7 +1,7 @@
 //! One run of a tool: its name, its options, and the way it talks to the user.
 
 use crate::messages::{self, Level};
-use crate::{CommonArgs, MessageFormat};
+use crate::{CommonArgs, InputFile, MessageFormat};
 use heal::{OddEdges, Repair};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::ffi::OsString;
@@ -15,6 +15,7 @@ pub struct Session {
     name: String,
     arguments: Vec<String>,
     pub(crate) common: CommonArgs,
+    pub(crate) inputs: Vec<InputFile>,
     begun: Instant,
     /// Chunks of the input, when it was a document.
     pub(crate) read: OnceLock<Vec<ChunkInfo>>,
@@ -27,7 +28,11 @@ pub struct Session {
 }
 
 impl Session {
-    pub(crate) fn new(name: &str, common: CommonArgs, arguments: &[OsString]) -> Self {
+    pub(crate) fn new(
+        name: &str,
+        (common, inputs): (CommonArgs, Vec<InputFile>),
+        arguments: &[OsString],
+    ) -> Self {
         let arguments = arguments
             .iter()
             .skip(1)
@@ -37,6 +42,7 @@ impl Session {
             name: name.to_owned(),
             arguments,
             common,
+            inputs,
             begun: Instant::now(),
             read: OnceLock::new(),
             notices: OnceLock::new(),
@@ -63,6 +69,11 @@ impl Session {
     /// The edges that kept the input from being read, when its surface is not closed.
     pub fn odd_edges(&self) -> Option<&OddEdges> {
         self.odd_edges.get()
+    }
+
+    /// What is read, in this order; nothing for standard input.
+    pub fn inputs(&self) -> &[InputFile] {
+        &self.inputs
     }
 
     /// The tool's name.

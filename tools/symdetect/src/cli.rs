@@ -7,7 +7,7 @@ use crate::report::{Defects, Detection, FailureReport, Report, svg};
 use crate::threads;
 use glam::DVec3;
 use heal::Repairing;
-use kit::{Command, CommonArgs, Failure, Output, Session, ThreadArgs};
+use kit::{Command, CommonArgs, Failure, InputFile, Output, Session, ThreadArgs};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use tmesh::{Document, MAX_TURN_DENOMINATOR};
@@ -18,7 +18,10 @@ Examples:
   symdetect part.stl --report part.json     and write what was found as JSON
   symdetect part.stl --svg part.svg         and draw it; -v prints a table of all orders
   symdetect --order 12 part.stl | wedgecut  insist on order 12
-  symdetect --axis 0,0,1 --center 5,0,0 part.stl";
+  symdetect --axis 0,0,1 --center 5,0,0 part.stl
+  symdetect rotor.stl magnets.stl shaft.obj -o motor.tmesh
+                                            several files are one body, a region for each
+  symdetect --region steel=rotor.stl --region copper=coils.obj";
 
 /// Find the axis, order and mirror planes of a body
 ///
@@ -30,6 +33,14 @@ Examples:
 pub struct Cli {
     #[command(flatten)]
     common: CommonArgs,
+
+    /// Further files, which are one body with the first: a region for each file, named after it, or for each of its solids
+    #[arg(value_name = "MORE")]
+    more: Vec<PathBuf>,
+
+    /// A further file, all of it one region of this name; may be repeated
+    #[arg(long, value_name = "NAME=FILE", value_parser = InputFile::named)]
+    region: Vec<InputFile>,
 
     /// Largest deviation from symmetry, relative to the radius about the axis; auto: 1e-3 and, place by place, what
     /// the facets of curved surfaces hide
@@ -194,11 +205,23 @@ impl Cli {
         (defects.unwrap_or_default(), found)
     }
 
+    /// The names of the files.
+    fn title(&self) -> String {
+        let inputs = self.inputs();
+        let names = inputs.iter().filter_map(|input| input.path.file_name());
+        let names: Vec<_> = names.map(|name| name.to_string_lossy()).collect();
+        match names.is_empty() {
+            true => "body".to_owned(),
+            false => names.join(", "),
+        }
+    }
+
     /// Writes the report of a failure; what goes wrong with that is only told.
     fn report_failure(&self, failure: &Failure, defects: &Defects, session: &Session) {
         let Some(path) = &self.report else { return };
         let report = FailureReport {
             error: failure.to_string(),
+            files: session.inputs().iter().map(InputFile::label).collect(),
             defects,
             input: session.notices(),
         };
@@ -211,6 +234,12 @@ impl Cli {
 impl Command for Cli {
     fn common(&self) -> &CommonArgs {
         &self.common
+    }
+
+    fn inputs(&self) -> Vec<InputFile> {
+        let paths = self.common.input.iter().chain(&self.more);
+        let unnamed = paths.cloned().map(InputFile::unnamed);
+        unnamed.chain(self.region.iter().cloned()).collect()
     }
 
     fn run(self, session: &Session) -> Result<(), Failure> {
@@ -251,9 +280,7 @@ impl Command for Cli {
             )?;
         }
         if let Some(path) = &self.svg {
-            let input = self.common.input.as_deref().and_then(Path::file_name);
-            let title = input.map_or("body".into(), |n| n.to_string_lossy());
-            write_text(path, &svg(&document, &found, &title))?;
+            write_text(path, &svg(&document, &found, &self.title()))?;
         }
         document.symmetry = Some(found.symmetry);
         document.search = Some(found.search);

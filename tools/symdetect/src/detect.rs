@@ -46,7 +46,8 @@ fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, 
     query.limits.facets = false;
     let mut outcome = search(&query, log);
     let is_round = outcome.found.as_ref().is_some_and(|f| f.axisymmetric);
-    if query.params.facets && query.facets_hide_something() && !is_round {
+    let hidden = query.params.facets && query.facets_hide_something();
+    if hidden && !is_round {
         log("the shape behind the facets is looked at");
         query.limits.facets = true;
         query.drawn = (outcome.found.as_ref())
@@ -71,8 +72,11 @@ fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, 
             }
         }
     }
+    let facets = std::mem::replace(&mut query.limits.facets, hidden);
+    let nearly = query.nearly(&outcome.directions, outcome.found.as_ref());
+    query.limits.facets = facets;
     if let Some(found) = outcome.found {
-        return Ok(query.detection(found, &outcome.rotations, log));
+        return Ok(query.detection(found, &outcome.rotations, nearly, log));
     }
     if let Some(n) = query.params.order.filter(|&n| n > 1) {
         return Err(query.order_fails(n, &outcome.directions));
@@ -80,10 +84,11 @@ fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, 
     let closest = query.closest(&outcome.directions);
     let error = Error::Asymmetric {
         closest,
+        nearly: nearly.clone().map(Box::new),
         tolerance: query.params.tolerance,
     };
     if query.params.allow_asymmetric {
-        Ok(query.asymmetric(closest, error.to_string()))
+        Ok(query.asymmetric(closest, nearly, error.to_string()))
     } else {
         Err(error)
     }

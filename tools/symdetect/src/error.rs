@@ -1,5 +1,6 @@
 //! Why no symmetry could be reported.
 
+use crate::report::Nearly;
 use glam::DVec3;
 use thiserror::Error;
 
@@ -26,10 +27,12 @@ pub enum Error {
         instances: usize,
     },
     /// No rotation, no mirror.
-    #[error("{}", asymmetric(.closest, *.tolerance))]
+    #[error("{}", asymmetric(.closest, .nearly, *.tolerance))]
     Asymmetric {
         /// The least bad operation.
         closest: Option<Closest>,
+        /// A rotation that nearly holds.
+        nearly: Option<Box<Nearly>>,
         /// Tolerance, relative to the radius.
         tolerance: f64,
     },
@@ -73,9 +76,11 @@ fn at(p: &DVec3) -> String {
     kit::point(p.to_array())
 }
 
-fn asymmetric(closest: &Option<Closest>, tolerance: f64) -> String {
+fn asymmetric(closest: &Option<Closest>, nearly: &Option<Box<Nearly>>, tolerance: f64) -> String {
     let mut text = format!("no symmetry within {tolerance:e} of the radius");
-    if let Some(c) = closest {
+    if let Some(nearly) = nearly {
+        text += &format!(": {nearly}");
+    } else if let Some(c) = closest {
         let what = if c.order > 1 {
             format!("order {} about the axis {}", c.order, at(&c.direction))
         } else {

@@ -342,6 +342,29 @@ fn facets_and_flaws() {
     }
 }
 
+/// A part with a flaw was said to be nearest to half a turn, with the place of some other feature.
+#[test]
+fn what_breaks_an_order_is_named_with_its_place() {
+    for n in [5, 8, 12] {
+        let mut random = Random(u64::from(n));
+        let body = wheel(n as usize, 12, 0.5, 23, 0.3, Flaw::Keyway(2e-2));
+        let placed = bodies::place(&body, &mut random, 1.0, 0.0);
+
+        let params = Params {
+            allow_asymmetric: true,
+            ..Params::default()
+        };
+        let found = detect(&placed, &params, &mut |_| ()).expect("passed on");
+        let nearly = found.nearly.expect("something nearly holds");
+        assert_eq!(nearly.order, Some(n), "{nearly}");
+        assert!(nearly.share < 0.05, "{nearly}");
+        assert!((0.5e-2..3e-2).contains(&nearly.residual), "{nearly}");
+    }
+    let whole = wheel(5, 12, 0.5, 23, 0.3, Flaw::None);
+    let found = detect(&whole, &Params::default(), &mut |_| ()).expect("symmetric");
+    assert!(found.nearly.is_none());
+}
+
 #[test]
 fn polyhedra_and_their_axes() {
     let cube = find(&bodies::cubes([1, 1, 1], |_| 7));

@@ -1,13 +1,19 @@
 //! An unstructured grid as the VTK formats hold it: cells of several types with integers on them.
 
-use super::{Group, Mesh, MeshTriangles, Parsed, Soup};
+use super::{Finding, Group, Mesh, MeshTriangles, Parsed, Soup};
 use crate::ReadError;
 use crate::text::{counted, plain};
 use crate::title::{parse_promise, parse_sector};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
+use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use tmesh::{OUTSIDE, Tet, Triangle};
+
+/// Name of the text with the symmetry found in a body.
+pub const SYMMETRY: &str = "symmetry";
+/// Name of the text with what is known of the file that a body was read from.
+pub const SOURCE: &str = "source";
 
 pub const TRIANGLE: u8 = 5;
 const TRIANGLE_STRIP: u8 = 6;
@@ -133,6 +139,11 @@ impl Grid {
                 Some((id.parse().ok()?, plain(name)))
             })
             .collect()
+    }
+
+    /// A value of JSON among the texts.
+    fn json<T: DeserializeOwned>(&self, field: &str) -> Option<T> {
+        serde_json::from_str(self.texts.get(field)?).ok()
     }
 
     /// What the grid is: a mesh where there are tetrahedra, or triangles with both sides named; else
@@ -261,7 +272,17 @@ impl Grid {
         regions.remove(&OUTSIDE);
         markers.remove(&OUTSIDE);
         let is_sided = sides.is_some();
+        let source = self.json(SOURCE);
+        let finding = self
+            .json(SYMMETRY)
+            .map(|symmetry| Box::new(Finding { symmetry, source }));
+        if finding.is_none() && self.texts.contains_key(SYMMETRY) {
+            notices.push(format!(
+                "its array '{SYMMETRY}' is not as expected: ignored"
+            ));
+        }
         Mesh {
+            finding,
             promise: parse_promise(&self.title),
             sector_of: parse_sector(&self.title),
             points: self.points,

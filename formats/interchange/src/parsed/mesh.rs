@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use std::collections::BTreeMap;
-use tmesh::{Promise, Tet, Triangle};
+use tmesh::{Promise, Source, Symmetry, Tet, Triangle};
 
 /// Tetrahedra with regions, and triangles with markers. All ids are within bounds, no element names a
 /// vertex twice, and no tetrahedron is in [`tmesh::OUTSIDE`].
@@ -22,6 +22,8 @@ pub struct Mesh {
     pub promise: Option<Promise>,
     /// How many instances the whole has, where the title of the file says that it holds one sector.
     pub sector_of: Option<u32>,
+    /// What was known of the body when it was written to the file.
+    pub finding: Option<Box<Finding>>,
     /// Largest error of a coordinate relative to the largest one.
     pub relative_precision: f64,
     /// What the user should know about the file.
@@ -35,4 +37,13 @@ pub enum MeshTriangles {
     Sided(Vec<Triangle>),
     /// Some of it: three vertices and a marker each.
     Marked(Vec<([u32; 3], u32)>),
+}
+
+/// What a file says of the symmetry of its body. Nothing of it has been checked.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// The symmetry found in the body.
+    pub symmetry: Symmetry,
+    /// What the body was read from.
+    pub source: Option<Source>,
 }

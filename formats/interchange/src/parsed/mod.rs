@@ -9,8 +9,8 @@ mod plc;
 mod shells;
 mod soup;
 
-pub(crate) use grid::{Grid, TETRA, TRIANGLE, by_corners};
-pub use mesh::{Mesh, MeshTriangles};
+pub(crate) use grid::{Grid, SOURCE, SYMMETRY, TETRA, TRIANGLE, by_corners};
+pub use mesh::{Finding, Mesh, MeshTriangles};
 pub use plc::{Facet, Plc, Seed};
 pub use shells::{Shells, Volume};
 pub use soup::{Faces, Group, Soup};

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use std::io;
-use tmesh::{Marker, Region};
+use tmesh::{Marker, Region, Source, Symmetry};
 
 /// Some tetrahedra of one instance. All slices have the same length, but for the middles.
 pub struct TetBlock<'a> {
@@ -225,6 +225,11 @@ pub trait MeshStream {
     }
     /// Ids that the points have in the mesh that this one is a piece of.
     fn point_ids(&self) -> Option<&[u32]> {
+        None
+    }
+
+    /// The symmetry that was found in a body which is stored as a whole, and what it was read from.
+    fn findings(&self) -> Option<(&Symmetry, Option<&Source>)> {
         None
     }
 

@@ -14,7 +14,7 @@ use glam::DVec3;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::io;
-use tmesh::{Document, Instance, Isometry, Marker, OUTSIDE, Region};
+use tmesh::{Document, Instance, Isometry, Marker, OUTSIDE, Region, Source, Symmetry};
 
 /// Elements per block: a few hundred kilobytes, which stay in a processor's cache from one writer to
 /// the next. Files do not depend on it.
@@ -206,6 +206,12 @@ impl<'a> Plain<'a> {
 }
 
 impl MeshStream for Plain<'_> {
+    fn findings(&self) -> Option<(&Symmetry, Option<&Source>)> {
+        let symmetry = self.document.symmetry.as_ref();
+        let symmetry = symmetry.filter(|_| self.document.is_plain())?;
+        Some((symmetry, self.document.source.as_ref()))
+    }
+
     fn title(&self) -> String {
         document_title(self.document)
     }

@@ -1,6 +1,6 @@
 //! From a mesh with labels to a document.
 
-use super::skin;
+use super::{found, skin};
 use crate::HealError;
 use crate::document::{Imported, Labelled, check_scale, document};
 use crate::words::dropped;
@@ -74,6 +74,9 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
         }
     };
     imported.document.promise = mesh.promise;
+    if let Some(finding) = mesh.finding {
+        found::restore(&mut imported, *finding);
+    }
     if let Some(instances) = mesh.sector_of {
         imported.notices.push(format!(
             "the file holds one sector of a mesh of {instances} instances, without its symmetry: it is taken for a whole body"

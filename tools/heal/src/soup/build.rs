@@ -1,6 +1,6 @@
 //! From polygons in groups to a document.
 
-use super::closure::open_surface;
+use super::mended::Mended;
 use super::mending::Mending;
 use super::solids::label;
 use super::surface::{NONE, Surface};
@@ -21,13 +21,26 @@ use interchange::parsed::Soup;
 /// # Errors
 /// Open surfaces; solids that overlap, cross, or touch with different triangles; with [`Repairing::Off`], surfaces that
 /// have triangles to be dropped.
-pub fn build(
-    mut soup: Soup,
-    format: &'static str,
-    repairing: Repairing,
-) -> Result<Imported, HealError> {
-    let relative_precision = soup.relative_precision;
+pub fn build(soup: Soup, format: &str, repairing: Repairing) -> Result<Imported, HealError> {
+    label_mended(mend(soup, Solids::Groups, repairing)?, format)
+}
+
+/// What the solids of a soup are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solids {
+    /// Groups, where each of them is closed.
+    Groups,
+    /// All groups together.
+    Whole,
+}
+
+/// Welds a soup, mends it and tells its solids.
+///
+/// # Errors
+/// Surfaces that stay open; with [`Repairing::Off`], surfaces that have triangles to be dropped.
+pub fn mend(mut soup: Soup, solids: Solids, repairing: Repairing) -> Result<Mended, HealError> {
     let mut notices = std::mem::take(&mut soup.notices);
+    let relative_precision = soup.relative_precision;
     let mut mending = Mending::new(welded(soup)?, relative_precision);
     mending.drop_collapsed()?;
     mending.merge(false)?;
@@ -35,36 +48,45 @@ pub fn build(
         mending.close()?;
         mending.remove_flat();
     }
-    let solids = mending.tell_solids();
-    if mending.surface.groups.len() > 1 {
+    match solids {
+        Solids::Groups => mending.tell_solids(),
+        Solids::Whole => mending.surface.make_one_solid(),
+    }
+    if mending.surface.solids.len() < mending.surface.groups.len() {
+        mending.merge(true)?;
+    }
+    mending.check_closed()?;
+    if repairing == Repairing::Off
+        && let Some(first) = mending.repairs.first()
+    {
+        return Err(HealError::BadSurface(first.refusal()));
+    }
+    notices.extend(mending.repairs.iter().map(Repair::sentence));
+    Ok(Mended { mending, notices })
+}
+
+/// The document of a mended surface.
+///
+/// # Errors
+/// Solids that overlap, cross, or touch with different triangles.
+pub fn label_mended(mended: Mended, format: &str) -> Result<Imported, HealError> {
+    let Mended {
+        mut mending,
+        mut notices,
+    } = mended;
+    if mending.surface.solids.len() > 1 {
         mending.merge(true)?;
     }
     let Mending {
         surface,
         edges,
-        odd,
         repairs,
+        relative_precision,
         ..
     } = mending;
-    if surface.triangles.is_empty() {
-        return Err(HealError::BadSurface(
-            "all its triangles cancel each other in pairs".to_owned(),
-        ));
-    }
-    if solids == 1
-        && let Some(error) = open_surface(&surface, &edges, &odd)
-    {
-        return Err(error);
-    }
-    if repairing == Repairing::Off
-        && let Some(first) = repairs.first()
-    {
-        return Err(HealError::BadSurface(first.refusal()));
-    }
-    notices.extend(repairs.iter().map(Repair::sentence));
-    let mut labels = label(&surface, &edges, solids)?;
+    let mut labels = label(&surface, &edges)?;
     notices.append(&mut labels.notices);
-    let mut labelled = tables(surface, labels, solids);
+    let mut labelled = tables(surface, labels);
     labelled.relative_precision = relative_precision;
     labelled.notices = notices;
     labelled.repairs = repairs;
@@ -84,6 +106,7 @@ fn welded(soup: Soup) -> Result<Surface, HealError> {
     check_scale(&points)?;
     let names = soup.groups.into_iter().map(|g| g.name).collect();
     let (group, groups) = used_groups(group, names);
+    let groups = unique_names(groups.iter().map(String::as_str), "region");
     Ok(Surface {
         solid: group.clone(),
         partner: vec![NONE; triangles.len()],
@@ -91,7 +114,8 @@ fn welded(soup: Soup) -> Result<Surface, HealError> {
         points,
         triangles,
         group,
-        groups: unique_names(groups.iter().map(String::as_str), "region"),
+        solids: groups.clone(),
+        groups,
         group_word: soup.group_word,
     })
 }

@@ -72,8 +72,8 @@ pub fn merge(surface: &mut Surface, edges: &Edges, across: bool) -> Result<Merge
                 return Err(HealError::BadSurface(format!(
                     "solids overlap: {} of them, among them {} and {}, have the triangle at {}",
                     kept.len(),
-                    surface.group_name(surface.solid[*first as usize]),
-                    surface.group_name(surface.solid[*last as usize]),
+                    surface.solid_name(surface.solid[*first as usize]),
+                    surface.solid_name(surface.solid[*last as usize]),
                     place((a + b + c) / 3.0)
                 )));
             }

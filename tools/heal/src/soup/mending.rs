@@ -21,7 +21,8 @@ pub struct Mending {
     pub odd: Vec<usize>,
     /// What was repaired, a kind each.
     pub repairs: Vec<Repair>,
-    relative_precision: f64,
+    /// Largest error of a coordinate relative to the largest one.
+    pub relative_precision: f64,
 }
 
 impl Mending {
@@ -146,13 +147,24 @@ impl Mending {
         }
     }
 
-    /// The number of solids: groups are solids where each is closed, else all of them are one.
-    pub fn tell_solids(&mut self) -> usize {
+    /// Groups are solids where each is closed; else all of them are one.
+    pub fn tell_solids(&mut self) {
         let several = self.surface.groups.len() > 1;
-        if self.odd.is_empty() && several && groups_are_closed(&self.surface, &self.edges) {
-            return self.surface.groups.len();
+        if !(self.odd.is_empty() && several && groups_are_closed(&self.surface, &self.edges)) {
+            self.surface.make_one_solid();
         }
-        self.surface.solid.fill(0);
-        1
+    }
+
+    /// What is left is a closed surface.
+    ///
+    /// # Errors
+    /// Nothing is left, or it is open.
+    pub fn check_closed(&self) -> Result<(), HealError> {
+        if self.surface.triangles.is_empty() {
+            return Err(HealError::BadSurface(
+                "all its triangles cancel each other in pairs".to_owned(),
+            ));
+        }
+        open_surface(&self.surface, &self.edges, &self.odd).map_or(Ok(()), Err)
     }
 }

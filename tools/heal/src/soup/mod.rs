@@ -3,6 +3,7 @@
 mod build;
 mod closure;
 mod coincident;
+mod mended;
 mod mending;
 mod needles;
 mod notices;
@@ -12,5 +13,8 @@ mod surface;
 mod tables;
 mod weld;
 
-pub use build::build;
+pub use build::{Solids, build, label_mended, mend};
 pub use closure::odd_edges;
+pub use mended::{Mended, join};
+pub use mending::Mending;
+pub use surface::{NONE, Surface};

@@ -79,7 +79,7 @@ pub fn explain_turned(
         notices.push(if solids == 1 {
             "the surface is oriented inwards: turned over".to_owned()
         } else {
-            let name = surface.group_name(solid as u32);
+            let name = surface.solid_name(solid as u32);
             format!(
                 "{name} is oriented inwards: turned over ({} triangles)",
                 share.turned

@@ -35,7 +35,8 @@ pub struct Labels {
 ///
 /// # Errors
 /// Solids that overlap, cross, or touch with different triangles; edges where it cannot be told.
-pub fn label(surface: &Surface, edges: &Edges, solids: usize) -> Result<Labels, HealError> {
+pub fn label(surface: &Surface, edges: &Edges) -> Result<Labels, HealError> {
+    let solids = surface.solids.len();
     let (shell, shells) = shells(surface, edges);
     let mut notices = Vec::new();
     if shells > 1
@@ -134,14 +135,14 @@ fn check_contacts(
         return Err(HealError::BadSurface(format!(
             "{} and {} cross or touch at {at} with different triangles ({count}); where solids \
              meet, both must have the same triangles",
-            surface.group_name(a),
-            surface.group_name(b)
+            surface.solid_name(a),
+            surface.solid_name(b)
         )));
     }
     if solids > 1 {
         return Err(HealError::BadSurface(format!(
             "{} crosses or touches itself at {at}: {count}",
-            surface.group_name(a)
+            surface.solid_name(a)
         )));
     }
     Ok(Some(format!(
@@ -226,8 +227,8 @@ fn cross(surface: &Surface, here: u32, t: u32) -> Result<u32, HealError> {
                 return Err(HealError::BadSurface(format!(
                     "{} and {} overlap: the surface of the second lies inside the first at {}; cut \
                      a cavity of the same shape into the first",
-                    surface.group_name(inside),
-                    surface.group_name(solid),
+                    surface.solid_name(inside),
+                    surface.solid_name(solid),
                     place((a + b + c) / 3.0)
                 )));
             }

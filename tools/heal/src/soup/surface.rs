@@ -22,6 +22,8 @@ pub struct Surface {
     pub source: Vec<u32>,
     /// Names of the groups, unique.
     pub groups: Vec<String>,
+    /// Names of the solids, unique: those of the groups, or one for all.
+    pub solids: Vec<String>,
     /// What a group is called in the file format.
     pub group_word: &'static str,
 }
@@ -35,6 +37,20 @@ impl Surface {
     /// A group's name for a message.
     pub fn group_name(&self, group: u32) -> String {
         format!("{} '{}'", self.group_word, self.groups[group as usize])
+    }
+
+    /// A solid's name for a message.
+    pub fn solid_name(&self, solid: u32) -> String {
+        format!("{} '{}'", self.group_word, self.solids[solid as usize])
+    }
+
+    /// Makes all groups pieces of the boundary of one solid. A lone group lends it its name.
+    pub fn make_one_solid(&mut self) {
+        self.solid.fill(0);
+        self.solids.truncate(1);
+        if self.groups.len() > 1 {
+            self.solids[0] = "region1".to_owned();
+        }
     }
 
     /// Keeps the triangles that `keep` accepts.
@@ -89,6 +105,7 @@ impl Surface {
             partner: of(&self.partner),
             source: of(&self.source),
             groups: self.groups.clone(),
+            solids: self.solids.clone(),
             group_word: self.group_word,
         }
     }

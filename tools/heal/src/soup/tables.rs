@@ -8,7 +8,7 @@ use tmesh::{OUTSIDE, Region, Template, Triangle};
 /// Regions and markers from labels.
 ///
 /// Leaves the precision and the notices to be filled in.
-pub fn tables(surface: Surface, labels: Labels, solids: usize) -> Labelled {
+pub fn tables(surface: Surface, labels: Labels) -> Labelled {
     let region = |solid: u32| if solid == NONE { OUTSIDE } else { solid + 1 };
     // Interfaces are markers of their own, after those of the groups.
     let mut pairs: Vec<[u32; 2]> = (0..surface.triangles.len())
@@ -37,18 +37,15 @@ pub fn tables(surface: Surface, labels: Labels, solids: usize) -> Labelled {
             }
         })
         .collect();
-    let name = |solid: u32| surface.groups[solid as usize].as_str();
+    let name = |solid: u32| surface.solids[solid as usize].as_str();
     let interfaces = pairs
         .iter()
         .map(|&[a, b]| format!("{}/{}", name(a), name(b)));
-    let markers = (1..).zip(surface.groups.iter().cloned().chain(interfaces));
-    let regions = (1..=solids as u32).map(|id| Region {
+    let interfaces: Vec<String> = interfaces.collect();
+    let markers = (1..).zip(surface.groups.into_iter().chain(interfaces));
+    let regions = (1..).zip(surface.solids).map(|(id, name)| Region {
         id,
-        name: if solids == groups {
-            surface.groups[id as usize - 1].clone()
-        } else {
-            "region1".to_owned()
-        },
+        name,
         max_volume: None,
         volume: None,
     });

@@ -1,6 +1,6 @@
 //! Mirrors that contain the axis, and half turns about axes across it.
 
-use crate::budget::{FIT, NEXT_BEST, SCAN};
+use crate::budget::{FIT, NEXT_BEST};
 use crate::group::found::Beside;
 use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, powers};
 use crate::shape::{Motion, Target};
@@ -81,7 +81,10 @@ impl Turned<'_> {
         let angles: Vec<f64> = (0..steps)
             .map(|i| period * i as f64 / steps as f64)
             .collect();
-        let scores = threads::map(&angles, |&angle| self.score(angle));
+        let limits = &self.query.limits;
+        let (shape, rotation) = (self.query.shape, self.rotation);
+        let telling = shape.telling_samples(&rotation.frame, limits.loosely(rotation.radius));
+        let scores = threads::map(&angles, |&angle| self.score(angle, &telling));
         let mut candidates: Vec<usize> = (0..steps)
             .filter(|&i| {
                 let s = scores[i];
@@ -95,11 +98,11 @@ impl Turned<'_> {
     }
 
     /// Sum of the deviations of a few samples; infinite where too many are off.
-    fn score(&self, angle: f64) -> f64 {
+    fn score(&self, angle: f64, places: &[usize]) -> f64 {
         let shape = self.query.shape;
         let loose = self.query.limits.roughly(shape, self.rotation.radius);
-        let samples = &shape.samples.mixed[..SCAN.min(shape.samples.mixed.len())];
-        let allowed = (OUTLIERS * samples.len() as f64) as usize;
+        let samples = places.iter().map(|&i| &shape.samples.mixed[i]);
+        let allowed = (OUTLIERS * places.len() as f64) as usize;
         let turned = turn_matrix(angle / PI) * self.operation.matrix();
         let motion = Motion::new(&self.rotation.frame, turned);
         let (mut sum, mut missed) = (0.0, 0);

@@ -1,5 +1,6 @@
 //! What was found.
 
+use crate::report::nearly::Nearly;
 use tmesh::{Search, Symmetry};
 
 /// What was found, and remarks for the user.
@@ -12,6 +13,8 @@ pub struct Detection {
     pub axes: usize,
     /// Remarks, a sentence each.
     pub notes: Vec<String>,
+    /// A rotation that nearly holds beside what was found, and what breaks it.
+    pub nearly: Option<Nearly>,
     /// Residuals of all orders up to some, if [`crate::Params::profile`] asked for them.
     pub profile: Vec<OrderResidual>,
     /// Why the body counts as asymmetric, when [`crate::Params::allow_asymmetric`] let it pass.

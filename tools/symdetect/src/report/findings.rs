@@ -2,6 +2,7 @@
 
 use crate::group::Found;
 use crate::report::detection::Detection;
+use crate::report::nearly::Nearly;
 use crate::rotation::{Query, Rotation};
 use kit::{number, point};
 use tmesh::{Axis, Isometry, OtherAxis, RegionMap, Search, Symmetry};
@@ -12,6 +13,7 @@ impl Query<'_> {
         &self,
         found: Found,
         rotations: &[Rotation],
+        nearly: Option<Nearly>,
         log: &mut dyn FnMut(&str),
     ) -> Detection {
         let (other_axes, axes) = self.other_axes(&found, rotations);
@@ -31,6 +33,7 @@ impl Query<'_> {
                 rejected,
             },
             axes,
+            nearly,
             asymmetric: None,
         }
     }

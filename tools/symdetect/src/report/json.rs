@@ -2,8 +2,9 @@
 
 use crate::report::defects::Defects;
 use crate::report::detection::{Detection, OrderResidual};
+use crate::report::nearly::Nearly;
 use heal::Repair;
-use kit::Session;
+use kit::{InputFile, Session};
 use serde::Serialize;
 use tmesh::{Axis, Document, Group, Isometry, OtherAxis, RejectedOrder, Symmetry};
 
@@ -33,6 +34,8 @@ pub struct Report<'a> {
     /// Further axes, and orders that do not hold.
     #[serde(flatten)]
     pub search: ReportSearch<'a>,
+    /// A rotation that nearly holds, and what breaks it; null where there is none.
+    pub nearly: Option<&'a Nearly>,
     /// How the rotation and the mirrors permute regions.
     #[serde(flatten)]
     pub permutations: ReportPermutations,
@@ -44,6 +47,8 @@ pub struct Report<'a> {
     pub orders: &'a [OrderResidual],
     /// Defects of the surface.
     pub defects: &'a Defects,
+    /// The files that the body was read from.
+    pub files: Vec<String>,
     /// What reading the input had to mend or leave, a sentence each.
     pub input: &'a [String],
     /// What was repaired of the input.
@@ -143,6 +148,7 @@ impl<'a> Report<'a> {
                 other_axes: &found.search.other_axes,
                 rejected: &found.search.rejected,
             },
+            nearly: found.nearly.as_ref(),
             permutations: ReportPermutations::of(symmetry),
             triangles: document.templates.iter().map(|t| t.triangles.len()).sum(),
             regions: (document.regions.iter())
@@ -153,6 +159,7 @@ impl<'a> Report<'a> {
                 .collect(),
             orders: &found.profile,
             defects,
+            files: session.inputs().iter().map(InputFile::label).collect(),
             input: session.notices(),
             repairs: session.repairs().iter().map(ReportRepair::of).collect(),
             notes: &found.notes,
@@ -165,6 +172,8 @@ impl<'a> Report<'a> {
 pub struct FailureReport<'a> {
     /// Why, as on standard error.
     pub error: String,
+    /// The files that the body was to be read from.
+    pub files: Vec<String>,
     /// Defects of the surface.
     pub defects: &'a Defects,
     /// What reading the input had to mend or leave, a sentence each.

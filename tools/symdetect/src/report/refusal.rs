@@ -4,6 +4,7 @@ use crate::budget::{FIT, QUICK, REPORTED};
 use crate::error::{Closest, Error};
 use crate::group::reference;
 use crate::report::detection::Detection;
+use crate::report::nearly::Nearly;
 use crate::rotation::{Canonical, FIRST_DIRECTIONS, Query, powers};
 use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DVec3;
@@ -110,7 +111,12 @@ impl Query<'_> {
     }
 
     /// The body passed on without symmetry.
-    pub fn asymmetric(&self, closest: Option<Closest>, reason: String) -> Detection {
+    pub fn asymmetric(
+        &self,
+        closest: Option<Closest>,
+        nearly: Option<Nearly>,
+        reason: String,
+    ) -> Detection {
         let direction = self.params.axis.unwrap_or(DVec3::Z);
         let frame = self.frame_along(direction).unwrap_or(Frame::IDENTITY);
         let rejected = closest.filter(|c| c.order > 1).map(|c| RejectedOrder {
@@ -138,6 +144,7 @@ impl Query<'_> {
             axes: 0,
             notes: Vec::new(),
             profile: self.profile(&frame, 1),
+            nearly,
             asymmetric: Some(reason),
         }
     }

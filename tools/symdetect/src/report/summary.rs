@@ -51,6 +51,7 @@ impl Detection {
                 list.join(", ")
             ));
         }
+        lines.extend(self.nearly.as_ref().map(ToString::to_string));
         lines
     }
 

@@ -90,6 +90,22 @@ impl OrderSearch<'_> {
         let wanted = || (3..=most).rev();
         (looks.iter()).find_map(|look| look.tell(wanted(), most, limit))
     }
+
+    /// The order under which corners of flat faces land on corners to rounding, and under no other but its divisors;
+    /// `None` without flat faces.
+    pub fn order_of_corners(&self, frame: &Frame) -> Option<u32> {
+        let floor = 0.25 * self.shape.rounding();
+        let look = Look {
+            shape: self.shape,
+            frame,
+            faces: Some(self.shape.faces()?),
+            count: GLANCE / 2,
+            reach: SEPARATION * floor,
+            floor,
+        };
+        let most = *self.orders.end();
+        look.tell((3..=most).rev(), most, floor)
+    }
 }
 
 /// Largest deviation of `count` vertices under random powers of the rotation of order `n` that do not

@@ -106,7 +106,7 @@ impl OrderSearch<'_> {
             return self.better(as_is, in_frame_for(&golden()));
         }
         let target = shape.target_in_place();
-        let candidates = self.scan(&start, bound, OUTLIERS);
+        let candidates = self.scan(&start, bound, OUTLIERS, self.multiples);
         let mut found =
             (candidates.into_iter().take(NEXT_BEST)).map(|n| in_frame_for(&powers(n, &target)));
         let found = found.find_map(|found| found);
@@ -150,7 +150,8 @@ pub fn powers(n: u32, target: &Target) -> Vec<Canonical> {
     some_powers(n).into_iter().map(canonical).collect()
 }
 
-fn golden() -> Vec<Canonical> {
+/// A dozen rotations spread over the whole turn, for an adjustment where no order is to be preferred.
+pub fn golden() -> Vec<Canonical> {
     let canonical = |matrix| Canonical {
         matrix,
         target: Target::Any,

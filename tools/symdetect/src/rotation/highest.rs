@@ -60,32 +60,46 @@ impl OrderSearch<'_> {
 
     /// The highest of the orders that pass a scan which holds. Where another one above half of it holds as well, all do:
     /// the rotations that they make together are as near to any angle as the two are to each other.
+    ///
+    /// Where corners tell the order of the drawing at once, others are its multiples.
     fn of_scan(&self, frame: &Frame, radius: f64) -> Option<Rotation> {
         let bound = self.limits.bound(radius);
+        let distinct = |order, (deviation, permutation)| Rotation {
+            frame: *frame,
+            radius,
+            order,
+            permutation,
+            deviation,
+            axisymmetric: false,
+            distinct: true,
+        };
+        let own = self.order_of_corners(frame).and_then(|order| {
+            let verified = self.shape.verify_rotation(frame, order, bound, self.depth);
+            Some(distinct(order, verified.ok()?))
+        });
+        let multiples = match &own {
+            Some(own) if own.order.is_multiple_of(self.multiples) => own.order,
+            _ => self.multiples,
+        };
         let mut highest: Option<Rotation> = None;
         // Near a body of revolution many orders fail at the same few places.
         let mut obstacles: Vec<DVec3> = Vec::new();
-        for order in self.scan(frame, bound, 0.0) {
+        for order in self.scan(frame, bound, 0.0, multiples) {
             if highest.as_ref().is_some_and(|h| 2 * order <= h.order) {
                 break;
             }
             if (obstacles.iter()).any(|p| self.stumbles(frame, order, *p, self.shape.most(bound))) {
                 continue;
             }
+            if own.as_ref().is_some_and(|own| own.order == order) {
+                break;
+            }
             match self.shape.verify_rotation(frame, order, bound, self.depth) {
                 Ok((deviation, _)) if highest.is_some() => {
                     return Some(self.of_revolution(frame, radius, deviation));
                 }
                 Ok((deviation, permutation)) => {
-                    highest = Some(Rotation {
-                        frame: *frame,
-                        radius,
-                        order,
-                        permutation,
-                        deviation,
-                        axisymmetric: false,
-                        distinct: true,
-                    });
+                    highest = Some(distinct(order, (deviation, permutation)));
                 }
                 Err(deviation) if obstacles.len() < OBSTACLES => {
                     // Either end may be the place that has no counterpart.
@@ -97,6 +111,6 @@ impl OrderSearch<'_> {
                 Err(_) => {}
             }
         }
-        highest
+        highest.or(own)
     }
 }

@@ -11,7 +11,8 @@ mod refine;
 mod scan;
 
 pub use axes::FIRST_DIRECTIONS;
-pub use find::{Rotation, powers};
+pub use find::{Rotation, golden, powers};
 pub use limits::OUTLIERS;
 pub use query::{Drawn, Query};
 pub use refine::{Canonical, Fit, refine};
+pub use scan::TELLING_TURNS;

@@ -1,6 +1,6 @@
 //! Orders that a few samples do not rule out.
 
-use crate::budget::SCAN;
+use crate::budget::{REPORTED, SCAN};
 use crate::rotation::find::OrderSearch;
 use crate::shape::{Motion, Random, Sample, Shape, Target};
 use crate::threads;
@@ -10,7 +10,7 @@ use tmesh::{Frame, Isometry};
 
 /// Turns that tell which samples are taken off the surface by most turns; and powers of an order that a place is tried
 /// under.
-const TELLING_TURNS: usize = 4;
+pub const TELLING_TURNS: usize = 4;
 
 /// A few samples, to be tried under many orders.
 struct Scan<'a> {
@@ -26,14 +26,7 @@ struct Scan<'a> {
 
 impl<'a> Scan<'a> {
     fn new(shape: &'a Shape, frame: &'a Frame, bound: Bound, outliers: f64) -> Self {
-        let samples = &shape.samples.mixed;
-        let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
-        let misses = |i: &usize| {
-            let off = |turn: &&Operation| !shape.lands(turn, &samples[*i], bound);
-            turns.iter().filter(off).count()
-        };
-        let mut places: Vec<usize> = (0..SCAN.min(samples.len())).collect();
-        places.sort_by_cached_key(|i| std::cmp::Reverse(misses(i)));
+        let places = shape.telling_samples(frame, bound);
         Self {
             shape,
             frame,
@@ -64,13 +57,35 @@ impl<'a> Scan<'a> {
     }
 }
 
+impl Shape {
+    /// The numbers of a few samples that tell one turn about a frame's axis from others: those that turns take farthest
+    /// off the surface, in that order. On a flange, they are at its holes.
+    pub fn telling_samples(&self, frame: &Frame, bound: Bound) -> Vec<usize> {
+        let samples = &self.samples.mixed;
+        let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
+        let most = self.most(bound);
+        let off = |i: &usize| {
+            let distance = |turn: &Operation| {
+                let hit = self.nearest(turn.motion.apply(samples[*i].point), 0, &Target::Any, most);
+                hit.map_or(most, |hit| hit.distance)
+            };
+            // Of numbers that are not negative, the bits are in the order of the numbers.
+            turns.iter().map(distance).sum::<f64>().to_bits()
+        };
+        let mut places: Vec<usize> = (0..REPORTED.min(samples.len())).collect();
+        places.sort_by_cached_key(|i| std::cmp::Reverse(off(i)));
+        places.truncate(SCAN);
+        places
+    }
+}
+
 impl OrderSearch<'_> {
     /// Orders that a few samples do not rule out, those first under which the fewest are off, higher before lower ones.
-    /// The share `outliers` of them may be off.
-    pub fn scan(&self, frame: &Frame, bound: Bound, outliers: f64) -> Vec<u32> {
+    /// The share `outliers` of them may be off. Only `multiples` of a number are tried.
+    pub fn scan(&self, frame: &Frame, bound: Bound, outliers: f64, multiples: u32) -> Vec<u32> {
         let scan = Scan::new(self.shape, frame, bound, outliers);
         let orders: Vec<u32> = (self.orders.clone())
-            .filter(|n| n.is_multiple_of(self.multiples))
+            .filter(|n| n.is_multiple_of(multiples))
             .collect();
         let misses = threads::map(&orders, |&n| scan.misses(n));
         let mut passed: Vec<(usize, u32)> = (misses.into_iter().zip(orders))

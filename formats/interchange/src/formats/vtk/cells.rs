@@ -1,7 +1,6 @@
-//! What goes into the VTK formats beside points and connectivity: integer arrays on cells, and names.
+//! What the VTK formats hold on cells: arrays of integers.
 
 use crate::stream::MeshStream;
-use crate::text::one_line;
 use std::io;
 use tmesh::OUTSIDE;
 
@@ -125,24 +124,4 @@ pub enum Values<'a> {
     Each(&'a [u32]),
     /// The same one for so many.
     Same(u32, u64),
-}
-
-/// Names of regions, and of markers and walls when there are triangles, as field data: array name,
-/// and text with a line `id name` for each. Empty ones are left out.
-pub fn name_fields(mesh: &dyn MeshStream, cells: Cells) -> Vec<(&'static str, String)> {
-    let list = |names: &mut dyn Iterator<Item = (u32, &str)>| -> String {
-        names
-            .map(|(id, name)| format!("{id} {}\n", one_line(name)))
-            .collect()
-    };
-    let regions = &mut mesh.regions().iter().map(|r| (r.id, r.name.as_str()));
-    let mut fields = vec![("region_names", list(regions))];
-    if cells.triangles > 0 {
-        let markers = &mut mesh.markers().iter().map(|m| (m.id, m.name.as_str()));
-        fields.push(("marker_names", list(markers)));
-        let walls = &mut (1..).zip(mesh.wall_names().iter().map(String::as_str));
-        fields.push(("wall_names", list(walls)));
-    }
-    fields.retain(|(_, text)| !text.is_empty());
-    fields
 }

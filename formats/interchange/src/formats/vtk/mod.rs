@@ -1,6 +1,7 @@
 //! Legacy VTK, and what the XML form has in common with it.
 
 pub mod cells;
+pub mod fields;
 mod read;
 mod write;
 

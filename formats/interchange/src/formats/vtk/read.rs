@@ -2,6 +2,7 @@
 //!
 //! Format: "VTK File Formats", section "Simple Legacy Formats". Binary numbers are big-endian.
 
+use super::fields::{NAMES, take_names};
 use crate::ReadError;
 use crate::binary::{Order, Scalar, id};
 use crate::parsed::{Grid, Parsed};
@@ -286,8 +287,31 @@ impl<'a> Reader<'a> {
                 return Err(self.tokens.error("arrays of strings are not supported"));
             }
             let kind = self.kind()?;
-            self.array(name, count, kind)?;
+            if NAMES.contains(&name.as_str()) && self.grid.points.is_empty() {
+                self.names(&name, count, kind)?;
+            } else {
+                self.array(name, count, kind)?;
+            }
         }
+        Ok(())
+    }
+
+    /// Ids, and in the metadata behind them their names.
+    fn names(&mut self, array: &str, count: usize, kind: Kind) -> Result<(), ReadError> {
+        let mut ids = Vec::new();
+        self.numbers(count, kind, array, |x| ids.push(id(x)))?;
+        let mut names = Vec::new();
+        if self.tokens.peek() == Some(b"METADATA") {
+            self.tokens.next_word();
+            self.tokens.rest_of_line();
+            while let Some(line) = self.metadata_line() {
+                if line == b"COMPONENT_NAMES" {
+                    let lines = ids.iter().map_while(|_| self.metadata_line());
+                    names = lines.map(unescaped).collect();
+                }
+            }
+        }
+        take_names(&mut self.grid, array, &ids, &names);
         Ok(())
     }
 
@@ -357,13 +381,38 @@ impl<'a> Reader<'a> {
     /// Skips a block of metadata, which an empty line ends.
     fn metadata(&mut self) {
         self.tokens.rest_of_line();
-        while self.tokens.left() > 1 {
-            self.tokens.skip(1);
-            if self.tokens.rest_of_line().is_empty() {
-                break;
+        while self.metadata_line().is_some() {}
+    }
+
+    /// The next line of a block of metadata; none at its end.
+    fn metadata_line(&mut self) -> Option<&'a [u8]> {
+        if self.tokens.left() <= 1 {
+            return None;
+        }
+        self.tokens.skip(1);
+        let line = self.tokens.rest_of_line();
+        (!line.is_empty()).then_some(line)
+    }
+}
+
+/// A name in which `%` and two digits stand for a byte.
+fn unescaped(text: &[u8]) -> String {
+    let digit = |at: usize| text.get(at).and_then(|&c| char::from(c).to_digit(16));
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut at = 0;
+    while let Some(&byte) = text.get(at) {
+        match (byte, digit(at + 1), digit(at + 2)) {
+            (b'%', Some(high), Some(low)) => {
+                bytes.push((16 * high + low) as u8);
+                at += 3;
+            }
+            _ => {
+                bytes.push(byte);
+                at += 1;
             }
         }
     }
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 fn index(x: f64) -> usize {

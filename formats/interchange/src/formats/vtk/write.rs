@@ -2,11 +2,12 @@
 //!
 //! Format: "VTK File Formats", section "Simple Legacy Formats". All numbers are big-endian. Cell
 //! arrays are signed 32-bit integers; ids above 2^31 - 1 wrap around, so that -1 stands for
-//! [`tmesh::OUTSIDE`]. The title is that of [`crate::promise_title`]. Names of regions, markers and
-//! walls are the dataset's field data `region_names`, `marker_names` and `wall_names`: characters,
-//! one line per name, each `id name`.
+//! [`tmesh::OUTSIDE`]. The title is that of [`crate::promise_title`]. Names and what is
+//! known of the symmetry are the dataset's field data, see [`super::fields`]; names are the components' names in
+//! the array's metadata, with `%20` for a blank as VTK writes it.
 
-use super::cells::{CellArray, Cells, Values, name_fields};
+use super::cells::{CellArray, Cells, Values};
+use super::fields::{Names, names, texts};
 use crate::binary::Order;
 use crate::sink::ByteSink;
 use crate::stream::MeshStream;
@@ -39,7 +40,7 @@ pub fn write(
     sink.text("# vtk DataFile Version 3.0\n")?;
     sink.text(&one_line(&mesh.title()))?;
     sink.text("\nBINARY\nDATASET UNSTRUCTURED_GRID\n")?;
-    write_names(mesh, cells, &mut sink)?;
+    write_fields(mesh, cells, &mut sink)?;
 
     sink.text(&format!("POINTS {} double\n", mesh.point_count()))?;
     mesh.points(&mut |points| sink.points(Order::Big, points))?;
@@ -98,20 +99,45 @@ fn write_array(
     Ok(sink.text("\n")?)
 }
 
-fn write_names(
+fn write_fields(
     mesh: &dyn MeshStream,
     cells: Cells,
     sink: &mut ByteSink<'_>,
 ) -> Result<(), WriteError> {
-    let fields = name_fields(mesh, cells);
-    if fields.is_empty() {
+    let (names, texts) = (names(mesh, cells), texts(mesh));
+    if names.is_empty() && texts.is_empty() {
         return Ok(());
     }
-    sink.text(&format!("FIELD FieldData {}\n", fields.len()))?;
-    for (name, text) in fields {
-        sink.text(&format!("{name} 1 {} unsigned_char\n{text}\n", text.len()))?;
+    sink.text(&format!("FIELD FieldData {}\n", names.len() + texts.len()))?;
+    for Names { array, ids, names } in names {
+        sink.text(&format!("{array} {} 1 int\n", ids.len()))?;
+        sink.u32s(Order::Big, &ids)?;
+        sink.text("\nMETADATA\nCOMPONENT_NAMES\n")?;
+        for name in names {
+            sink.text(&escaped(&name))?;
+            sink.text("\n")?;
+        }
+        sink.text("\n")?;
+    }
+    for (array, text) in texts {
+        sink.text(&format!("{array} 1 {} unsigned_char\n{text}\n", text.len()))?;
     }
     Ok(())
+}
+
+/// A name as VTK writes it: what is no printable character of ASCII, quotes and `%` as `%` and two digits. An
+/// empty name is a blank, for an empty line ends the metadata.
+fn escaped(name: &str) -> String {
+    let name = if name.is_empty() { " " } else { name };
+    let mut text = String::with_capacity(name.len());
+    for byte in name.bytes() {
+        if byte.is_ascii_graphic() && !matches!(byte, b'"' | b'%') {
+            text.push(char::from(byte));
+        } else {
+            text += &format!("%{byte:02X}");
+        }
+    }
+    text
 }
 
 #[cfg(test)]
@@ -158,8 +184,9 @@ mod tests {
     fn bytes_of_a_tetrahedron() {
         let expected = golden(&[
             (HEAD, &[]),
-            ("FIELD FieldData 1\nregion_names 1 9 unsigned_char\n", &[]),
-            ("7 copper\n\nPOINTS 4 double\n", &POINTS),
+            ("FIELD FieldData 1\nregion_names 1 1 int\n", &[7]),
+            ("\nMETADATA\nCOMPONENT_NAMES\ncopper\n\n", &[]),
+            ("POINTS 4 double\n", &POINTS),
             ("\nCELLS 1 5\n", &[4, 0, 1, 2, 3]),
             ("\nCELL_TYPES 1\n", &[10]),
             (
@@ -182,13 +209,13 @@ mod tests {
         ];
         let expected = golden(&[
             (HEAD, &[]),
-            (
-                "FIELD FieldData 3\nregion_names 1 9 unsigned_char\n7 copper\n",
-                &[],
-            ),
-            ("\nmarker_names 1 6 unsigned_char\n2 top\n", &[]),
-            ("\nwall_names 1 8 unsigned_char\n1 floor\n", &[]),
-            ("\nPOINTS 4 double\n", &POINTS),
+            ("FIELD FieldData 3\nregion_names 1 1 int\n", &[7]),
+            ("\nMETADATA\nCOMPONENT_NAMES\ncopper\n\n", &[]),
+            ("marker_names 1 1 int\n", &[2]),
+            ("\nMETADATA\nCOMPONENT_NAMES\ntop\n\n", &[]),
+            ("wall_names 1 1 int\n", &[1]),
+            ("\nMETADATA\nCOMPONENT_NAMES\nfloor\n\n", &[]),
+            ("POINTS 4 double\n", &POINTS),
             ("\nCELLS 5 21\n", &cells),
             ("\nCELL_TYPES 5\n", &[10, 5, 5, 5, 5]),
             (

@@ -33,6 +33,8 @@ pub struct Array<'a> {
     pub section: String,
     /// Its own name.
     pub name: String,
+    /// Names of its components, as far as they have any.
+    pub components: Vec<String>,
     /// Its number type, if that is known.
     pub scalar: Option<Scalar>,
     /// Its numbers.

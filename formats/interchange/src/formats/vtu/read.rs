@@ -3,10 +3,13 @@
 use super::arrays::{Appended, Array, Arrays, Encoding, Place, malformed};
 use crate::ReadError;
 use crate::binary::{Order, Scalar, id};
-use crate::parsed::{Grid, Parsed};
+use crate::formats::vtk::fields::{NAMES, take_names};
+use crate::parsed::{Grid, Parsed, SOURCE, SYMMETRY};
 use crate::text::{DOUBLE, SINGLE, shown};
 use glam::DVec3;
+use quick_xml::escape::unescape;
 use quick_xml::events::{BytesStart, Event};
+use std::borrow::Cow;
 
 /// Bytes of the first tag within which its attribute `type` is looked for: writers put it first, and
 /// the tag with all attributes that the format has is shorter.
@@ -78,6 +81,10 @@ fn take(
         ("Cells", "offsets") => grid.ends = values.iter().map(|&x| x as usize).collect(),
         ("Cells", _) => *types = Some(values.iter().map(|&x| x as u8).collect()),
         ("FieldData", "title") => grid.title = text(&values),
+        ("FieldData", name) if NAMES.contains(&name) => {
+            let ids: Vec<u32> = ids(&values);
+            take_names(grid, name, &ids, &array.components);
+        }
         ("FieldData", name) => {
             grid.texts.insert(name.to_owned(), text(&values));
         }
@@ -99,7 +106,7 @@ fn is_wanted(section: &str, name: &str) -> bool {
         "Points" => true,
         "Cells" => matches!(name, "connectivity" | "offsets" | "types"),
         "CellData" => matches!(name, "region" | "marker" | "front" | "back"),
-        "FieldData" => matches!(name, "title" | "region_names" | "marker_names"),
+        "FieldData" => NAMES.contains(&name) || ["title", SYMMETRY, SOURCE].contains(&name),
         _ => false,
     }
 }
@@ -254,10 +261,15 @@ impl<'a> Tags<'a> {
             Some("binary") => Place::Base64(content),
             _ => Place::Text(content),
         };
+        let mut components = Vec::new();
+        while let Some(name) = self.attribute(tag, &format!("ComponentName{}", components.len()))? {
+            components.push(unescape(&name).map_or(name.clone(), Cow::into_owned));
+        }
         let kind = self.attribute(tag, "type")?.unwrap_or_default();
         Ok(Array {
             section: section.to_owned(),
             name,
+            components,
             scalar: scalar(&kind),
             place,
         })

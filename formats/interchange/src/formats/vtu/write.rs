@@ -2,17 +2,18 @@
 //!
 //! Format: "VTK File Formats", section "XML File Formats". Little-endian; each appended array is
 //! preceded by its size in bytes as `UInt64`. Sizes are known beforehand, so arrays are streamed.
-//! Field data, as in the legacy format: `region_names`, `marker_names`, `wall_names`, characters
-//! with a line `id name` each; and `title` (see [`crate::promise_title`]). Compressed arrays wait in a
-//! temporary file until their sizes are known.
+//! Field data: as in the legacy format (see [`crate::formats::vtk::fields`]), and `title` (see
+//! [`crate::promise_title`]). Compressed arrays wait in a temporary file until their sizes are known.
 
 use super::spool::Spool;
 use crate::binary::Order;
-use crate::formats::vtk::cells::{CellArray, Cells, Values, name_fields};
+use crate::formats::vtk::cells::{CellArray, Cells, Values};
+use crate::formats::vtk::fields::{Names, names, texts};
 use crate::sink::ByteSink;
 use crate::stream::MeshStream;
 use crate::text::one_line;
 use crate::{WriteError, WriteOptions};
+use quick_xml::escape::escape;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -155,7 +156,10 @@ impl<'a> Layout<'a> {
         );
         xml += "    <FieldData>\n";
         text_array(&mut xml, "title", &one_line(&mesh.title()));
-        for (name, text) in name_fields(mesh, self.cells) {
+        for table in names(mesh, self.cells) {
+            names_array(&mut xml, &table);
+        }
+        for (name, text) in texts(mesh) {
             text_array(&mut xml, name, &text);
         }
         xml += "    </FieldData>\n";
@@ -292,6 +296,25 @@ pub fn write_pieces(
     Ok(out.flush()?)
 }
 
+/// Ids whose components are called by their names.
+fn names_array(xml: &mut String, table: &Names) {
+    let Names { array, ids, names } = table;
+    let _ = write!(
+        xml,
+        "      <DataArray type=\"Int32\" Name=\"{array}\" NumberOfComponents=\"{}\"",
+        ids.len()
+    );
+    for (i, name) in names.iter().enumerate() {
+        let _ = write!(xml, " ComponentName{i}=\"{}\"", escape(name));
+    }
+    let ids: Vec<String> = ids.iter().map(|&id| (id as i32).to_string()).collect();
+    let _ = writeln!(
+        xml,
+        " NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>",
+        ids.join(" ")
+    );
+}
+
 /// Text as the codes of its bytes: not every reader knows arrays of strings.
 fn text_array(xml: &mut String, name: &str, text: &str) {
     let codes: Vec<String> = text.bytes().map(|b| b.to_string()).collect();
@@ -383,7 +406,8 @@ mod tests {
         assert_eq!(integers(&arrays[4].2), [7; 5]);
         assert_eq!(integers(&arrays[6].2), [-1, 0, 2, 2, 2]);
         assert_eq!(integers(&arrays[7].2), [-1, 1, 0, 0, 0]);
-        let expected = "NumberOfTuples=\"9\" format=\"ascii\">55 32 99 111 112 112 101 114 10<";
+        let expected = "NumberOfComponents=\"1\" ComponentName0=\"copper\" NumberOfTuples=\"1\" \
+                        format=\"ascii\">7<";
         assert!(
             bytes
                 .escape_ascii()

@@ -1,0 +1,4 @@
+//! Assemblies: bodies of several solids, from several files, whose symmetry exchanges solids, in air.
+
+mod inputs;
+mod motor;

@@ -1,0 +1,138 @@
+//! Several inputs that are one body together.
+
+use crate::{Failure, Session};
+use heal::{HealError, Imported, Naming, Part, Repairing, assemble, read_part};
+use interchange::text::plain;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use tmesh::Document;
+
+/// A file to read, by `-` standard input.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InputFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// What all of it is called as a region, if the user says so.
+    pub region: Option<String>,
+}
+
+impl InputFile {
+    /// A file whose regions have names of their own, or the file's.
+    pub fn unnamed(path: PathBuf) -> Self {
+        Self { path, region: None }
+    }
+
+    /// From `NAME=FILE`.
+    ///
+    /// # Errors
+    /// Says what is missing.
+    pub fn named(text: &str) -> Result<Self, String> {
+        let Some((name, path)) = text.split_once('=') else {
+            return Err("NAME=FILE is wanted, the region's name before the file's".to_owned());
+        };
+        if name.ends_with(":max-volume") {
+            return Err("NAME=FILE is wanted; sizes are for the stages after this one".to_owned());
+        }
+        if name.is_empty() || plain(name) != name {
+            return Err("the region's name must have printable characters".to_owned());
+        }
+        if path.is_empty() {
+            return Err(format!("region '{name}' needs a file after the ="));
+        }
+        Ok(Self {
+            path: path.into(),
+            region: Some(name.to_owned()),
+        })
+    }
+
+    /// Whether it is standard input.
+    pub fn is_standard_input(&self) -> bool {
+        self.path == Path::new("-")
+    }
+
+    /// What it is called in messages.
+    pub fn label(&self) -> String {
+        match self.is_standard_input() {
+            true => "standard input".to_owned(),
+            false => self.path.display().to_string(),
+        }
+    }
+
+    fn naming(&self) -> Naming {
+        match &self.region {
+            Some(name) => Naming::Region(name.clone()),
+            None if self.is_standard_input() => Naming::File("stdin".to_owned()),
+            None => {
+                let stem = self.path.file_stem().unwrap_or_default();
+                Naming::File(plain(&stem.to_string_lossy()))
+            }
+        }
+    }
+}
+
+impl Session {
+    /// Fails where several inputs cannot be one body whatever they hold: standard input is named twice, or a region.
+    pub(crate) fn check_names(&self) -> Result<(), Failure> {
+        let mut known = BTreeMap::new();
+        let mut streams = 0;
+        for input in &self.inputs {
+            streams += usize::from(input.is_standard_input());
+            if streams > 1 {
+                let text = "standard input is named twice, and can be read only once";
+                return Err(Failure::Usage(text.to_owned()));
+            }
+            let name = input.naming().name().to_owned();
+            if let Some(other) = known.insert(name.clone(), input) {
+                return Err(Failure::Usage(format!(
+                    "{} and {} would both be region '{name}'; name one of them otherwise with --region NAME=FILE",
+                    other.label(),
+                    input.label()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads all inputs as one body.
+    pub(crate) fn read_several(&self, repairing: Repairing) -> Result<Document, Failure> {
+        let mut parts = Vec::new();
+        let mut notices = Vec::new();
+        for input in &self.inputs {
+            let mut part = self.read_one(input, repairing)?;
+            let label = input.label();
+            let told = part.take_notices().into_iter();
+            notices.extend(told.map(|notice| format!("{label}: {notice}")));
+            parts.push(part);
+        }
+        let together = |e: HealError| match &self.inputs[..] {
+            [input] => Failure::Input(format!("{}: {e}", input.label())),
+            all => Failure::Input(format!("the {} inputs together: {e}", all.len())),
+        };
+        let imported = assemble(parts).map_err(together)?;
+        notices.extend(imported.notices);
+        Ok(self.accept(Imported {
+            notices,
+            ..imported
+        }))
+    }
+
+    fn read_one(&self, input: &InputFile, repairing: Repairing) -> Result<Part, Failure> {
+        let label = input.label();
+        let fail = |text: String| Failure::Input(format!("{label}: {text}"));
+        let read = if input.is_standard_input() {
+            self.read_all(std::io::stdin().lock(), None).map_err(fail)?
+        } else {
+            let file: File = self.open(&input.path)?;
+            self.read_all(file, Some(&input.path)).map_err(fail)?
+        };
+        let (bytes, format) = read;
+        read_part(&bytes, format, input.naming(), repairing).map_err(|error| {
+            let text = error.to_string();
+            if let HealError::NotClosed { edges, .. } = error {
+                let _ = self.odd_edges.set(*edges);
+            }
+            fail(text)
+        })
+    }
+}

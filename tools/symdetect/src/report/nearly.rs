@@ -1,0 +1,196 @@
+//! A rotation that nearly holds: what breaks it, and where.
+
+use crate::budget::{FIT, NEXT_BEST, QUICK};
+use crate::group::Found;
+use crate::rotation::{OUTLIERS, Query, TELLING_TURNS, golden, powers};
+use crate::shape::{Random, Sample, Target};
+use crate::verify::{Bound, Operation, golden_rotations};
+use glam::DVec3;
+use serde::Serialize;
+use tmesh::{Axis, Frame, Isometry};
+
+/// Powers of a rotation that a place is tried under: each other place of an orbit of this many more is tried.
+const POWERS: u32 = 8;
+/// Principal directions, which come first among the candidates.
+const PRINCIPAL: usize = 3;
+
+/// A rotation under which all of the surface but some places goes to the surface.
+#[derive(Clone, Debug, Serialize)]
+pub struct Nearly {
+    /// Its order; none if any rotation does so.
+    pub order: Option<u32>,
+    /// Its axis, in world coordinates.
+    pub axis: Axis,
+    /// Share of the surface that is in the way.
+    pub share: f64,
+    /// A place in the midst of that, in world coordinates.
+    pub place: [f64; 3],
+    /// How far images of that are from the surface at most, relative to the radius about the axis.
+    pub residual: f64,
+}
+
+impl Nearly {
+    /// Of several that leave about as little in the way, the one of the highest order.
+    fn best(of: Vec<Self>) -> Option<Self> {
+        let least = of.iter().map(|n| n.share).fold(f64::INFINITY, f64::min);
+        let few = of.into_iter().filter(|n| n.share <= 2.0 * least);
+        few.max_by_key(|n| n.order.unwrap_or(u32::MAX))
+    }
+}
+
+/// Samples, those first that a set of turns takes off the surface.
+struct Lost<'a> {
+    samples: Vec<&'a Sample>,
+    /// How many were looked at.
+    of: usize,
+}
+
+impl Query<'_> {
+    /// The rotation that holds but for the fewest places, about the axis found or, where its order is two at most,
+    /// about one of the principal directions; if what is in the way is the lesser part of what tells one turn from
+    /// another, and no more than the share of outliers in any search.
+    ///
+    /// A place is in the way if most powers of the rotation take it off the surface: of a wheel without one of its
+    /// teeth, only the gap is.
+    pub fn nearly(&self, directions: &[DVec3], found: Option<&Found>) -> Option<Nearly> {
+        let known = found.filter(|f| f.group.order > 2);
+        let multiples = known.map_or(1, |f| f.group.order);
+        if found.is_some_and(|f| f.axisymmetric) || self.params.order.is_some() {
+            return None;
+        }
+        let frames: Vec<Frame> = match known {
+            Some(found) => vec![found.frame],
+            None => (directions.iter().take(PRINCIPAL))
+                .filter_map(|d| Frame::from_axis(self.centre, *d, d.any_orthogonal_vector()))
+                .collect(),
+        };
+        let about = frames.iter().map(|f| self.nearly_about(f, multiples));
+        Nearly::best(about.flatten().collect())
+    }
+
+    /// What nearly holds about an axis.
+    fn nearly_about(&self, start: &Frame, multiples: u32) -> Option<Nearly> {
+        let bound = self.limits.loosely(self.shape.radius(start));
+        let search = self.search(multiples.max(2)..=self.params.max_order);
+        let mut orders = search.scan(start, bound, 0.5, multiples);
+        orders.retain(|n| *n > multiples);
+        orders.truncate(NEXT_BEST);
+        // Of a body that has an order, it is no news that its other parts are round.
+        let any = (multiples == 1).then_some(None);
+        let orders = orders.into_iter().map(Some).chain(any);
+        let rough = orders.filter_map(|order| self.in_the_way(start, order, bound, QUICK));
+        let order = Nearly::best(rough.collect())?.order;
+        let operations = match order {
+            Some(order) => powers(order, &Target::Any),
+            None => golden(),
+        };
+        let frame = self.adjusted(*start, self.shape.radius(start), &operations, FIT / 2);
+        let bound = self.limits.bound(self.shape.radius(&frame));
+        (self.in_the_way(&frame, order, bound, FIT)).filter(|n| n.share > 0.0)
+    }
+
+    /// The first of the samples that most of some turns take off the surface.
+    fn lost(&self, turns: &[Operation], bound: Bound, count: usize) -> Lost<'_> {
+        let samples = &self.shape.samples.mixed;
+        let samples = &samples[..count.min(samples.len())];
+        let is_lost = |sample: &&Sample| {
+            let lost = |turn: &&Operation| !self.shape.lands(turn, sample, bound);
+            2 * turns.iter().filter(lost).count() > turns.len()
+        };
+        Lost {
+            samples: samples.iter().filter(is_lost).collect(),
+            of: samples.len(),
+        }
+    }
+
+    /// What is in the way of an order, or of any rotation.
+    fn in_the_way(
+        &self,
+        frame: &Frame,
+        order: Option<u32>,
+        bound: Bound,
+        count: usize,
+    ) -> Option<Nearly> {
+        let shape = self.shape;
+        let telling = self.lost(
+            &golden_rotations(frame, TELLING_TURNS, Target::Any),
+            bound,
+            count,
+        );
+        let most = match order {
+            Some(_) => telling.samples.len() / 2,
+            None => telling.samples.len(),
+        };
+        let turns = match order {
+            Some(order) => some_turns(frame, order),
+            None => golden_rotations(frame, POWERS as usize, Target::Any),
+        };
+        let mut lost = telling;
+        lost.samples.retain(|sample| {
+            let is_off = |turn: &&Operation| !shape.lands(turn, sample, bound);
+            2 * turns.iter().filter(is_off).count() > turns.len()
+        });
+        let share = lost.samples.len() as f64 / lost.of as f64;
+        if lost.samples.len() > most || share > OUTLIERS {
+            return None;
+        }
+        let distance = |sample: &Sample, turn: &Operation| {
+            let image = turn.motion.apply(sample.point);
+            let hit = shape.nearest(image, sample.triangle, &Target::Any, f64::INFINITY);
+            hit.map_or(0.0, |hit| hit.distance)
+        };
+        let farthest = (lost.samples.iter())
+            .flat_map(|s| turns.iter().map(|turn| distance(s, turn)))
+            .fold(0.0, f64::max);
+        Some(Nearly {
+            order,
+            axis: Axis {
+                point: shape.to_world(frame.origin).to_array(),
+                direction: frame.rotation.z_axis.to_array(),
+            },
+            share,
+            place: shape.to_world(middle(&lost.samples)).to_array(),
+            residual: farthest / shape.radius(frame),
+        })
+    }
+}
+
+/// All powers of a rotation or, of many, some drawn at random: those spread evenly would be about those of another order.
+fn some_turns(frame: &Frame, order: u32) -> Vec<Operation> {
+    let mut random = Random(u64::from(order));
+    let power = |i: u32| {
+        let k = match order - 1 > POWERS {
+            true => 1 + random.below(order as usize - 1) as i64,
+            false => 1 + i64::from(i),
+        };
+        Operation::new(frame, Isometry::rotation(k, order), Target::Any)
+    };
+    (0..(order - 1).min(POWERS)).map(power).collect()
+}
+
+/// That of some places which is nearest to the others, in the sum of the distances.
+fn middle(places: &[&Sample]) -> DVec3 {
+    let some = &places[..places.len().min(QUICK)];
+    let sum = |p: DVec3| some.iter().map(|s| s.point.distance(p)).sum::<f64>();
+    let points = some.iter().map(|s| s.point);
+    let best = points.min_by(|a, b| sum(*a).total_cmp(&sum(*b)));
+    best.unwrap_or(DVec3::ZERO)
+}
+
+impl std::fmt::Display for Nearly {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.order {
+            Some(order) => write!(f, "order {order}")?,
+            None => write!(f, "any rotation")?,
+        }
+        write!(
+            f,
+            " about {} through {} holds but for {:.2} % of the surface near {}, which is off by up to {:.1e} of the radius",
+            kit::point(self.axis.direction),
+            kit::point(self.axis.point),
+            100.0 * self.share,
+            kit::point(self.place),
+            self.residual,
+        )
+    }
+}
