@@ -180,7 +180,8 @@ fn instances_and_sector() {
     );
     let wedge = succeeds(&["--sector", "--boundary"], &input);
     let text = String::from_utf8_lossy(&wedge);
-    assert!(text.contains("1 wall-a\n2 wall-b\n"), "{text}");
+    assert!(text.contains("wall_names 2 1 int"), "{text}");
+    assert!(text.contains("wall-a\nwall-b\n"), "{text}");
     fails(
         &["--instances", "--to", "vtk"],
         &input,

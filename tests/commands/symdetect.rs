@@ -195,7 +195,7 @@ fn what_cannot_be_done_says_why_and_where() {
         &[
             "no symmetry within 1e-3",
             "off by",
-            " at (",
+            " near (",
             "--tolerance",
             "--allow-asymmetric",
         ],
