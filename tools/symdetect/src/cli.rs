@@ -7,7 +7,7 @@ use crate::params::Params;
 use crate::report::{Defects, Detection, FailureReport, Report, svg};
 use crate::threads;
 use glam::DVec3;
-use heal::Repairing;
+use heal::{Contacts, Overlap, Repairing};
 use kit::{Command, CommonArgs, Failure, InputFile, Output, Session, ThreadArgs};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -78,6 +78,16 @@ pub struct Cli {
     #[arg(long, value_name = "auto|off", default_value = "auto")]
     repair: RepairArg,
 
+    /// Which of two solids keeps the space that both claim, where neither lies inside the other: the one that is listed
+    /// later or earlier; refuse such files
+    #[arg(long, value_name = "later|earlier|refuse", default_value = "later")]
+    overlap: OverlapArg,
+
+    /// How far apart, or into each other, faces of two solids may be that touch, model units; otherwise what the facets
+    /// of curved faces explain
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    contact_gap: Option<f64>,
+
     /// Pass a body without symmetry on as C1
     #[arg(long)]
     allow_asymmetric: bool,
@@ -108,11 +118,20 @@ enum RepairArg {
     Off,
 }
 
-impl From<RepairArg> for Repairing {
-    fn from(arg: RepairArg) -> Self {
+/// Values of `--overlap`.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum OverlapArg {
+    Later,
+    Earlier,
+    Refuse,
+}
+
+impl From<OverlapArg> for Overlap {
+    fn from(arg: OverlapArg) -> Self {
         match arg {
-            RepairArg::Auto => Self::Auto,
-            RepairArg::Off => Self::Off,
+            OverlapArg::Later => Self::Later,
+            OverlapArg::Earlier => Self::Earlier,
+            OverlapArg::Refuse => Self::Refuse,
         }
     }
 }
@@ -145,6 +164,14 @@ fn tolerance(text: &str) -> Result<Tolerance, String> {
     }
 }
 
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x >= 0.0 && x.is_finite() => Ok(x),
+        Ok(_) => Err("a length is finite and not negative".to_owned()),
+        Err(e) => Err(e.to_string()),
+    }
+}
+
 fn point(text: &str) -> Result<DVec3, String> {
     let parts: Vec<f64> = text
         .split(',')
@@ -164,6 +191,16 @@ fn direction(text: &str) -> Result<DVec3, String> {
 }
 
 impl Cli {
+    fn repairing(&self) -> Repairing {
+        match self.repair {
+            RepairArg::Auto => Repairing::Auto(Contacts {
+                overlap: self.overlap.into(),
+                gap: self.contact_gap,
+            }),
+            RepairArg::Off => Repairing::Off,
+        }
+    }
+
     fn params(&self) -> Params {
         let (tolerance, facets) = match self.tolerance {
             Tolerance::Auto => (Params::default().tolerance, true),
@@ -269,12 +306,10 @@ impl Command for Cli {
     fn run(self, session: &Session) -> Result<(), Failure> {
         session.check_output()?;
         let params = self.params();
-        let mut document = session
-            .read_with(self.repair.into())
-            .inspect_err(|failure| {
-                let defects = session.odd_edges().map(Defects::of_open);
-                self.report_failure(failure, &defects.unwrap_or_default(), session);
-            })?;
+        let mut document = session.read_with(self.repairing()).inspect_err(|failure| {
+            let defects = session.odd_edges().map(Defects::of_open);
+            self.report_failure(failure, &defects.unwrap_or_default(), session);
+        })?;
         let (defects, found) = self.examine(&document, &params, session);
         let mut found = found.map_err(|error| {
             let failure = Failure::from(error);
