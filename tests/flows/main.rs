@@ -12,3 +12,4 @@ mod pipe;
 mod referee;
 mod seams;
 mod sections;
+mod touching;
