@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::process::CommandExt;
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 use std::thread;
 use std::time::{Instant, SystemTime};
 
@@ -48,11 +48,7 @@ fn interrupt(
         true => format!("-{}", make.id()),
         false => make.id().to_string(),
     };
-    let sent = Command::new("kill")
-        .args([&format!("-{signal}"), "--", &target])
-        .stderr(Stdio::null())
-        .status();
-    let _ = sent.expect("kill is installed");
+    let _ = support::send(&format!("-{signal}"), &target);
     make.wait().expect("a child can be waited for");
     let stands = files(folder.path());
     let wrong = stands.iter().filter_map(|(name, (content, _))| {

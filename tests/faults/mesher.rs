@@ -58,11 +58,7 @@ fn end(stage: &Stage, place: &Place, child: Child, part: &str) -> Result<(), Str
 }
 
 fn signalled(id: u32, signal: &str) -> bool {
-    let sent = Command::new("kill")
-        .args([signal, &id.to_string()])
-        .stderr(Stdio::null())
-        .status();
-    sent.is_ok_and(|s| s.success())
+    support::send(signal, &id.to_string())
 }
 
 /// Hits every process of TetGen that the tool starts: it tries again some times.

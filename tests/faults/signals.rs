@@ -14,11 +14,7 @@ fn ended_by(name: &'static str, number: i32) {
             let place = Place::new(stage);
             let mut child = place.start(stage);
             thread::sleep(stage.time.mul_f64(1.1 * share()));
-            let sent = Command::new("kill")
-                .args([format!("-{number}"), child.id().to_string()])
-                .stderr(Stdio::null())
-                .status();
-            let _ = sent.expect("kill is installed");
+            let _ = support::send(&format!("-{number}"), &child.id().to_string());
             let status = child.wait().expect("a child can be waited for");
             tally.add(match (status.code(), status.signal()) {
                 (Some(0), _) => place.check(stage, true, false),

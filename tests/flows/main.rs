@@ -2,6 +2,7 @@
 
 mod bounds;
 mod determinism;
+mod deviation;
 mod elements;
 mod exchanged;
 mod failures;

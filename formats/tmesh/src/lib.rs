@@ -33,4 +33,4 @@ pub use region_map::RegionMap;
 pub use symmetry::{Axis, OtherAxis, Outside, Promise, RejectedOrder, Search, Symmetry};
 pub use validate::validate;
 pub use violation::Violation;
-pub use wishes::{Size, Wishes};
+pub use wishes::{Deviation, Size, Wishes};

@@ -168,12 +168,16 @@ fn check_numbers(document: &Document, found: &mut Collector) {
     for (value, what) in [
         (wishes.radius_edge, "radius-edge ratio"),
         (wishes.optimize, "largest dihedral angle"),
+        (wishes.feature_angle, "angle of features"),
         (size, "size of elements"),
         (wishes.timeout, "time limit"),
     ] {
         if let Some(value) = value {
             check(value, true, &|| format!("the {what} wished for"));
         }
+    }
+    if let Some(crate::Deviation::Within(value)) = wishes.deviation {
+        check(value, false, &|| "the deviation wished for".to_owned());
     }
     if let Some(value) = wishes.min_dihedral {
         check(value, false, &|| {

@@ -23,6 +23,12 @@ pub struct Wishes {
     /// Size of elements wanted.
     #[serde(default, flatten, skip_serializing_if = "Option::is_none")]
     pub size: Option<Size>,
+    /// How far the surface that is meshed may be from the input's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deviation: Option<Deviation>,
+    /// Angle between the triangles at an edge, degrees, from which on the edge is a feature that stays.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feature_angle: Option<f64>,
     /// Time limit of the mesher for each template, seconds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
@@ -30,6 +36,17 @@ pub struct Wishes {
     /// stay. Mirror walls may be refined all the same.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keep_surface: Option<bool>,
+}
+
+/// How far the surface that is meshed may be from the input's.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Deviation {
+    /// As far as the input is from the symmetry that was found in it.
+    Auto,
+    /// So far, relative to the radius about the axis; 0 keeps every triangle.
+    #[serde(untagged)]
+    Within(f64),
 }
 
 /// A size of elements.
@@ -66,6 +83,10 @@ impl Wishes {
     /// below 1 %.
     pub const OPTIMIZE: f64 = 130.0;
 
+    /// Angle from which on an edge is a feature unless something else is asked for, degrees: kernels turn facets of one
+    /// smooth surface by up to half a radian unless told otherwise.
+    pub const FEATURE_ANGLE: f64 = 30.0;
+
     /// These wishes, and those of an earlier tool where these say nothing.
     #[must_use]
     pub fn over(self, earlier: &Self) -> Self {
@@ -75,6 +96,8 @@ impl Wishes {
             min_dihedral: self.min_dihedral.or(earlier.min_dihedral),
             optimize: self.optimize.or(earlier.optimize),
             size: self.size.or(earlier.size),
+            deviation: self.deviation.or(earlier.deviation),
+            feature_angle: self.feature_angle.or(earlier.feature_angle),
             timeout: self.timeout.or(earlier.timeout),
             keep_surface: self.keep_surface.or(earlier.keep_surface),
         }
@@ -108,6 +131,16 @@ impl Wishes {
     /// Largest volume of an element where a region has no limit of its own, model units cubed.
     pub fn max_volume(&self) -> Option<f64> {
         self.size.map(Size::max_volume)
+    }
+
+    /// How far the surface may be from the input's.
+    pub fn deviation(&self) -> Deviation {
+        self.deviation.unwrap_or(Deviation::Auto)
+    }
+
+    /// Angle from which on an edge is a feature, degrees.
+    pub fn feature_angle(&self) -> f64 {
+        self.feature_angle.unwrap_or(Self::FEATURE_ANGLE)
     }
 
     /// Time limit of the mesher for each template; none if it is longer than can be told.
@@ -158,6 +191,18 @@ mod tests {
         let text = serde_json::to_string(&wishes).unwrap();
         assert_eq!(text, r#"{"quality":false,"edge_length":0.5}"#);
         assert_eq!(serde_json::from_str::<Wishes>(&text).unwrap(), wishes);
+        for (deviation, words) in [
+            (Deviation::Auto, r#""auto""#),
+            (Deviation::Within(0.25), "0.25"),
+        ] {
+            let wishes = Wishes {
+                deviation: Some(deviation),
+                ..Wishes::default()
+            };
+            let text = serde_json::to_string(&wishes).unwrap();
+            assert_eq!(text, format!(r#"{{"deviation":{words}}}"#));
+            assert_eq!(serde_json::from_str::<Wishes>(&text).unwrap(), wishes);
+        }
         assert_eq!(
             serde_json::from_str::<Wishes>("{}").unwrap(),
             Wishes::default()

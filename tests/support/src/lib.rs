@@ -210,3 +210,12 @@ pub fn read(bytes: &[u8]) -> Document {
 
 /// ASCII STL with all digits.
 pub const EXACT_STL: Encoding = Encoding::StlAscii { digits: None };
+
+/// Sends a signal, such as `-TERM`, to a process, or to a group of which the id is given with a minus; whether there
+/// was one. The shell has this command in itself, a small system not beside it.
+pub fn send(signal: &str, target: &str) -> bool {
+    let mut command = Command::new("bash");
+    command.args(["-c", "kill \"$0\" -- \"$1\"", signal, target]);
+    let status = command.stderr(Stdio::null()).status();
+    status.expect("bash runs").success()
+}

@@ -102,6 +102,11 @@ impl Tolerance {
         }
     }
 
+    /// The reach of the body.
+    pub fn extent(&self) -> Extent {
+        self.extent
+    }
+
     /// What computing may lose.
     pub fn rounding(&self) -> f64 {
         ROUNDING * self.extent.size()

@@ -25,7 +25,7 @@ mod words;
 
 pub use assembly::{Naming, Part, assemble, read_part};
 pub use contacts::{Changed, Claimed, Contacts, Joined, Overlap};
-pub use document::Imported;
+pub use document::{Imported, check_scale};
 pub use error::{HealError, OddEdges};
 pub use read::{read, read_with};
 pub use repair::{Repair, RepairKind, Repairing};

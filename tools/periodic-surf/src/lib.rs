@@ -9,12 +9,15 @@ mod cli;
 mod error;
 mod memory;
 mod prepare;
+mod remeshed;
+mod shape;
 mod status;
 mod surface;
 
 pub use cli::Cli;
 pub use error::{SurfaceError, failure};
 pub use memory::MemoryArgs;
-pub use prepare::{Report, prepare};
+pub use prepare::{Report, prepare, settle_faces};
+pub use shape::follow_shape;
 pub use status::watched;
 pub use surface::{Made, Other, impose, make};

@@ -1,6 +1,7 @@
-//! The whole document: every template with a seam gets a new surface, and what follows it the shared face.
+//! The whole document: what stands for a curved surface is remeshed, every template with a seam gets a new surface, and what follows it the shared face.
 
 use crate::SurfaceError;
+use crate::shape::follow_shape;
 use crate::surface::{Other, impose, make};
 use mesher::{Climb, Deadline, LADDER, Log, Params, Piece, Sizes, TetGen};
 use tmesh::{Document, Template};
@@ -14,7 +15,7 @@ pub struct Report {
     pub remade: usize,
 }
 
-/// Makes the surfaces of all templates with a seam. `log` receives details while the work goes on.
+/// Remeshes all surfaces within the deviation, and makes those of templates with a seam. `log` receives details while the work goes on.
 ///
 /// # Errors
 /// See [`SurfaceError`].
@@ -27,6 +28,21 @@ pub fn prepare(
     if tets > 0 {
         return Err(SurfaceError::AlreadyFilled(tets));
     }
+    let mut facts = follow_shape(&mut document, params, log);
+    let (document, report) = settle_faces(document, params, log)?;
+    facts.extend(report.facts);
+    Ok((document, Report { facts, ..report }))
+}
+
+/// Makes the surfaces of all templates with a seam.
+///
+/// # Errors
+/// See [`SurfaceError`].
+pub fn settle_faces(
+    mut document: Document,
+    params: &Params,
+    log: Log<'_>,
+) -> Result<(Document, Report), SurfaceError> {
     let sizes = Sizes::new(&document);
     let mut report = Report::default();
     let seams: Vec<bool> = document

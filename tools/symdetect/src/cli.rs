@@ -1,6 +1,7 @@
 //! The command line of `symdetect`.
 
 use crate::detect::detect;
+use crate::enclosure::{self, Enclosure, Impossible};
 use crate::error::Error;
 use crate::params::Params;
 use crate::report::{Defects, Detection, FailureReport, Report, svg};
@@ -47,6 +48,15 @@ pub struct Cli {
     #[arg(long, value_name = "REL|auto", default_value = "auto", value_parser = tolerance)]
     tolerance: Tolerance,
 
+    /// Whether solids of one shape are images of each other whatever their names, or every region is its own image
+    #[arg(long, value_name = "exchange|keep", default_value = "exchange")]
+    regions: RegionsArg,
+
+    /// Fill the space around the body, and empty space in it, with a region named air, up to an outer boundary FACTOR times as
+    /// large as the body; both have the symmetry found
+    #[arg(long, value_name = "cylinder|box:FACTOR", value_parser = Enclosure::parse)]
+    enclosure: Option<Enclosure>,
+
     /// Direction of the axis, to be verified
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     axis: Option<DVec3>,
@@ -92,6 +102,13 @@ pub struct Cli {
     /// Draw what was found: the body, its axis and mirror planes, the deviation under every order
     #[arg(long, value_name = "PATH")]
     svg: Option<PathBuf>,
+}
+
+/// Values of `--regions`.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq)]
+enum RegionsArg {
+    Exchange,
+    Keep,
 }
 
 /// Values of `--repair`.
@@ -192,6 +209,7 @@ impl Cli {
         Params {
             tolerance,
             facets,
+            exchange: self.regions == RegionsArg::Exchange,
             axis: self.axis,
             center: self.center,
             order: self.order,
@@ -209,6 +227,12 @@ impl From<Error> for Failure {
             Error::NoSurface | Error::NoExtent { .. } => Self::Input(error.to_string()),
             _ => Self::Impossible(error.to_string()),
         }
+    }
+}
+
+impl From<Impossible> for Failure {
+    fn from(impossible: Impossible) -> Self {
+        Self::Impossible(impossible.to_string())
     }
 }
 
@@ -287,7 +311,7 @@ impl Command for Cli {
             self.report_failure(failure, &defects.unwrap_or_default(), session);
         })?;
         let (defects, found) = self.examine(&document, &params, session);
-        let found = found.map_err(|error| {
+        let mut found = found.map_err(|error| {
             let failure = Failure::from(error);
             self.report_failure(&failure, &defects, session);
             failure
@@ -308,16 +332,28 @@ impl Command for Cli {
                 session.note(&line);
             }
         }
+        let picture = (self.svg.as_ref()).map(|path| (path, svg(&document, &found, &self.title())));
+        let mut symmetry = found.symmetry.clone();
+        if let Some(enclosure) = self.enclosure {
+            let filled = enclosure::fill(&mut document, &mut symmetry, enclosure);
+            let note = filled.map_err(|impossible| {
+                let failure = Failure::from(impossible);
+                self.report_failure(&failure, &defects, session);
+                failure
+            })?;
+            session.note(&note);
+            found.notes.push(note);
+        }
         if let Some(path) = &self.report {
             write_text(
                 path,
                 &json(&Report::new(&document, &found, &defects, session))?,
             )?;
         }
-        if let Some(path) = &self.svg {
-            write_text(path, &svg(&document, &found, &self.title()))?;
+        if let Some((path, picture)) = picture {
+            write_text(path, &picture)?;
         }
-        document.symmetry = Some(found.symmetry);
+        document.symmetry = Some(symmetry);
         document.search = Some(found.search);
         document.history.push(session.history_entry(found.notes));
         session.write(&document)

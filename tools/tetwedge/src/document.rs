@@ -7,7 +7,7 @@ use crate::settle::{Settled, settle};
 use crate::template::{Done, Job, template};
 use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
 use rayon::prelude::*;
-use tmesh::{Document, Template};
+use tmesh::{Deviation, Document, Template};
 
 /// A document that was filled, and what there is to say about it.
 pub struct Meshed {
@@ -28,16 +28,37 @@ pub struct Meshed {
 /// # Errors
 /// See [`Error`].
 pub fn tetrahedralize(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, Error> {
+    let wished = document.wishes.deviation;
+    let attempt = meshed(document.clone(), params, log);
+    match attempt {
+        Err((error, true)) if error.is_chance() => {
+            log.detail(&format!(
+                "the surface is not remeshed, as that cannot be filled: {error}"
+            ));
+            let mut document = document;
+            document.wishes.deviation = Some(Deviation::Within(0.0));
+            let mut meshed = meshed(document, params, log).map_err(|(error, _)| error)?;
+            meshed.document.wishes.deviation = wished;
+            Ok(meshed)
+        }
+        other => other.map_err(|(error, _)| error),
+    }
+}
+
+/// The same, remeshed or not; an error says which.
+fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (Error, bool)> {
     let Settled {
         mut document,
         advice: unsettled,
         facts: settled,
-    } = settle(document, params, log)?;
+        remeshed,
+    } = settle(document, params, log).map_err(|error| (error, true))?;
     let sizes = Sizes::new(&document);
     let leaders: Vec<Option<usize>> = (0..document.templates.len())
         .map(|index| leader(&document, index))
         .collect();
-    let mut done = templates(&mut document, &leaders, params, &sizes, log)?;
+    let failed = |error| (error, remeshed);
+    let mut done = templates(&mut document, &leaders, params, &sizes, log).map_err(failed)?;
     let advices = done.iter().filter_map(|d| d.advice.clone());
     let advice = unsettled.into_iter().chain(advices).collect();
     let facts = [settled, facts(&done)].concat();
@@ -45,7 +66,7 @@ pub fn tetrahedralize(document: Document, params: &Params, log: Log<'_>) -> Resu
         let mut template = std::mem::take(&mut done[index].filled.template);
         // A follower has the new numbers already.
         if leaders[index].is_none() {
-            renumber(index, &mut template, &done)?;
+            renumber(index, &mut template, &done).map_err(failed)?;
         }
         document.templates[index] = template;
     }

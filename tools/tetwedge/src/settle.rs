@@ -1,7 +1,8 @@
-//! The faces that copies share, divided as the elements need before a template is filled.
+//! Surfaces remeshed within the deviation, and the faces that copies share divided as the elements need, before a template is
+//! filled.
 
 use mesher::{Error, Log, Params, Progress};
-use periodic_surf::{SurfaceError, prepare};
+use periodic_surf::{SurfaceError, follow_shape, settle_faces};
 use tmesh::Document;
 
 /// A document whose surface is to stay, and what there is to say about it.
@@ -12,22 +13,25 @@ pub struct Settled {
     pub advice: Option<String>,
     /// What was made, a sentence for each template.
     pub facts: Vec<String>,
+    /// Whether surfaces were remeshed.
+    pub remeshed: bool,
 }
 
-/// Makes the surface of templates with seams, as `periodic-surf` does, unless that was done before or is not wanted. A
-/// surface that cannot be made stays as it was cut.
+/// Remeshes surfaces and makes those of templates with seams, as `periodic-surf` does, unless that was done before or is
+/// not wanted. Faces of a seam that cannot be divided stay as they were cut.
 ///
 /// # Errors
 /// What another attempt would not change: time, memory, what is asked for.
-pub fn settle(document: Document, params: &Params, log: Log<'_>) -> Result<Settled, Error> {
-    let kept = |document, advice| Settled {
+pub fn settle(mut document: Document, params: &Params, log: Log<'_>) -> Result<Settled, Error> {
+    let kept = |document, advice, facts: Vec<String>| Settled {
         document,
         advice,
-        facts: Vec::new(),
+        remeshed: !Vec::is_empty(&facts),
+        facts,
     };
     let filled = document.templates.iter().any(|t| !t.tets.is_empty());
     if document.wishes.keep_surface() || filled {
-        return Ok(kept(document, None));
+        return Ok(kept(document, None, Vec::new()));
     }
     // Switches are meant for the tetrahedra.
     let surface = Params {
@@ -43,13 +47,18 @@ pub fn settle(document: Document, params: &Params, log: Log<'_>) -> Result<Settl
         true => Log::new(&detail).with_progress(&progress),
         false => log,
     };
-    match prepare(document.clone(), &surface, of_surface) {
+    let mut facts = follow_shape(&mut document, &surface, of_surface);
+    facts.iter().for_each(|fact| log.detail(fact));
+    match settle_faces(document.clone(), &surface, of_surface) {
         Ok((document, report)) => Ok(Settled {
             document,
             advice: None,
-            facts: match report.remade {
-                0 => Vec::new(),
-                _ => report.facts,
+            remeshed: !facts.is_empty(),
+            facts: {
+                if report.remade > 0 {
+                    facts.extend(report.facts);
+                }
+                facts
             },
         }),
         Err(SurfaceError::Mesher(error)) if !error.is_chance() => Err(error),
@@ -58,6 +67,7 @@ pub fn settle(document: Document, params: &Params, log: Log<'_>) -> Result<Settl
             Some(format!(
                 "the faces that copies share stay as they were cut, which costs elements or their quality: {error}"
             )),
+            facts,
         )),
     }
 }

@@ -4,7 +4,8 @@ use glam::DVec3;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use tmesh::{
-    ChunkInfo, Document, Isometry, OUTSIDE, Size, Template, VERSION_MAJOR, VERSION_MINOR, Wishes,
+    ChunkInfo, Deviation, Document, Isometry, OUTSIDE, Size, Template, VERSION_MAJOR,
+    VERSION_MINOR, Wishes,
 };
 
 /// Writes the listing. `chunks` are those the document was read from; without them they are not
@@ -338,6 +339,14 @@ fn list_wishes(wishes: &Wishes, text: &mut String) {
             Size::EdgeLength(edge) => format!("edges {}", number(edge)),
         }),
     );
+    add(
+        "deviation of the surface",
+        wishes.deviation.map(|deviation| match deviation {
+            Deviation::Auto => "auto".to_owned(),
+            Deviation::Within(relative) => number(relative),
+        }),
+    );
+    add("features from", wishes.feature_angle.map(number));
     add(
         "shared faces settled",
         wishes.keep_surface.map(|k| yes(k).to_owned()),

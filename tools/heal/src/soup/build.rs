@@ -49,12 +49,11 @@ pub fn mend(mut soup: Soup, solids: Solids, repairing: Repairing) -> Result<Mend
         mending.close()?;
         mending.remove_flat();
     }
-    match solids {
-        Solids::Groups => mending.tell_solids(),
-        Solids::Whole => mending.surface.make_one_solid(),
-    }
+    mending.tell_solids();
     if mending.surface.solids.len() < mending.surface.groups.len() {
         mending.merge(true)?;
+    } else if solids == Solids::Whole {
+        mending.unite()?;
     }
     mending.check_closed()?;
     if repairing == Repairing::Off

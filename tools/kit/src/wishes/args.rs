@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use geom::tet::REGULAR_RADIUS_EDGE;
-use tmesh::{Document, Size, Wishes};
+use tmesh::{Deviation, Document, Size, Wishes};
 
 /// Bounds and sizes of elements. What is not given is inherited from the tools before.
 #[derive(clap::Args, Clone, Debug, Default)]
@@ -33,6 +33,15 @@ pub struct WishArgs {
     #[arg(long, value_name = "DEG|off", value_parser = optimize)]
     optimize: Option<f64>,
 
+    /// How far the surface that is meshed may be from the input's, relative to the radius about the axis; 0 keeps every
+    /// triangle, `auto` allows what the input is off the symmetry that was found [default: inherited, or auto]
+    #[arg(long, value_name = "REL|auto", allow_negative_numbers = true, value_parser = deviation)]
+    deviation: Option<Deviation>,
+
+    /// Angle between triangles, degrees, from which on their edge is a feature that stays [default: inherited, or 30]
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = feature_angle)]
+    feature_angle: Option<f64>,
+
     /// A plain constrained tetrahedralization: no quality bounds, no optimization; `=false` asks for quality where
     /// a tool before was told otherwise
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true)]
@@ -57,6 +66,10 @@ struct RegionSize {
 /// larger, nor its largest one smaller.
 const REGULAR_DIHEDRAL: f64 = 70.528_779_365_509_31;
 
+/// Largest deviation, as that of the symmetry that `symdetect` searches for: a tenth of the radius leaves little of a
+/// body's shape.
+const LARGEST_DEVIATION: f64 = 0.1;
+
 impl WishArgs {
     /// The wishes of the command line alone.
     pub fn wishes(&self) -> Wishes {
@@ -67,6 +80,8 @@ impl WishArgs {
             min_dihedral: self.min_dihedral,
             optimize: self.optimize,
             size: volume.or(self.edge_length.map(Size::EdgeLength)),
+            deviation: self.deviation,
+            feature_angle: self.feature_angle,
             timeout: self.timeout,
             keep_surface: None,
         }
@@ -157,6 +172,27 @@ fn optimize(text: &str) -> Result<f64, String> {
     }
 }
 
+fn deviation(text: &str) -> Result<Deviation, String> {
+    if text == "auto" {
+        return Ok(Deviation::Auto);
+    }
+    let x = number(text)?;
+    if (0.0..=LARGEST_DEVIATION).contains(&x) {
+        Ok(Deviation::Within(x))
+    } else {
+        Err(format!("must be from 0 to {LARGEST_DEVIATION}, or auto"))
+    }
+}
+
+fn feature_angle(text: &str) -> Result<f64, String> {
+    let x = number(text)?;
+    if x > 0.0 && x <= 90.0 {
+        Ok(x)
+    } else {
+        Err("must be above 0 and at most 90".to_owned())
+    }
+}
+
 fn region_size(text: &str) -> Result<RegionSize, String> {
     let Some((region, volume)) = text.rsplit_once(":max-volume=") else {
         return Err("expected NAME:max-volume=V".to_owned());
@@ -203,6 +239,15 @@ mod tests {
             wishes.max_volume(),
             Some(Size::EdgeLength(0.5).max_volume())
         );
+        assert_eq!(wishes.deviation(), Deviation::Auto);
+        parse(&["--deviation", "0", "--feature-angle", "20"])
+            .unwrap()
+            .apply(&mut document)
+            .unwrap();
+        let wishes = &document.wishes;
+        assert_eq!(wishes.deviation(), Deviation::Within(0.0));
+        assert_eq!(wishes.feature_angle(), 20.0);
+        assert!(parse(&["--deviation", "0.2"]).is_err());
         let more = ["--max-volume", "1", "--no-quality=false"];
         parse(&more).unwrap().apply(&mut document).unwrap();
         assert!(document.wishes.quality());

@@ -6,7 +6,7 @@ use crate::instances::Copies;
 use crate::measure::Measured;
 use crate::tolerances::VOLUME;
 use std::collections::BTreeMap;
-use tmesh::Document;
+use tmesh::{Deviation, Document};
 
 /// Relative differences from the input; `None` where nothing is known of it.
 #[derive(Default)]
@@ -54,7 +54,8 @@ impl Extent {
 /// A mesh of one sector's copies is exactly symmetric; the input is so only within its residual. Its
 /// boundary, and the interfaces, may therefore differ by the residual times the radius, and by the
 /// error of the input's coordinates: by the sum of these in the sector, by as much in the copy, and by
-/// twice that near the cuts, onto which points are moved. With `d` four times the sum, a volume may differ
+/// twice that near the cuts, onto which points are moved; and by the deviation, if one was asked for: otherwise the surface is
+/// moved by the residual, once more. With `d` four times the sum, a volume may differ
 /// by `d` times the area around it, and the area of a triangle by `d` times half its perimeter.
 pub fn volume_errors(
     document: &Document,
@@ -67,7 +68,11 @@ pub fn volume_errors(
     };
     let symmetry = document.symmetry.as_ref();
     let residual = symmetry.map_or(0.0, |s| s.residual * s.radius);
-    let shift = 4.0 * (residual + source.precision);
+    let deviation = match document.wishes.deviation() {
+        Deviation::Auto => 0.0,
+        Deviation::Within(relative) => symmetry.map_or(0.0, |s| relative * s.radius),
+    };
+    let shift = 4.0 * (residual + source.precision + deviation);
     let extent = Extent::of(document, skins);
     let mut compare = |kind: Kind, amount: &Amount<'_>, shifted: f64| {
         let allowed = VOLUME * amount.expected + shift * shifted;

@@ -25,5 +25,6 @@ mod orbits;
 mod pairing;
 mod pieces;
 
+pub use check::same_body;
 pub use impose::{Other, impose};
 pub use make::{Made, make};

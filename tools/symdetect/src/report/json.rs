@@ -81,6 +81,12 @@ pub struct ReportPermutations {
     /// By the mirror across the axis.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub horizontal_regions: Vec<[u32; 2]>,
+    /// Sets of regions that the group exchanges.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub exchanged_regions: Vec<Vec<u32>>,
+    /// The part of the group that keeps every region, where that is not all of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keeping_regions: Option<ReportGroup>,
 }
 
 impl ReportPermutations {
@@ -90,8 +96,24 @@ impl ReportPermutations {
             rotation_regions: pairs(symmetry.group.rotation()),
             mirror_regions: pairs(Isometry::MIRROR),
             horizontal_regions: pairs(Isometry::FLIP),
+            exchanged_regions: symmetry.exchanged_regions(),
+            keeping_regions: Some(symmetry.keeping_regions())
+                .filter(|keeping| *keeping != symmetry.group)
+                .map(|group| ReportGroup {
+                    group,
+                    order: group.order,
+                }),
         }
     }
+}
+
+/// A group in the report.
+#[derive(Debug, Serialize)]
+pub struct ReportGroup {
+    /// The group about the main axis.
+    pub group: Group,
+    /// Order of the rotation.
+    pub order: u32,
 }
 
 /// A region in the report.

@@ -1,0 +1,231 @@
+//! Surfaces that follow the shape behind the triangles of the file, within the deviation.
+
+use bodies::{Coating, Prism, Tessellation};
+use geom::tree::Tree;
+use glam::DVec3;
+use serde_json::Value;
+use std::fmt::Write;
+use support::{EXACT_STL, encode, read, run};
+use tmesh::{OUTSIDE, Template};
+
+/// A vase with four lobes, D4h by design, in rings of facets that share neither its mirrors nor each other's rhythm, so that
+/// there are needles between them and slivers wherever a plane cuts them.
+fn vase() -> Vec<u8> {
+    let heights = [
+        -1.0, -0.83, -0.8, -0.55, -0.3, -0.28, 0.0, 0.2, 0.45, 0.5, 0.8, 1.0,
+    ];
+    let rings: Vec<Vec<DVec3>> = (0..).zip(heights).map(|(i, z)| ring(i, z)).collect();
+    let mut triangles = Vec::new();
+    for pair in rings.windows(2) {
+        zip(&pair[0], &pair[1], &mut triangles);
+    }
+    for (ring, up) in [(&rings[0], false), (&rings[rings.len() - 1], true)] {
+        let middle = DVec3::new(0.0, 0.0, ring[0].z);
+        for (i, &p) in ring.iter().enumerate() {
+            let q = ring[(i + 1) % ring.len()];
+            triangles.push(if up { [middle, p, q] } else { [middle, q, p] });
+        }
+    }
+    let mut text = String::from("solid vase\n");
+    for t in triangles {
+        text.push_str("facet normal 0 0 0\nouter loop\n");
+        for p in t {
+            let _ = writeln!(text, "vertex {:e} {:e} {:e}", p.x, p.y, p.z);
+        }
+        text.push_str("endloop\nendfacet\n");
+    }
+    text.push_str("endsolid vase\n");
+    text.into_bytes()
+}
+
+/// A ring of the vase: the number of points and where they begin are its own.
+fn ring(i: u32, z: f64) -> Vec<DVec3> {
+    let count = 50 + 7 * (i % 4);
+    let angle =
+        |k: u32| std::f64::consts::TAU * (f64::from(k) + 0.37 * f64::from(i)) / f64::from(count);
+    (0..count)
+        .map(|k| {
+            let radius = (1.0 - 0.3 * z * z) * (1.0 + 0.12 * (4.0 * angle(k)).cos());
+            DVec3::new(radius * angle(k).cos(), radius * angle(k).sin(), z)
+        })
+        .collect()
+}
+
+/// Triangles between two rings, by whichever diagonal is shorter.
+fn zip(low: &[DVec3], high: &[DVec3], triangles: &mut Vec<[DVec3; 3]>) {
+    let at = |ring: &[DVec3], i: usize| ring[i % ring.len()];
+    let first = (0..high.len())
+        .min_by(|&i, &j| {
+            high[i]
+                .distance(low[0])
+                .total_cmp(&high[j].distance(low[0]))
+        })
+        .expect("a ring has points");
+    let (mut i, mut j) = (0, 0);
+    while i < low.len() || j < high.len() {
+        let (p, q) = (at(low, i), at(high, first + j));
+        let (r, s) = (at(low, i + 1), at(high, first + j + 1));
+        let along_low = j == high.len() || (i < low.len() && r.distance(q) <= s.distance(p));
+        if along_low {
+            triangles.push([p, r, q]);
+            i += 1;
+        } else {
+            triangles.push([p, s, q]);
+            j += 1;
+        }
+    }
+}
+
+/// Outer triangles of a template: those that are on no glued face.
+fn outer(template: &Template) -> Vec<[DVec3; 3]> {
+    let mut glued = vec![false; template.triangles.len()];
+    for gluing in &template.gluings {
+        gluing
+            .triangles_of(0)
+            .for_each(|t| glued[t as usize] = true);
+    }
+    let triangles = template.triangles.iter().zip(glued);
+    triangles
+        .filter(|(t, glued)| !glued && t.front == OUTSIDE)
+        .map(|(t, _)| t.vertices.map(|v| template.vertices[v as usize]))
+        .collect()
+}
+
+/// The largest distance of points on the triangles of one surface from another.
+fn farthest(from: &[[DVec3; 3]], to: &[[DVec3; 3]]) -> f64 {
+    const PARTS: u32 = 8;
+    let tree = Tree::new(to.iter().copied());
+    let mut largest = 0.0_f64;
+    for [a, b, c] in from {
+        for i in 0..=PARTS {
+            for j in 0..=PARTS - i {
+                let [u, v] = [i, j].map(|k| f64::from(k) / f64::from(PARTS));
+                let p = *a + (*b - *a) * u + (*c - *a) * v;
+                let near = tree.nearest(p, f64::INFINITY).expect("a surface");
+                largest = largest.max(near.distance);
+            }
+        }
+    }
+    largest
+}
+
+fn first_percentile(mesh: &[u8]) -> f64 {
+    let report = run("meshqual", &["-q", "--check", "--json", "-"], mesh).success();
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    let angle = &report["metrics"]["min_dihedral_deg"]["p01"];
+    angle.as_f64().expect("an angle")
+}
+
+#[test]
+fn a_surface_of_needles_is_remeshed_within_its_deviation() {
+    let found = run("symdetect", &["-q"], &vase()).success();
+    for domain in ["mirror", "rotation"] {
+        let cut = run(
+            "wedgecut",
+            &["-q", "--domain", domain, "--order", "4"],
+            &found,
+        )
+        .success();
+        let filled = run("tetwedge", &["-q"], &cut).success();
+        let kept = run("tetwedge", &["-q", "--deviation", "0"], &cut).success();
+        let [better, before] = [&filled, &kept].map(|mesh| first_percentile(mesh));
+        assert!(
+            better > 15.0 && better > before,
+            "{domain}: {better}, {before} before"
+        );
+
+        let [cut, filled] = [&cut, &filled].map(|bytes| read(bytes));
+        let symmetry = cut.symmetry.as_ref().expect("a symmetry");
+        let allowed = symmetry.residual * symmetry.radius;
+        let [old, new] = [&cut, &filled].map(|document| outer(&document.templates[0]));
+        let distances = [farthest(&new, &old), farthest(&old, &new)];
+        assert!(
+            distances.iter().all(|d| *d <= allowed),
+            "{domain}: {distances:?} {allowed}"
+        );
+        assert!(distances[0] > 0.0);
+        // Top and bottom are flat, and stay so to the last bit.
+        let level = |z: f64| new.iter().flatten().filter(|p| p.z == z).count();
+        let flat = [cut.templates[0]
+            .vertices
+            .iter()
+            .map(|p| p.z)
+            .fold(f64::NEG_INFINITY, f64::max)];
+        assert!(flat.iter().all(|&z| level(z) > 3), "{domain}");
+        let markers = |document: &tmesh::Document| {
+            let all = document.templates[0].triangles.iter();
+            all.map(|t| (t.marker, t.front, t.back))
+                .collect::<std::collections::BTreeSet<_>>()
+        };
+        assert_eq!(markers(&cut), markers(&filled), "{domain}");
+    }
+}
+
+#[test]
+fn deviation_0_keeps_every_vertex() {
+    let found = run("symdetect", &["-q"], &vase()).success();
+    let cut = run("wedgecut", &["-q", "--deviation", "0"], &found).success();
+    let kept = read(&run("tetwedge", &["-q"], &cut).success());
+    let cut = read(&cut);
+    let bits = |p: &DVec3| p.to_array().map(f64::to_bits);
+    let there: std::collections::BTreeSet<_> =
+        kept.templates[0].vertices.iter().map(bits).collect();
+    assert!(
+        cut.templates[0]
+            .vertices
+            .iter()
+            .all(|p| there.contains(&bits(p)))
+    );
+}
+
+/// A larger deviation that is asked for is one that the check knows of, and a wish that later tools inherit.
+#[test]
+fn a_deviation_may_be_asked_for() {
+    let found = run("symdetect", &["-q"], &vase()).success();
+    let cut = run("wedgecut", &["-q", "--deviation", "0.03"], &found).success();
+    let made = run("periodic-surf", &["-q"], &cut).success();
+    let filled = run("tetwedge", &["-q"], &made).success();
+    assert!(first_percentile(&filled) > 15.0);
+    let [cut, filled] = [&cut, &filled].map(|bytes| read(bytes));
+    let allowed = 0.03 * cut.symmetry.as_ref().expect("a symmetry").radius;
+    let [old, new] = [&cut, &filled].map(|document| outer(&document.templates[0]));
+    assert!(farthest(&new, &old).max(farthest(&old, &new)) <= allowed);
+    run("tetwedge", &["--deviation", "-1"], &[]).fails(2, &["--deviation"]);
+}
+
+#[test]
+fn bodies_that_are_exact_are_not_remeshed() {
+    let prism = Prism {
+        order: 12,
+        tessellation: Tessellation::Symmetric,
+        ..Prism::default()
+    };
+    let ring = Coating {
+        order: 8,
+        radius: 1.0,
+        bore: 0.3,
+        thickness: 0.02,
+        height: 1.0,
+        tessellation: Tessellation::Symmetric,
+    };
+    for body in [prism.build(), ring.build()] {
+        let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();
+        let cut = run("wedgecut", &["-q"], &found).success();
+        let whole = |deviation: &str| {
+            let filled = run("tetwedge", &["-q", "--deviation", deviation], &cut).success();
+            run("rotassemble", &["-q"], &filled).success()
+        };
+        assert_eq!(whole("auto"), whole("0"));
+    }
+}
+
+#[test]
+fn remeshing_does_not_depend_on_threads() {
+    let found = run("symdetect", &["-q"], &vase()).success();
+    let cut = run("wedgecut", &["-q"], &found).success();
+    let templates = |threads: &str| {
+        let filled = run("tetwedge", &["-q", "--threads", threads], &cut).success();
+        read(&filled).templates
+    };
+    assert_eq!(templates("1"), templates("3"));
+}

@@ -1,0 +1,174 @@
+//! The surface of a template, remeshed within the deviation.
+
+use glam::DVec3;
+use mesher::{Faces, Piece};
+use remesh::{Rules, Surface, Told, remesh};
+use rustc_hash::FxHashMap;
+use tmesh::{Document, FixedSet, Template, Triangle};
+
+/// Edges in a whole turn of a curved surface: as many as solvers' guides ask for at least, 30 degrees each, the angle
+/// from which on edges are features.
+const SEGMENTS: f64 = 12.0;
+
+/// The bit of the axis; mirror walls have those below.
+const AXIS: u32 = u32::BITS - 1;
+
+/// What a template became.
+pub struct Smoothed {
+    /// The template.
+    pub template: Template,
+    /// New vertex of each vertex, `u32::MAX` for those that are gone.
+    pub vertices: Vec<u32>,
+    /// New triangle of each triangle that stayed, `u32::MAX` for others.
+    pub triangles: Vec<u32>,
+    /// What was done.
+    pub told: Told,
+}
+
+/// How far a surface may move.
+pub struct Remeshing {
+    /// At most so far, model units.
+    pub deviation: f64,
+    /// Within this of a plane, triangles are in one plane, model units.
+    pub flat: f64,
+    /// Angle from which on an edge is a feature, degrees.
+    pub feature_angle: f64,
+}
+
+/// Remeshes the surface of a template; glued faces stay as they are, but for mirror walls, on which vertices stay.
+/// `None` where there is nothing to do.
+pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Option<Smoothed> {
+    let template = &document.templates[index];
+    let faces = Faces::new(Piece::of(document, index));
+    let mut labels: FxHashMap<(u32, u32, u32, u32), u32> = FxHashMap::default();
+    let mut kinds: Vec<Triangle> = Vec::new();
+    let mut keys: Vec<u32> = Vec::new();
+    let triangles = template.triangles.iter().zip(&faces.of_triangle);
+    let label = |(t, &face): (&Triangle, &u32)| {
+        *labels
+            .entry((t.marker, t.front, t.back, face))
+            .or_insert_with(|| {
+                kinds.push(*t);
+                keys.push(face);
+                kinds.len() as u32 - 1
+            })
+    };
+    let surface = Surface {
+        labels: triangles.map(label).collect(),
+        points: template.vertices.clone(),
+        triangles: template.triangles.iter().map(|t| t.vertices).collect(),
+    };
+    let bound = bound(template, index)?;
+    let held = held(document, index);
+    let sets: Vec<FixedSet> = template
+        .gluings
+        .iter()
+        .map(|g| FixedSet::of(g.step))
+        .collect();
+    let onto = |bit: u32, p: DVec3| match bit {
+        AXIS => FixedSet::Axis.nearest(p),
+        bit => sets[bit as usize].nearest(p),
+    };
+    let rules = Rules {
+        held: &held,
+        bound: &bound,
+        onto: &onto,
+        deviation: remeshing.deviation,
+        flat: remeshing.flat,
+        feature: libm::cos(remeshing.feature_angle.to_radians()),
+        turn: std::f64::consts::TAU / SEGMENTS,
+    };
+    let done = remesh(&surface, &rules)?;
+    let new = |v: u32| done.vertices[v as usize];
+    let triangle = |(corners, label): (&[u32; 3], &u32)| Triangle {
+        vertices: *corners,
+        ..kinds[*label as usize]
+    };
+    let made = &done.surface;
+    let on = |bit: u32| {
+        let all = (0..).zip(&done.bound);
+        all.filter(move |(_, bound)| *bound & 1 << bit != 0)
+            .map(|(v, _)| v)
+    };
+    let mut gluings = template.gluings.clone();
+    for (i, gluing) in gluings.iter_mut().enumerate() {
+        if gluing.is_mirror(index) {
+            let key = mesher::face_key(i, false);
+            let of_wall = (0..)
+                .zip(&made.labels)
+                .filter(|(_, l)| keys[**l as usize] == key);
+            gluing.vertex_pairs = on(i as u32).map(|v: u32| [v, v]).collect();
+            gluing.triangle_pairs = of_wall.map(|(t, _): (u32, _)| [t, t]).collect();
+            continue;
+        }
+        let own = gluing.is_seam(index);
+        for pair in &mut gluing.vertex_pairs {
+            *pair = [new(pair[0]), if own { new(pair[1]) } else { pair[1] }];
+        }
+        for pair in &mut gluing.triangle_pairs {
+            let new = |t: u32| done.triangles[t as usize];
+            *pair = [new(pair[0]), if own { new(pair[1]) } else { pair[1] }];
+        }
+        gluing.sort();
+    }
+    Some(Smoothed {
+        template: Template {
+            vertices: made.points.clone(),
+            triangles: made
+                .triangles
+                .iter()
+                .zip(&made.labels)
+                .map(triangle)
+                .collect(),
+            tets: Vec::new(),
+            gluings,
+            axis: on(AXIS).collect(),
+        },
+        vertices: done.vertices,
+        triangles: done.triangles,
+        told: done.told,
+    })
+}
+
+/// Mirror walls of each vertex, and the axis. `None` where there are more walls than bits.
+fn bound(template: &Template, index: usize) -> Option<Vec<u32>> {
+    let mut bound = vec![0; template.vertices.len()];
+    for (i, gluing) in (0..).zip(&template.gluings) {
+        if gluing.is_mirror(index) {
+            if i >= AXIS {
+                return None;
+            }
+            gluing
+                .vertices_here()
+                .for_each(|v| bound[v as usize] |= 1 << i);
+        }
+    }
+    template
+        .axis
+        .iter()
+        .for_each(|&v| bound[v as usize] |= 1 << AXIS);
+    Some(bound)
+}
+
+/// Vertices of faces that are glued to other faces, whoever lists them.
+fn held(document: &Document, index: usize) -> Vec<bool> {
+    let template = &document.templates[index];
+    let mut held = vec![false; template.vertices.len()];
+    for gluing in &template.gluings {
+        if !gluing.is_mirror(index) {
+            gluing
+                .vertices_of(index)
+                .for_each(|v| held[v as usize] = true);
+        }
+    }
+    for (o, other) in document.templates.iter().enumerate() {
+        for gluing in &other.gluings {
+            if gluing.other_than(o) == Some(index) {
+                gluing
+                    .vertices_there()
+                    .for_each(|v| held[v as usize] = true);
+            }
+        }
+    }
+    held
+}

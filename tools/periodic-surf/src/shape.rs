@@ -1,0 +1,95 @@
+//! Surfaces that follow the shape behind the triangles of the input.
+
+use crate::remeshed::{Remeshing, Smoothed, remeshed};
+use crate::surface::same_body;
+use geom::tolerance::{Extent, Tolerance};
+use glam::DVec3;
+use mesher::{Log, Params, Progress};
+use tmesh::{Deviation, Document};
+
+/// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
+/// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for.
+pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> Vec<String> {
+    let tolerance = tolerance(document);
+    let mut facts = Vec::new();
+    let deviation = deviation(document, &tolerance);
+    if !params.quality || deviation <= tolerance.equal() {
+        return facts;
+    }
+    let remeshing = Remeshing {
+        deviation,
+        flat: tolerance.flat(),
+        feature_angle: document.wishes.feature_angle(),
+    };
+    for index in 0..document.templates.len() {
+        log.progress(&Progress {
+            template: index,
+            step: "remeshing the surface",
+            points: 0.0,
+            tetrahedra: 0.0,
+        });
+        let Some(smoothed) = remeshed(document, index, &remeshing) else {
+            continue;
+        };
+        let before = &document.templates[index];
+        if let Err(what) = same_body(before, &smoothed.template, (deviation, 0.0)) {
+            log.detail(&format!("template {index}: not remeshed, {what}"));
+            continue;
+        }
+        facts.push(fact(index, &smoothed, before.triangles.len(), deviation));
+        take(document, index, smoothed);
+    }
+    if !facts.is_empty() {
+        document.wishes.keep_surface = Some(true);
+    }
+    facts
+}
+
+/// How far surfaces may move, model units.
+fn deviation(document: &Document, tolerance: &Tolerance) -> f64 {
+    match document.wishes.deviation() {
+        Deviation::Auto => tolerance.drift(),
+        Deviation::Within(relative) => relative * tolerance.extent().radius,
+    }
+}
+
+/// What counts as equal in a document.
+fn tolerance(document: &Document) -> Tolerance {
+    let points = document.templates.iter().flat_map(|t| &t.vertices);
+    let points: Vec<DVec3> = points.copied().collect();
+    let extent = Extent::about(&points, DVec3::ZERO, DVec3::Z);
+    let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
+    let residual = document.symmetry.as_ref().map_or(0.0, |s| s.residual);
+    Tolerance::new(extent, precision, residual)
+}
+
+fn fact(index: usize, smoothed: &Smoothed, before: usize, deviation: f64) -> String {
+    let told = smoothed.told;
+    format!(
+        "template {index}: surface remeshed within {deviation:.1e}, {} triangles for {before} ({} edges collapsed, {} split, \
+         {} flipped, {} vertices moved)",
+        smoothed.template.triangles.len(),
+        told.collapsed,
+        told.split,
+        told.flipped,
+        told.moved,
+    )
+}
+
+/// Puts a template in its place, and renumbers what other templates have of it.
+fn take(document: &mut Document, index: usize, smoothed: Smoothed) {
+    document.templates[index] = smoothed.template;
+    for (other, template) in document.templates.iter_mut().enumerate() {
+        for gluing in &mut template.gluings {
+            if gluing.other_than(other) == Some(index) {
+                for pair in &mut gluing.vertex_pairs {
+                    pair[1] = smoothed.vertices[pair[1] as usize];
+                }
+                for pair in &mut gluing.triangle_pairs {
+                    pair[1] = smoothed.triangles[pair[1] as usize];
+                }
+                gluing.sort();
+            }
+        }
+    }
+}

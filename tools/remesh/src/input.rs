@@ -1,0 +1,51 @@
+//! What is to be remeshed, and what must stay.
+
+use glam::DVec3;
+
+/// A surface: a complex of triangles, in which more than two may meet at an edge.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Positions, model units.
+    pub points: Vec<DVec3>,
+    /// Vertex ids.
+    pub triangles: Vec<[u32; 3]>,
+    /// What each triangle belongs to: what has different labels stays apart.
+    pub labels: Vec<u32>,
+}
+
+impl Surface {
+    /// Positions of the corners of a triangle.
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.triangles[triangle as usize].map(|v| self.points[v as usize])
+    }
+}
+
+/// What must stay, and how far the rest may move.
+#[derive(Clone, Copy)]
+pub struct Rules<'a> {
+    /// Of each vertex, whether it stays as it is; triangles with three such vertices stay, too.
+    pub held: &'a [bool],
+    /// Of each vertex, the planes and lines that it stays on, a bit each.
+    pub bound: &'a [u32],
+    /// The nearest point on the plane or line of a bit.
+    pub onto: &'a (dyn Fn(u32, DVec3) -> DVec3 + Sync),
+    /// How far the surface may move at most, model units.
+    pub deviation: f64,
+    /// Within this of a plane, triangles are in one plane, model units.
+    pub flat: f64,
+    /// Cosine of the angle between the normals at a feature edge, from which on it is one.
+    pub feature: f64,
+    /// The angle by which edges turn along a curved surface, radians; less where the surface has to stay nearer.
+    pub turn: f64,
+}
+
+impl Rules<'_> {
+    /// The point on all planes and lines of these bits, if one projection gets there: on a single one.
+    pub fn put(&self, bound: u32, p: DVec3) -> Option<DVec3> {
+        match bound.count_ones() {
+            0 => Some(p),
+            1 => Some((self.onto)(bound.trailing_zeros(), p)),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Whether a change stays in the envelope, and keeps what must be kept.
+
+use super::{Change, Mesh};
+use crate::shape::Near;
+use geom::measure::double_area_vector;
+use geom::tree::closest_point;
+use glam::DVec3;
+
+/// A point of the input.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Where it is.
+    pub point: DVec3,
+    /// How far the surface may be.
+    pub reach: f64,
+}
+
+/// Where the input's points went.
+pub struct Fitted {
+    /// Samples of each new triangle.
+    pub samples: Vec<Vec<Sample>>,
+    /// Samples of each new feature edge.
+    pub on_chords: Vec<Vec<Sample>>,
+}
+
+/// Least cosine of the angle between a triangle and the shape that it stands for: 45 degrees, half of what would fold it
+/// over its neighbours if they are off as much.
+const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+impl Mesh<'_> {
+    /// Whether a change keeps to the rules; where the input's points are then.
+    pub fn fit(&self, change: &Change) -> Option<Fitted> {
+        let is_held = |t: &u32| {
+            self.triangles[*t as usize]
+                .iter()
+                .all(|&v| self.held[v as usize])
+        };
+        if change.gone.iter().any(is_held) {
+            return None;
+        }
+        if !change
+            .new
+            .iter()
+            .all(|&(t, patch)| self.is_sound(change, t, patch))
+        {
+            return None;
+        }
+        if !self.holds_edges(change) {
+            return None;
+        }
+        let at = |v: u32| self.points[v as usize];
+        let mut samples = vec![Vec::new(); change.new.len()];
+        for &t in &change.gone {
+            let patch = self.patch[t as usize];
+            for sample in &self.samples[t as usize] {
+                let distance = |corners: [u32; 3]| {
+                    closest_point(sample.point, &corners.map(at)).distance(sample.point)
+                };
+                let new = change.new.iter().enumerate().filter(|(_, n)| n.1 == patch);
+                let each = new.map(|(i, n)| (distance(n.0), i));
+                let (nearest, i) = each.min_by(|x, y| x.0.total_cmp(&y.0))?;
+                if nearest > sample.reach {
+                    return None;
+                }
+                samples[i].push(*sample);
+            }
+        }
+        let mut on_chords = vec![Vec::new(); change.chords.len()];
+        for ends in &change.chords_gone {
+            for sample in self.on_chords.get(ends).into_iter().flatten() {
+                let distance = |[a, b]: [u32; 2]| {
+                    geom::measure::distance_to_segment(sample.point, at(a), at(b))
+                };
+                let each = change
+                    .chords
+                    .iter()
+                    .enumerate()
+                    .map(|(i, c)| (distance(c.0), i));
+                let (nearest, i) = each.min_by(|x, y| x.0.total_cmp(&y.0))?;
+                if nearest > sample.reach {
+                    return None;
+                }
+                on_chords[i].push(*sample);
+            }
+        }
+        Some(Fitted { samples, on_chords })
+    }
+
+    /// Whether a new triangle has area, faces as the shape does, and is not there already.
+    fn is_sound(&self, change: &Change, corners: [u32; 3], patch: u32) -> bool {
+        let [a, b, c] = corners.map(|v| self.points[v as usize]);
+        let vector = double_area_vector(a, b, c);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let area = vector.length();
+        if area <= self.rules.flat * longest {
+            return false;
+        }
+        let upright = match &self.planes[patch as usize] {
+            Some(plane) => {
+                vector.dot(plane.normal) >= UPRIGHT * area
+                    && plane.off([a, b, c]) <= self.rules.flat
+            }
+            None => {
+                let middle = (a + b + c) / 3.0;
+                let normal = self.envelope.at(patch, middle).map(|at| at.0);
+                normal.is_some_and(|n| vector.dot(n) >= UPRIGHT * area)
+            }
+        };
+        upright && {
+            let is_same = |t: &&u32| {
+                let other = self.triangles[**t as usize];
+                corners.iter().all(|v| other.contains(v))
+            };
+            let around = self.around(corners[0]);
+            around
+                .iter()
+                .filter(is_same)
+                .all(|t| change.gone.contains(t))
+        }
+    }
+
+    /// Whether new edges are inside the envelope.
+    fn holds_edges(&self, change: &Change) -> bool {
+        let old = |a: u32, b: u32| {
+            change.moved != Some(a)
+                && change.moved != Some(b)
+                && change.gone.iter().any(|&t| {
+                    let corners = self.triangles[t as usize];
+                    corners.contains(&a) && corners.contains(&b)
+                })
+        };
+        let at = |v: u32| self.points[v as usize];
+        let chords = change
+            .chords
+            .iter()
+            .all(|&([a, b], curve)| self.envelope.holds(Near::Curve(curve), [at(a), at(b)]));
+        chords
+            && change.new.iter().all(|&(corners, patch)| {
+                self.planes[patch as usize].is_some()
+                    || (0..3).all(|i| {
+                        let (a, b) = (corners[i], corners[(i + 1) % 3]);
+                        let key = [a.min(b), a.max(b)];
+                        let is_chord = change.chords.iter().any(|c| c.0 == key)
+                            || self.curve(a, b).is_some();
+                        is_chord
+                            || old(a, b)
+                            // Both triangles at an edge have it; one of them looks.
+                            || (a > b && change.new.iter().any(|n| n.0.contains(&a) && n.0.contains(&b) && n.0 != corners))
+                            || self.envelope.holds(Near::Patch(patch), [at(a), at(b)])
+                    })
+            })
+    }
+}

@@ -1,0 +1,247 @@
+//! A surface that is changed place by place, inside an envelope.
+
+mod change;
+mod fit;
+mod triangle;
+
+pub use change::Change;
+pub use triangle::quality;
+
+use crate::input::{Rules, Surface};
+use crate::shape::{Allowance, Curves, Envelope, Patches};
+use fit::Sample;
+use geom::flat::Plane;
+use geom::sets::DisjointSets;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+/// No vertex.
+pub const NONE: u32 = u32::MAX;
+
+/// A surface that is changed place by place.
+pub struct Mesh<'a> {
+    /// What must stay.
+    pub rules: Rules<'a>,
+    /// What it stays inside of.
+    pub envelope: &'a Envelope,
+    /// The plane of each patch that is a flat face.
+    pub planes: &'a [Option<Plane>],
+    /// Positions.
+    pub points: Vec<DVec3>,
+    /// The planes and lines that each vertex stays on.
+    pub bound: Vec<u32>,
+    /// Whether each vertex stays where it is.
+    pub fixed: Vec<bool>,
+    /// Whether each vertex and triangles between such vertices stay as they are.
+    pub held: Vec<bool>,
+    /// Length of edges wanted at each vertex.
+    pub size: Vec<f64>,
+    /// Width of the input's facets at each vertex.
+    pub width: Vec<f64>,
+    /// Vertex ids; [`NONE`] three times for triangles that are gone.
+    pub triangles: Vec<[u32; 3]>,
+    /// Patch of each triangle.
+    pub patch: Vec<u32>,
+    around: Vec<Vec<u32>>,
+    /// Curve of each feature edge, lower vertex first.
+    features: FxHashMap<[u32; 2], u32>,
+    /// Points of the input that each triangle is near to.
+    samples: Vec<Vec<Sample>>,
+    /// Points of the input's curves that each feature edge is near to.
+    on_chords: FxHashMap<[u32; 2], Vec<Sample>>,
+}
+
+impl<'a> Mesh<'a> {
+    /// The surface as it is given.
+    pub fn new(
+        surface: &Surface,
+        rules: Rules<'a>,
+        (patches, curves): (&'a Patches, &Curves),
+        (envelope, allowance): (&'a Envelope, &Allowance),
+    ) -> Self {
+        let mut around = vec![Vec::new(); surface.points.len()];
+        for (t, corners) in surface.triangles.iter().enumerate() {
+            corners
+                .iter()
+                .for_each(|&v| around[v as usize].push(t as u32));
+        }
+        let vertices = 0..surface.points.len();
+        let ends = curves.ends.iter().copied();
+        let mut mesh = Self {
+            rules,
+            envelope,
+            planes: &patches.planes,
+            points: surface.points.clone(),
+            bound: rules.bound.to_vec(),
+            fixed: vertices
+                .map(|v| rules.held[v] || curves.corner[v])
+                .collect(),
+            held: rules.held.to_vec(),
+            size: allowance.size.clone(),
+            width: allowance.width.clone(),
+            triangles: surface.triangles.clone(),
+            patch: patches.of.clone(),
+            around,
+            features: ends.zip(curves.of.iter().copied()).collect(),
+            samples: vec![Vec::new(); surface.triangles.len()],
+            on_chords: FxHashMap::default(),
+        };
+        mesh.take_samples(surface, curves);
+        mesh
+    }
+
+    /// Notes the points of the input where the surface is near to them now.
+    fn take_samples(&mut self, surface: &Surface, curves: &Curves) {
+        for v in 0..surface.points.len() {
+            let point = surface.points[v];
+            let mut seen: Vec<(u32, u32, f64)> = Vec::new();
+            for &t in &self.around[v] {
+                let (patch, reach) = (self.patch[t as usize], self.envelope.reach(t));
+                match seen.iter_mut().find(|s| s.0 == patch) {
+                    Some(known) => known.2 = known.2.max(reach),
+                    None => seen.push((patch, t, reach)),
+                }
+            }
+            // On borders of patches, curves are what counts.
+            if let [(_, t, reach)] = seen[..]
+                && curves.degree[v] == 0
+            {
+                self.samples[t as usize].push(Sample { point, reach });
+            }
+        }
+        for (i, &ends) in (0..).zip(&curves.ends) {
+            let reach = self.envelope.reach_of_edge(i);
+            let samples = ends.map(|v| Sample {
+                point: surface.points[v as usize],
+                reach,
+            });
+            self.on_chords.insert(ends, samples.to_vec());
+        }
+    }
+
+    /// The triangles around a vertex.
+    pub fn around(&self, v: u32) -> &[u32] {
+        &self.around[v as usize]
+    }
+
+    /// The triangles at an edge.
+    pub fn at_edge(&self, a: u32, b: u32) -> Vec<u32> {
+        let around = self.around[a as usize].iter().copied();
+        around
+            .filter(|&t| self.triangles[t as usize].contains(&b))
+            .collect()
+    }
+
+    /// The curve of an edge, if it is a feature.
+    pub fn curve(&self, a: u32, b: u32) -> Option<u32> {
+        self.features.get(&[a.min(b), a.max(b)]).copied()
+    }
+
+    /// The vertices at the other ends of the edges of a vertex, increasing.
+    pub fn neighbours(&self, v: u32) -> Vec<u32> {
+        let around = self.around[v as usize].iter();
+        let mut all: Vec<u32> = around.flat_map(|&t| self.triangles[t as usize]).collect();
+        all.sort_unstable();
+        all.dedup();
+        all.retain(|&w| w != v);
+        all
+    }
+
+    /// The neighbours along feature edges, each with the curve.
+    pub fn along(&self, v: u32) -> Vec<(u32, u32)> {
+        let all = self.neighbours(v).into_iter();
+        all.filter_map(|w| Some((w, self.curve(v, w)?))).collect()
+    }
+
+    /// Length of an edge.
+    pub fn length(&self, [a, b]: [u32; 2]) -> f64 {
+        self.points[a as usize].distance(self.points[b as usize])
+    }
+
+    /// Length of an edge over that wanted there.
+    pub fn relative(&self, [a, b]: [u32; 2]) -> f64 {
+        2.0 * self.length([a, b]) / (self.size[a as usize] + self.size[b as usize])
+    }
+
+    /// Length of an edge over the width of the input's facets there.
+    pub fn relative_to_drawn(&self, [a, b]: [u32; 2]) -> f64 {
+        2.0 * self.length([a, b]) / (self.width[a as usize] + self.width[b as usize])
+    }
+
+    /// Quality of a triangle, from 0 to 1; 1 in flat faces, where only borders count.
+    pub fn quality_of(&self, [a, b, c]: [u32; 3], patch: u32) -> f64 {
+        match self.planes[patch as usize] {
+            Some(_) => 1.0,
+            None => quality([a, b, c].map(|v| self.points[v as usize])),
+        }
+    }
+
+    /// The worst quality of triangles.
+    pub fn worst(&self, triangles: &[u32]) -> f64 {
+        let each = triangles
+            .iter()
+            .map(|&t| self.quality_of(self.triangles[t as usize], self.patch[t as usize]));
+        each.fold(1.0, f64::min)
+    }
+
+    /// Facets of curved patches: sets of triangles that are coplanar with the next one.
+    pub fn facets(&self) -> Vec<u32> {
+        let mut sets = DisjointSets::new(self.triangles.len());
+        for [a, b] in self.edges() {
+            let [s, t] = self.at_edge(a, b)[..] else {
+                continue;
+            };
+            if self.patch[s as usize] == self.patch[t as usize] {
+                let [p, q] =
+                    [s, t].map(|t| self.triangles[t as usize].map(|v| self.points[v as usize]));
+                if Plane::of(p).off(q) <= self.rules.flat || Plane::of(q).off(p) <= self.rules.flat
+                {
+                    sets.join(s, t);
+                }
+            }
+        }
+        (0..self.triangles.len() as u32)
+            .map(|t| sets.find(t))
+            .collect()
+    }
+
+    /// Whether a triangle is there.
+    pub fn is_there(&self, t: u32) -> bool {
+        self.triangles[t as usize][0] != NONE
+    }
+
+    /// All edges, lower vertex first, increasing.
+    pub fn edges(&self) -> Vec<[u32; 2]> {
+        let there = self.triangles.iter().filter(|t| t[0] != NONE);
+        let mut edges: Vec<[u32; 2]> = there
+            .flat_map(|t| [0, 1, 2].map(|i| [t[i], t[(i + 1) % 3]]))
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+
+    /// Adds a vertex.
+    pub fn add(&mut self, p: DVec3, bound: u32, size: f64) -> u32 {
+        self.points.push(p);
+        self.bound.push(bound);
+        self.fixed.push(false);
+        self.held.push(false);
+        self.size.push(size);
+        self.width.push(size);
+        self.around.push(Vec::new());
+        self.points.len() as u32 - 1
+    }
+
+    /// Takes back the vertex that was added last.
+    pub fn drop_last(&mut self) {
+        self.points.pop();
+        self.bound.pop();
+        self.fixed.pop();
+        self.held.pop();
+        self.size.pop();
+        self.width.pop();
+        self.around.pop();
+    }
+}

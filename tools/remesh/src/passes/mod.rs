@@ -1,0 +1,10 @@
+//! Passes over a surface.
+
+mod collapse;
+mod flip;
+mod relocate;
+mod remesh;
+mod split;
+mod worth;
+
+pub use remesh::{Remeshed, Told, remesh};

@@ -1,0 +1,12 @@
+//! What a step is worth.
+
+/// Longest edge relative to the length wanted (Botsch and Kobbelt): a longer one has halves that are nearer to it.
+pub const LONG: f64 = 4.0 / 3.0;
+/// Shortest edge relative to the length wanted (Botsch and Kobbelt): two edges that meet at a vertex in between, of which
+/// one is shorter, are together nearer to it.
+pub const SHORT: f64 = 4.0 / 5.0;
+/// Quality of a triangle that is good enough to be given up for another one: between 30 and 150 degrees, those with
+/// equal sides are.
+pub const GOOD: f64 = 0.5;
+/// What a step has to gain.
+pub const GAIN: f64 = 1e-3;

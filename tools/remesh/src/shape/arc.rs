@@ -1,0 +1,38 @@
+//! Arcs that facets and chords stand for.
+
+use crate::input::Rules;
+
+/// An arc that is drawn by chords.
+#[derive(Clone, Copy, Debug)]
+pub struct Arc {
+    /// The angle by which chords turn, radians.
+    pub angle: f64,
+    /// Curvature, one over length.
+    pub curvature: f64,
+}
+
+impl Arc {
+    /// Length of a chord as it is drawn.
+    pub fn width(&self) -> f64 {
+        self.angle / self.curvature
+    }
+
+    /// Length of chords that turn as far as is wanted and are as far from the arc as may be; at least as they are drawn, and
+    /// twice the deviation, as shorter ones may all be one point.
+    pub fn size(&self, rules: &Rules<'_>) -> f64 {
+        let turned = rules.turn / self.curvature;
+        // A quarter of the deviation: the chords that are there are as far from the arc on their part, and steps that would
+        // leave the envelope are not done, which leaves bad triangles. Measured with `tetwedge` on a fan and a twisted bar
+        // from a CAD kernel: with half of it the first percentile of the angles is 13.5 and 14.5 degrees, with a quarter 16.0 and
+        // 19.6, for a tenth more elements at most; parts with mirror walls get up to 1.8 times as many.
+        let near = (2.0 * rules.deviation / self.curvature).sqrt();
+        let drawn = self.width().max(2.0 * rules.deviation);
+        turned.min(near).max(drawn)
+    }
+
+    /// How far such chords and those as drawn may be apart: the heights of the arc above both.
+    pub fn height(&self, rules: &Rules<'_>) -> f64 {
+        let (new, old) = (self.size(rules), self.width());
+        0.125 * (new * new + old * old) * self.curvature
+    }
+}

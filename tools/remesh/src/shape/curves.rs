@@ -1,0 +1,155 @@
+//! Curves: chains of feature edges between corners.
+
+use super::Patches;
+use super::arc::Arc;
+use crate::input::{Rules, Surface};
+use geom::sets::DisjointSets;
+use rustc_hash::FxHashMap;
+
+/// The feature curves of a surface.
+#[derive(Default)]
+pub struct Curves {
+    /// Feature edges, lower vertex first.
+    pub ends: Vec<[u32; 2]>,
+    /// Curve of each feature edge.
+    pub of: Vec<u32>,
+    /// Number of curves.
+    pub count: usize,
+    /// Of each vertex, the number of feature edges at it.
+    pub degree: Vec<u32>,
+    /// Of each vertex, whether it stays where it is because curves end or turn there.
+    pub corner: Vec<bool>,
+    /// How far the curve may be from each feature edge.
+    pub reach: Vec<f64>,
+    /// The arc that the curve follows at each vertex, if it is on one.
+    pub arcs: Vec<Option<Arc>>,
+}
+
+impl Curves {
+    /// Finds the feature edges: where patches meet, end, or are sharp.
+    pub fn new(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Self {
+        let is_inner = |edge: &usize| {
+            let smooth = patches.smooth(surface, rules, *edge);
+            let of = |t: u32| patches.of[t as usize];
+            smooth.is_some_and(|[u, v]| of(u.triangle) == of(v.triangle))
+        };
+        let features: Vec<usize> = (0..patches.edges.len()).filter(|e| !is_inner(e)).collect();
+        let ends: Vec<[u32; 2]> = features.iter().map(|&e| patches.edges.ends[e]).collect();
+        let mut at = vec![Vec::new(); surface.points.len()];
+        for (i, ends) in ends.iter().enumerate() {
+            ends.iter().for_each(|&v| at[v as usize].push(i as u32));
+        }
+        let kind = |i: u32| {
+            let around = patches.edges.around(features[i as usize]).iter();
+            let mut of: Vec<u32> = around.map(|u| patches.of[u.triangle as usize]).collect();
+            of.sort_unstable();
+            of
+        };
+        let along = |i: u32, v: u32| {
+            let [a, b] = ends[i as usize];
+            let other = if a == v { b } else { a };
+            surface.points[other as usize] - surface.points[v as usize]
+        };
+        let mut sets = DisjointSets::new(ends.len());
+        let mut corner = vec![false; surface.points.len()];
+        let mut turns: FxHashMap<u32, f64> = FxHashMap::default();
+        for (v, here) in (0..).zip(&at) {
+            let passes = match here[..] {
+                [] => continue,
+                [e, f] => {
+                    let (p, q) = (along(e, v), along(f, v));
+                    let straight = -p.normalize_or_zero().dot(q.normalize_or_zero());
+                    turns.insert(v, libm::acos(straight.clamp(-1.0, 1.0)));
+                    let bound = |i: u32| {
+                        ends[i as usize]
+                            .map(|v| rules.bound[v as usize])
+                            .into_iter()
+                            .fold(u32::MAX, |x, y| x & y)
+                    };
+                    straight >= rules.feature
+                        && kind(e) == kind(f)
+                        && bound(e) == rules.bound[v as usize]
+                        && bound(f) == rules.bound[v as usize]
+                }
+                _ => false,
+            };
+            if passes {
+                sets.join(here[0], here[1]);
+            } else {
+                corner[v as usize] = true;
+            }
+        }
+        let mut curves = Self {
+            degree: at.iter().map(|here| here.len() as u32).collect(),
+            of: Vec::with_capacity(ends.len()),
+            count: 0,
+            reach: Vec::new(),
+            arcs: vec![None; surface.points.len()],
+            corner,
+            ends,
+        };
+        let mut number = vec![u32::MAX; curves.ends.len()];
+        for i in 0..curves.ends.len() as u32 {
+            let first = sets.find(i) as usize;
+            if number[first] == u32::MAX {
+                number[first] = curves.count as u32;
+                curves.count += 1;
+            }
+            curves.of.push(number[first]);
+        }
+        curves.allow(surface, rules, (&at, &turns));
+        curves
+    }
+
+    /// Sets how far curves may be from their chords, and how long these are to be, from the arcs that they stand for: as those
+    /// of [`super::Allowance`].
+    fn allow(
+        &mut self,
+        surface: &Surface,
+        rules: &Rules<'_>,
+        (at, turns): (&[Vec<u32>], &FxHashMap<u32, f64>),
+    ) {
+        let length = |i: u32| {
+            let [a, b] = self.ends[i as usize].map(|v| surface.points[v as usize]);
+            a.distance(b)
+        };
+        // A turn beside an edge that is shorter than those around it moves the curve by less, and counts for less.
+        let own = |v: u32, mean: f64| -> [f64; 3] {
+            let here = || at[v as usize].iter().map(|&i| length(i));
+            let lengths = here().map(|length| 0.5 * length).sum();
+            let counts = (here().fold(f64::INFINITY, f64::min) / mean).min(1.0);
+            let turn = match self.corner[v as usize] {
+                true => 0.0,
+                false => counts * turns.get(&v).copied().unwrap_or(0.0),
+            };
+            [turn, turn * turn, lengths]
+        };
+        for (v, here) in (0..).zip(at) {
+            if here.is_empty() || self.corner[v as usize] {
+                continue;
+            }
+            // Over the neighbours, too: beside a short edge turns mean nothing.
+            let beside = here.iter().flat_map(|&i| self.ends[i as usize]);
+            let lengths = here.iter().flat_map(|&i| self.ends[i as usize]);
+            let lengths = lengths.flat_map(|v| at[v as usize].iter().map(|&i| length(i)));
+            let (sum, count) = lengths.fold((0.0, 0.0), |(s, n), l| (s + l, n + 1.0));
+            let sums = beside
+                .map(|v| own(v, sum / count))
+                .fold([0.0; 3], |[a, b, c], [x, y, z]| [a + x, b + y, c + z]);
+            let (angle, curvature) = (sums[1] / sums[0], sums[0] / sums[2]);
+            if sums[0] > 0.0 && curvature > 0.0 {
+                self.arcs[v as usize] = Some(Arc { angle, curvature });
+            }
+        }
+        self.reach = (self.ends.iter())
+            .map(|ends| {
+                let arcs = ends.iter().filter_map(|&v| self.arcs[v as usize]);
+                let heights = arcs.map(|arc| arc.height(rules));
+                heights
+                    .fold(0.0, f64::max)
+                    .min(rules.deviation)
+                    .max(rules.flat)
+            })
+            .collect();
+    }
+}

@@ -1,0 +1,13 @@
+//! What the triangles of the input stand for: flat faces, curved patches, curves between them, and how far the shape may be
+//! from its facets.
+
+mod allowance;
+mod arc;
+mod curves;
+mod envelope;
+mod patches;
+
+pub use allowance::Allowance;
+pub use curves::Curves;
+pub use envelope::{Envelope, Near};
+pub use patches::Patches;

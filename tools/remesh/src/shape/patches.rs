@@ -1,0 +1,168 @@
+//! Patches: connected triangles without a feature between them. A flat face is a patch of its own.
+
+use crate::input::{Rules, Surface};
+use geom::edges::{EdgeUse, Edges, apex_of};
+use geom::flat::{Flatness, Flats, Plane};
+use geom::measure::double_area_vector;
+use geom::sets::DisjointSets;
+use glam::DVec3;
+
+/// The patches of a surface.
+pub struct Patches {
+    /// Edges of the surface.
+    pub edges: Edges,
+    /// Patch of each triangle.
+    pub of: Vec<u32>,
+    /// The plane of each patch that is a flat face.
+    pub planes: Vec<Option<Plane>>,
+    /// Largest coplanar group of each triangle.
+    pub facet: Vec<u32>,
+    /// Unit normal of each triangle.
+    pub normals: Vec<DVec3>,
+}
+
+/// Share of the border of a flat face, beside which other facets go on as in a smooth surface with facets like it, from
+/// which on it is one of these facets: strips around a cylinder have it along both of their long sides, and what
+/// is as long as wide, on a sphere, along all. A face in which roundings of its own width end would need half.
+const ALIKE: f64 = 0.25;
+
+/// Cosine of a degree: what is bent by less is the same face, however wide.
+const SHALLOW: f64 = 0.999_847_695_156_391_2;
+
+impl Patches {
+    /// Divides a surface. n log n.
+    pub fn new(surface: &Surface, rules: &Rules<'_>) -> Self {
+        let edges = Edges::new(&surface.triangles);
+        let across = edges.across();
+        let flatness = |_| Flatness {
+            distance: rules.flat,
+            cosine: rules.feature,
+        };
+        let labels = &surface.labels;
+        let alike = |s: u32, t: u32| labels[s as usize] == labels[t as usize];
+        let flats = Flats::new(
+            &surface.points,
+            &surface.triangles,
+            &across,
+            flatness,
+            alike,
+        );
+        let normals = (0..surface.triangles.len() as u32)
+            .map(|t| {
+                let [a, b, c] = surface.corners(t);
+                double_area_vector(a, b, c).normalize_or_zero()
+            })
+            .collect();
+        let mut patches = Self {
+            edges,
+            of: Vec::new(),
+            planes: Vec::new(),
+            facet: flats.regions.of,
+            normals,
+        };
+        let is_face = patches.faces(surface, rules, flats.planes.len());
+        let mut sets = DisjointSets::new(surface.triangles.len());
+        for edge in 0..patches.edges.len() {
+            if let Some([u, v]) = patches.smooth(surface, rules, edge) {
+                let [f, g] = [u, v].map(|u| patches.facet[u.triangle as usize]);
+                if f == g || !is_face[f as usize] && !is_face[g as usize] {
+                    sets.join(u.triangle, v.triangle);
+                }
+            }
+        }
+        let mut number = vec![u32::MAX; surface.triangles.len()];
+        for t in 0..surface.triangles.len() as u32 {
+            let first = sets.find(t) as usize;
+            if number[first] == u32::MAX {
+                number[first] = patches.planes.len() as u32;
+                let facet = patches.facet[t as usize] as usize;
+                patches
+                    .planes
+                    .push(is_face[facet].then_some(flats.planes[facet]));
+            }
+            patches.of.push(number[first]);
+        }
+        patches
+    }
+
+    /// The two triangles at an edge of a smooth surface.
+    pub fn smooth(
+        &self,
+        surface: &Surface,
+        rules: &Rules<'_>,
+        edge: usize,
+    ) -> Option<[EdgeUse; 2]> {
+        let &[u, v] = self.edges.around(edge) else {
+            return None;
+        };
+        let [s, t] = [u, v].map(|u| u.triangle as usize);
+        let smooth = u.forward != v.forward
+            && surface.labels[s] == surface.labels[t]
+            && self.normals[s].dot(self.normals[t]) >= rules.feature;
+        smooth.then_some([u, v])
+    }
+
+    /// The angle between the triangles at a smooth edge, radians, positive where the edge is convex seen from the front.
+    pub fn turn(&self, surface: &Surface, [u, v]: [EdgeUse; 2]) -> f64 {
+        let [m, n] = [u, v].map(|u| self.normals[u.triangle as usize]);
+        let angle = libm::atan2(m.cross(n).length(), m.dot(n));
+        let apex = apex_of(&surface.triangles[v.triangle as usize], v.corner);
+        let base = surface.triangles[u.triangle as usize][0];
+        let [apex, base] = [apex, base].map(|v| surface.points[v as usize]);
+        if m.dot(apex - base) <= 0.0 {
+            angle
+        } else {
+            -angle
+        }
+    }
+
+    /// Of each coplanar group, whether it is a flat face and not a facet of something curved: it is where hardly anything
+    /// beside it goes on smoothly with facets of at least half its width.
+    fn faces(&self, surface: &Surface, rules: &Rules<'_>, count: usize) -> Vec<bool> {
+        let mut members = vec![Vec::new(); count];
+        for (t, &facet) in self.facet.iter().enumerate() {
+            members[facet as usize].extend(surface.triangles[t]);
+        }
+        let mut border = vec![0.0; count];
+        let mut like = vec![0.0; count];
+        let mut smooth = vec![0.0; count];
+        for edge in 0..self.edges.len() {
+            let [a, b] = self.edges.ends[edge].map(|v| surface.points[v as usize]);
+            let length = a.distance(b);
+            let along = (b - a).normalize_or_zero();
+            let width = |facet: u32| {
+                let points = members[facet as usize].iter();
+                let off = points.map(|&v: &u32| (surface.points[v as usize] - a).cross(along));
+                off.map(DVec3::length).fold(0.0, f64::max)
+            };
+            match self.smooth(surface, rules, edge) {
+                Some([u, v]) => {
+                    let [f, g] = [u, v].map(|u| self.facet[u.triangle as usize]);
+                    if f != g {
+                        let (w, x) = (width(f), width(g));
+                        let shallow = self.normals[u.triangle as usize]
+                            .dot(self.normals[v.triangle as usize])
+                            >= SHALLOW;
+                        for (facet, like_it) in [(f, w <= 2.0 * x), (g, x <= 2.0 * w)] {
+                            let like_it = like_it || shallow;
+                            border[facet as usize] += length;
+                            smooth[facet as usize] += length;
+                            like[facet as usize] += if like_it { length } else { 0.0 };
+                        }
+                    }
+                }
+                None => {
+                    for u in self.edges.around(edge) {
+                        border[self.facet[u.triangle as usize] as usize] += length;
+                    }
+                }
+            }
+        }
+        // A single triangle is one of the facets of whatever goes on smoothly beside it.
+        let is_face = |f: usize| match members[f].len() {
+            0..=3 => smooth[f] == 0.0,
+            _ => like[f] <= ALIKE * border[f],
+        };
+        (0..count).map(is_face).collect()
+    }
+}
