@@ -13,3 +13,4 @@ mod pipe;
 mod referee;
 mod seams;
 mod sections;
+mod touching;

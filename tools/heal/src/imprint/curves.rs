@@ -182,6 +182,16 @@ impl Patch {
         (p - self.corners[0]).dot(self.normal)
     }
 
+    /// Whether the face ends at a corner.
+    fn ends_at(&self, corner: usize) -> bool {
+        !(self.smooth[corner] && self.smooth[(corner + 2) % 3])
+    }
+
+    /// Whether two facets look the same way.
+    fn continues(&self, other: &Self) -> bool {
+        self.normal.dot(other.normal) >= SMOOTH.cos()
+    }
+
     /// Whether two facets look at each other.
     pub fn faces(&self, other: &Self) -> bool {
         self.normal.dot(other.normal) <= -SMOOTH.cos()
@@ -205,23 +215,33 @@ impl Curves {
         let [own, patch] = [of, t].map(|t| &self.patches[t as usize]);
         let p = complex.points[v as usize];
         let height = patch.height(p);
-        if self.reach(t) <= equal || !own.faces(patch) || height.abs() > self.reach(t) + equal {
+        let beside = own.continues(patch);
+        let looks = beside || own.faces(patch);
+        if self.reach(t) <= equal || !looks || height.abs() > self.reach(t) + equal {
             return None;
         }
         let flat = p - patch.normal * height;
-        let at = spot(flat, &patch.corners, self.uncertain(t).max(equal))?;
-        if (height - patch.over(flat)).abs() > self.uncertain(t).max(equal) {
+        let within = self.uncertain(t).max(equal);
+        let at = spot(flat, &patch.corners, within)?;
+        if (height - patch.over(flat)).abs() > within {
             return None;
         }
-        let corner =
-            |i: usize| self.may_join(v, complex.triangles[t as usize][i], patch, complex, equal);
+        let narrow = spot(flat, &patch.corners, equal);
+        if beside {
+            // Two solids end side by side on one surface: they touch along the edges where they end.
+            return narrow.filter(|at| match *at {
+                Spot::Corner(i) => patch.ends_at(i),
+                Spot::Edge(i, _) => !patch.smooth[i],
+                Spot::Inside => false,
+            });
+        }
         if let Spot::Corner(i) = at
-            && corner(i)
+            && self.may_join(v, complex.triangles[t as usize][i], patch, complex, equal)
         {
             return Some(at);
         }
         // Sharp edges are where they are.
-        match (at, spot(flat, &patch.corners, equal)) {
+        match (at, narrow) {
             (_, Some(narrow @ (Spot::Corner(_) | Spot::Edge(..)))) => Some(narrow),
             (Spot::Edge(i, _), _) if patch.smooth[i] => Some(at),
             (_, narrow) => narrow,

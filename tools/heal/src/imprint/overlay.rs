@@ -12,8 +12,9 @@ use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Rounds after which triangles are left as they are. A choice: the first one relates what the file has, the second one
-/// what crosses on a triangle, and each further one what the movement of the one before brought near; assemblies from CAD
-/// programs take up to five. What has not come to rest is refused, so that a larger number would only take longer.
+/// what crosses on a face, and each further one what the movement of the one before brought near. What has not come to rest
+/// by then is tried without curves, or refused: a larger number takes longer to say so, a smaller one may cut off what
+/// would have come to rest.
 const ROUNDS: usize = 16;
 
 /// Triangles that meet in common vertices and edges only, as far as anything was found.

@@ -1,0 +1,104 @@
+//! Assemblies whose solids touch, overlap or cross themselves, each drawn for itself.
+
+use bodies::facets::{Facet, ascii_stl, cuboid};
+use bodies::rounds::{Circle, cylinder, tube};
+use serde_json::Value;
+use support::{pipe, run};
+
+/// Volumes of regions of the mesh that the pipe makes, which must pass its check.
+fn meshed(solids: &[(&str, Vec<Facet>)]) -> Vec<(String, f64)> {
+    let stages: [&[&str]; 4] = [
+        &["symdetect", "--allow-asymmetric"],
+        &["wedgecut"],
+        &["tetwedge"],
+        &["rotassemble", "--to", "tmesh"],
+    ];
+    let mesh = pipe(&stages, &ascii_stl(solids)).pop().expect("a stage");
+    let mesh = mesh.success();
+    run("meshqual", &["--check"], &mesh).success();
+    let report = run("meshqual", &["--json", "-"], &mesh).success();
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    let regions = report["regions"].as_array().expect("regions").iter();
+    let region = |r: &Value| {
+        let name = r["name"].as_str().expect("a name").to_owned();
+        (name, r["volume"].as_f64().expect("a number"))
+    };
+    regions.map(region).collect()
+}
+
+fn expect(solids: &[(&str, Vec<Facet>)], wanted: &[(&str, f64)]) {
+    let found = meshed(solids);
+    assert_eq!(found.len(), wanted.len());
+    for ((name, volume), (known, exact)) in found.iter().zip(wanted) {
+        assert_eq!(name, known);
+        assert!(
+            (volume / exact - 1.0).abs() < 1e-5,
+            "{name}: {volume} for {exact}"
+        );
+    }
+}
+
+#[test]
+fn posts_on_a_plate() {
+    let post = |x: f64, y: f64| cuboid([x - 0.5, y - 0.5, 1.0], [x + 0.5, y + 0.5, 2.0]);
+    let solids = [
+        ("plate", cuboid([-3.0, -3.0, 0.0], [3.0, 3.0, 1.0])),
+        (
+            "posts",
+            [
+                post(1.5, 0.0),
+                post(-1.5, 0.0),
+                post(0.0, 1.5),
+                post(0.0, -1.5),
+            ]
+            .concat(),
+        ),
+    ];
+    expect(&solids, &[("plate", 36.0), ("posts", 4.0)]);
+}
+
+#[test]
+fn blocks_that_overlap() {
+    let solids = [
+        ("first", cuboid([0.0; 3], [2.0, 1.0, 1.0])),
+        ("second", cuboid([1.5, 0.25, 0.25], [3.0, 0.75, 0.75])),
+    ];
+    expect(&solids, &[("first", 2.0 - 0.125), ("second", 0.375)]);
+}
+
+#[test]
+fn a_surface_that_crosses_itself() {
+    let cross = [
+        cuboid([-3.0, -0.5, -0.5], [3.0, 0.5, 0.5]),
+        cuboid([-0.5, -3.0, -0.5], [0.5, 3.0, 0.5]),
+    ];
+    expect(&[("cross", cross.concat())], &[("cross", 11.0)]);
+}
+
+#[test]
+fn a_shaft_in_a_bore_that_is_drawn_with_other_corners() {
+    let circle = |radius: f64, corners: u32, phase: f64| Circle {
+        radius,
+        corners,
+        phase,
+    };
+    let solids = [
+        ("shaft", cylinder(circle(5.0, 48, 0.0), [-2.0, 6.0])),
+        (
+            "hub",
+            tube(circle(5.0, 32, 0.5), circle(8.0, 32, 0.0), [0.0, 4.0]),
+        ),
+    ];
+    let found = meshed(&solids);
+    let [shaft, hub] = [0, 1].map(|i| found[i].1);
+    let disc = circle(5.0, 3, 0.0).disc();
+    let within = |volume: f64, low: f64, high: f64| {
+        assert!(
+            low <= volume && volume <= high,
+            "{volume} of {low} to {high}"
+        );
+    };
+    within(shaft, 8.0 * circle(5.0, 32, 0.0).area(), 8.0 * disc);
+    let ring = |bore: f64| 4.0 * (circle(8.0, 32, 0.0).area() - bore);
+    within(hub, ring(disc), ring(circle(5.0, 32, 0.0).area()));
+}
