@@ -114,8 +114,10 @@ fn solids_of_files_keep_their_names_unless_they_clash() {
     let names: Vec<String> = regions(&joined).into_iter().map(|r| r.0).collect();
     assert_eq!(names, ["shaft", "inner-part", "outer-part", "magnetS"]);
     // With a name of its own, a file is one region, without the faces that its solids share.
-    let arguments = ["--region", "iron=inner.stl", "outer.stl"];
-    let joined = symdetect(folder.path(), &arguments, b"").success();
+    let arguments = ["--region", "iron=inner.stl", "outer.stl", "--repair=off"];
+    let outcome = symdetect(folder.path(), &arguments, b"");
+    assert!(!outcome.stderr.contains("dropped"), "{}", outcome.stderr);
+    let joined = outcome.success();
     let found = regions(&joined);
     let names: Vec<&str> = found.iter().map(|r| r.0.as_str()).collect();
     assert_eq!(names, ["part", "magnetS", "iron"]);

@@ -1,4 +1,6 @@
 //! Assemblies: bodies of several solids, from several files, whose symmetry exchanges solids, in air.
 
+mod air;
+mod exchange;
 mod inputs;
 mod motor;

@@ -53,6 +53,33 @@ impl Symmetry {
         self.region_map(self.group.rotation())
     }
 
+    /// The part of the group that takes every region to itself.
+    pub fn keeping_regions(&self) -> Group {
+        match self.regions.is_empty() {
+            true => self.group,
+            false => (self.group).part(|element| self.region_map(element).pairs.is_empty()),
+        }
+    }
+
+    /// Regions that the group takes to each other, ids increasing; those that stay where they are are not among them.
+    pub fn exchanged_regions(&self) -> Vec<Vec<u32>> {
+        let pairs = self.regions.iter().flat_map(|map| &map.pairs);
+        let mut orbits: Vec<Vec<u32>> = Vec::new();
+        for &[from, to] in pairs {
+            let (of, with): (Vec<_>, Vec<_>) = std::mem::take(&mut orbits)
+                .into_iter()
+                .partition(|orbit| !orbit.contains(&from) && !orbit.contains(&to));
+            let mut joined = with.concat();
+            joined.extend([from, to]);
+            joined.sort_unstable();
+            joined.dedup();
+            orbits = of;
+            orbits.push(joined);
+        }
+        orbits.sort_unstable();
+        orbits
+    }
+
     /// How an element of the group renames regions; the identity for other isometries.
     pub fn region_map(&self, element: Isometry) -> RegionMap {
         let Some((k, m, f)) = self.group.exponents(element) else {
@@ -210,7 +237,15 @@ mod tests {
                 assert_eq!(both.pairs, [[1, 2], [2, 3], [3, 1], [5, 6], [6, 5]]);
             }
         }
+        let maps = vec![swap(1, 2), swap(2, 3), swap(7, 8)];
+        let exchanging = symmetry(Group::new(Kind::Dh, 2), maps);
+        assert_eq!(exchanging.exchanged_regions(), [vec![1, 2, 3], vec![7, 8]]);
         let none = symmetry(Group::new(Kind::Cv, 3), Vec::new());
+        assert_eq!(none.keeping_regions(), none.group);
+        assert!(none.exchanged_regions().is_empty());
+        // The rotation exchanges two regions, and the mirror does: what is left are its even steps and the odd mirrors.
+        let both = symmetry(Group::new(Kind::Cv, 6), vec![swap(1, 2), swap(1, 2)]);
+        assert_eq!(both.keeping_regions(), Group::new(Kind::Cv, 3));
         assert_eq!(none.region_map(Isometry::MIRROR), RegionMap::default());
     }
 }

@@ -18,6 +18,7 @@ mod output;
 mod placement;
 mod polar;
 pub mod random_solid;
+pub mod rounds;
 pub mod structured;
 pub mod swept;
 pub mod torn;

@@ -1,6 +1,7 @@
 //! The tables of a document: regions with volumes, markers with areas, the source.
 
 use crate::HealError;
+use crate::contacts::Joined;
 use crate::repair::Repair;
 use crate::words::short;
 use geom::measure::{area_of_region, corners, tet_volume, triangle_area};
@@ -18,6 +19,8 @@ pub struct Imported {
     pub notices: Vec<String>,
     /// What was repaired.
     pub repairs: Vec<Repair>,
+    /// What was done to make one body of solids that touch or overlap, where that was needed.
+    pub joined: Option<Joined>,
 }
 
 /// A surface with its labels, before volumes and areas are known.
@@ -92,6 +95,7 @@ pub fn document(labelled: Labelled, format: &str) -> Result<Imported, HealError>
         document,
         notices,
         repairs,
+        joined: None,
     })
 }
 

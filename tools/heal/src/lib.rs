@@ -5,9 +5,11 @@
 //! outside told apart. What cannot be repaired without guessing is an error that says where it is.
 
 mod assembly;
+mod contacts;
 mod document;
 mod error;
 mod facet;
+mod imprint;
 mod leak;
 mod meeting;
 mod mesh;
@@ -16,12 +18,14 @@ mod read;
 mod repair;
 mod shells;
 mod sides;
+mod smooth;
 mod soup;
 mod welded;
 mod words;
 
 pub use assembly::{Naming, Part, assemble, read_part};
-pub use document::Imported;
+pub use contacts::{Changed, Claimed, Contacts, Joined, Overlap};
+pub use document::{Imported, check_scale};
 pub use error::{HealError, OddEdges};
 pub use read::{read, read_with};
 pub use repair::{Repair, RepairKind, Repairing};

@@ -10,7 +10,7 @@ use interchange::{Format, Parsed, parse};
 /// # Errors
 /// Malformed bytes, and surfaces that do not bound a body.
 pub fn read(bytes: &[u8], format: Format) -> Result<Imported, HealError> {
-    read_with(bytes, format, Repairing::Auto)
+    read_with(bytes, format, Repairing::default())
 }
 
 /// The same, where the caller says whether the surface may be repaired.
@@ -36,6 +36,7 @@ pub fn heal(parsed: Parsed, format: Format, repairing: Repairing) -> Result<Impo
             document: *document,
             notices: Vec::new(),
             repairs: Vec::new(),
+            joined: None,
         }),
         Parsed::Soup(soup) => soup::build(soup, format, repairing),
         Parsed::Plc(plc) => plc::build(plc, format),

@@ -1,17 +1,23 @@
 //! What is done to a surface that is not as it should be.
 
+use crate::contacts::Contacts;
 use crate::words::{place, short};
 use glam::DVec3;
 use interchange::text::counted;
 
 /// Whether what a file holds may be changed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Repairing {
-    /// What is wrong is repaired where that needs no guess.
-    #[default]
-    Auto,
+    /// What is wrong is repaired where that needs no guess, and solids that touch or overlap become one body.
+    Auto(Contacts),
     /// Nothing is moved, stitched or dropped: what would have to be is an error.
     Off,
+}
+
+impl Default for Repairing {
+    fn default() -> Self {
+        Self::Auto(Contacts::default())
+    }
 }
 
 /// A kind of repair.

@@ -155,9 +155,17 @@ fn open_solids_are_pieces_of_one_boundary() {
     );
 }
 
+/// Why a file is refused where nothing may be changed.
+fn refused_as_it_is(bytes: &[u8]) -> String {
+    match read_with(bytes, Stl, Repairing::Off) {
+        Ok(imported) => panic!("accepted: {:?}", imported.document.regions),
+        Err(error) => error.to_string(),
+    }
+}
+
 #[test]
-fn overlapping_solids_are_refused_with_a_place() {
-    let overlap = |a, b| refused(&ascii_stl(&[("a", a), ("b", b)]), Stl);
+fn overlapping_solids_are_refused_with_a_place_where_nothing_may_be_changed() {
+    let overlap = |a, b| refused_as_it_is(&ascii_stl(&[("a", a), ("b", b)]));
     let cube = || unit_cube([0.0; 3]);
     // Crossing, identical, nested, and with one face in common but both on the same side.
     let crossing = overlap(cube(), unit_cube([0.5, 0.25, 0.125]));
@@ -180,8 +188,8 @@ fn overlapping_solids_are_refused_with_a_place() {
 }
 
 #[test]
-fn solids_that_touch_without_matching_triangles_are_refused() {
-    let touch = |b| refused(&ascii_stl(&[("a", unit_cube([0.0; 3])), ("b", b)]), Stl);
+fn solids_that_touch_without_matching_triangles_are_refused_where_nothing_may_be_changed() {
+    let touch = |b| refused_as_it_is(&ascii_stl(&[("a", unit_cube([0.0; 3])), ("b", b)]));
     // Faces that overlap in part, a vertex on a face, an edge on a face, and the other diagonal.
     let part = touch(unit_cube([0.5, 0.25, 1.0]));
     assert!(part.contains("with different triangles"), "{part}");
@@ -301,9 +309,9 @@ fn triangles_without_area_are_removed() {
 }
 
 #[test]
-fn pieces_of_one_solid_that_cross_are_read_with_a_warning() {
+fn pieces_of_one_solid_that_cross_are_read_with_a_warning_where_nothing_may_be_changed() {
     let both = [unit_cube([0.0; 3]), unit_cube([0.5, 0.25, 0.125])].concat();
-    let imported = good(&binary_stl(b"", &both), Stl);
+    let imported = read_with(&binary_stl(b"", &both), Stl, Repairing::Off).expect("read");
     assert!(imported.notices[0].contains("cross or touch at"));
     assert_eq!(regions(&imported), [(1, "region1", 2.0)]);
 }
@@ -353,7 +361,7 @@ fn cubes_that_cross_at_a_common_edge_are_named_as_the_cause() {
         .into_iter()
         .map(|facet| facet.map(|[x, y, z]| [0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z]));
     let both = [unit_cube([0.0; 3]), turned.collect()].concat();
-    let said = refused(&binary_stl(b"", &both), Stl);
+    let said = refused_as_it_is(&binary_stl(b"", &both));
     assert!(
         said.contains("pairs of triangles cross or touch, the first at ("),
         "{said}"

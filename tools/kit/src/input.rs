@@ -23,7 +23,7 @@ impl Session {
 
     /// Reads the inputs named on the command line, whatever their formats.
     pub fn read(&self) -> Result<Document, Failure> {
-        self.read_with(Repairing::Auto)
+        self.read_with(Repairing::default())
     }
 
     /// The same, where the caller says whether a surface may be repaired.
@@ -54,7 +54,7 @@ impl Session {
 
     /// Reads a further input, whose format its content shows.
     pub fn read_other(&self, path: &Path) -> Result<Document, Failure> {
-        self.read_file(path, None, Repairing::Auto)
+        self.read_file(path, None, Repairing::default())
     }
 
     fn read_stream(&self, repairing: Repairing) -> Result<Document, Failure> {
@@ -128,12 +128,16 @@ impl Session {
             document,
             notices,
             repairs,
+            joined,
         } = imported;
         for notice in &notices {
             self.note(notice);
         }
         let _ = self.notices.set(notices);
         let _ = self.repairs.set(repairs);
+        if let Some(joined) = joined {
+            let _ = self.joined.set(joined);
+        }
         document
     }
 }

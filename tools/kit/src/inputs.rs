@@ -109,7 +109,7 @@ impl Session {
             [input] => Failure::Input(format!("{}: {e}", input.label())),
             all => Failure::Input(format!("the {} inputs together: {e}", all.len())),
         };
-        let imported = assemble(parts).map_err(together)?;
+        let imported = assemble(parts, repairing).map_err(together)?;
         notices.extend(imported.notices);
         Ok(self.accept(Imported {
             notices,

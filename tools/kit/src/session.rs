@@ -2,7 +2,7 @@
 
 use crate::messages::{self, Level};
 use crate::{CommonArgs, InputFile, MessageFormat};
-use heal::{OddEdges, Repair};
+use heal::{Joined, OddEdges, Repair};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::ffi::OsString;
 use std::io::IsTerminal;
@@ -23,6 +23,8 @@ pub struct Session {
     pub(crate) notices: OnceLock<Vec<String>>,
     /// What was repaired of the input.
     pub(crate) repairs: OnceLock<Vec<Repair>>,
+    /// What was done to make one body of the input's solids.
+    pub(crate) joined: OnceLock<Joined>,
     /// Why the input could not be read, when its surface is not closed.
     pub(crate) odd_edges: OnceLock<OddEdges>,
 }
@@ -47,6 +49,7 @@ impl Session {
             read: OnceLock::new(),
             notices: OnceLock::new(),
             repairs: OnceLock::new(),
+            joined: OnceLock::new(),
             odd_edges: OnceLock::new(),
         }
     }
@@ -64,6 +67,11 @@ impl Session {
     /// What was repaired of the input when it was read.
     pub fn repairs(&self) -> &[Repair] {
         self.repairs.get().map_or(&[], Vec::as_slice)
+    }
+
+    /// What was done to make one body of the input's solids, where they touch or overlap.
+    pub fn joined(&self) -> Option<&Joined> {
+        self.joined.get()
     }
 
     /// The edges that kept the input from being read, when its surface is not closed.

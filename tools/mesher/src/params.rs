@@ -44,7 +44,8 @@ impl Default for Params {
     }
 }
 
-/// Largest volumes per region: what the region says, else the general limit of the wishes.
+/// Largest volumes per region: what the region says, else the general limit of the wishes; where instances make other
+/// regions of it, the least of what those say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sizes {
     /// One entry per region of the document, model units cubed.
@@ -55,9 +56,18 @@ impl Sizes {
     /// The sizes that a document asks for.
     pub fn new(document: &Document) -> Self {
         let general = document.wishes.max_volume();
-        let regions = document.regions.iter();
+        let regions = &document.regions;
+        let limit = |id: u32| {
+            let known = regions.binary_search_by_key(&id, |r| r.id).ok();
+            known.and_then(|at| regions[at].max_volume).or(general)
+        };
+        let least = |id: u32| {
+            let images = document.region_maps.iter().map(|map| map.get(id));
+            let limits = images.chain([id]).filter_map(limit);
+            limits.reduce(f64::min)
+        };
         Self {
-            of_region: regions.map(|r| r.max_volume.or(general)).collect(),
+            of_region: regions.iter().map(|r| least(r.id)).collect(),
         }
     }
 
@@ -79,7 +89,7 @@ impl Sizes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tmesh::{Region, Size, Template};
+    use tmesh::{Region, RegionMap, Size, Template};
 
     #[test]
     fn sizes_of_regions_go_before_the_general_one() {
@@ -97,6 +107,13 @@ mod tests {
         assert_eq!(sizes.of_region, [Some(4.0), Some(0.1), Some(1.0)]);
         assert_eq!(sizes.loosest(&[0, 1, 2]), Some(4.0));
         assert!(sizes.differ(&[0, 1]) && !sizes.differ(&[2]));
+        // Some instance has the third region where the template has the first.
+        document.region_maps = vec![RegionMap {
+            pairs: vec![[3, 7], [7, 3]],
+        }];
+        let sizes = Sizes::new(&document);
+        assert_eq!(sizes.of_region, [Some(1.0), Some(0.1), Some(1.0)]);
+        document.region_maps.clear();
         document.wishes.size = None;
         let sizes = Sizes::new(&document);
         assert_eq!(sizes.loosest(&[0, 2]), None);

@@ -34,6 +34,8 @@ pub const FULL: usize = 4 * SURVEY;
 /// local optima of a scan, of which equivalent ones have been merged, so that others are chance. A choice: each takes an
 /// adjustment and a quick verification; with fewer, one that holds may be passed over.
 pub const NEXT_BEST: usize = 6;
+/// Entries of a list in a sentence at most: a line of text holds them. A choice; the report has all of them.
+pub const SHOWN: usize = 4;
 /// Entries of a list in a report at most: axes, places of a defect, lines of a table. A choice: more than the 30 other
 /// axes of an icosahedron, and still looked through by eye.
 pub const LISTED: usize = 64;

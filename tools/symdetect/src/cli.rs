@@ -1,12 +1,13 @@
 //! The command line of `symdetect`.
 
 use crate::detect::detect;
+use crate::enclosure::{self, Enclosure, Impossible};
 use crate::error::Error;
 use crate::params::Params;
 use crate::report::{Defects, Detection, FailureReport, Report, svg};
 use crate::threads;
 use glam::DVec3;
-use heal::Repairing;
+use heal::{Contacts, Overlap, Repairing};
 use kit::{Command, CommonArgs, Failure, InputFile, Output, Session, ThreadArgs};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -47,6 +48,15 @@ pub struct Cli {
     #[arg(long, value_name = "REL|auto", default_value = "auto", value_parser = tolerance)]
     tolerance: Tolerance,
 
+    /// Whether solids of one shape are images of each other whatever their names, or every region is its own image
+    #[arg(long, value_name = "exchange|keep", default_value = "exchange")]
+    regions: RegionsArg,
+
+    /// Fill the space around the body, and empty space in it, with a region named air, up to an outer boundary FACTOR times as
+    /// large as the body; both have the symmetry found
+    #[arg(long, value_name = "cylinder|box:FACTOR", value_parser = Enclosure::parse)]
+    enclosure: Option<Enclosure>,
+
     /// Direction of the axis, to be verified
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     axis: Option<DVec3>,
@@ -68,6 +78,16 @@ pub struct Cli {
     #[arg(long, value_name = "auto|off", default_value = "auto")]
     repair: RepairArg,
 
+    /// Which of two solids keeps the space that both claim, where neither lies inside the other: the one that is listed
+    /// later or earlier; refuse such files
+    #[arg(long, value_name = "later|earlier|refuse", default_value = "later")]
+    overlap: OverlapArg,
+
+    /// How far apart, or into each other, faces of two solids may be that touch, model units; otherwise what the facets
+    /// of curved faces explain
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    contact_gap: Option<f64>,
+
     /// Pass a body without symmetry on as C1
     #[arg(long)]
     allow_asymmetric: bool,
@@ -84,6 +104,13 @@ pub struct Cli {
     svg: Option<PathBuf>,
 }
 
+/// Values of `--regions`.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq)]
+enum RegionsArg {
+    Exchange,
+    Keep,
+}
+
 /// Values of `--repair`.
 #[derive(clap::ValueEnum, Clone, Copy, Debug)]
 enum RepairArg {
@@ -91,11 +118,20 @@ enum RepairArg {
     Off,
 }
 
-impl From<RepairArg> for Repairing {
-    fn from(arg: RepairArg) -> Self {
+/// Values of `--overlap`.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum OverlapArg {
+    Later,
+    Earlier,
+    Refuse,
+}
+
+impl From<OverlapArg> for Overlap {
+    fn from(arg: OverlapArg) -> Self {
         match arg {
-            RepairArg::Auto => Self::Auto,
-            RepairArg::Off => Self::Off,
+            OverlapArg::Later => Self::Later,
+            OverlapArg::Earlier => Self::Earlier,
+            OverlapArg::Refuse => Self::Refuse,
         }
     }
 }
@@ -128,6 +164,14 @@ fn tolerance(text: &str) -> Result<Tolerance, String> {
     }
 }
 
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x >= 0.0 && x.is_finite() => Ok(x),
+        Ok(_) => Err("a length is finite and not negative".to_owned()),
+        Err(e) => Err(e.to_string()),
+    }
+}
+
 fn point(text: &str) -> Result<DVec3, String> {
     let parts: Vec<f64> = text
         .split(',')
@@ -147,6 +191,16 @@ fn direction(text: &str) -> Result<DVec3, String> {
 }
 
 impl Cli {
+    fn repairing(&self) -> Repairing {
+        match self.repair {
+            RepairArg::Auto => Repairing::Auto(Contacts {
+                overlap: self.overlap.into(),
+                gap: self.contact_gap,
+            }),
+            RepairArg::Off => Repairing::Off,
+        }
+    }
+
     fn params(&self) -> Params {
         let (tolerance, facets) = match self.tolerance {
             Tolerance::Auto => (Params::default().tolerance, true),
@@ -155,6 +209,7 @@ impl Cli {
         Params {
             tolerance,
             facets,
+            exchange: self.regions == RegionsArg::Exchange,
             axis: self.axis,
             center: self.center,
             order: self.order,
@@ -172,6 +227,12 @@ impl From<Error> for Failure {
             Error::NoSurface | Error::NoExtent { .. } => Self::Input(error.to_string()),
             _ => Self::Impossible(error.to_string()),
         }
+    }
+}
+
+impl From<Impossible> for Failure {
+    fn from(impossible: Impossible) -> Self {
+        Self::Impossible(impossible.to_string())
     }
 }
 
@@ -245,14 +306,12 @@ impl Command for Cli {
     fn run(self, session: &Session) -> Result<(), Failure> {
         session.check_output()?;
         let params = self.params();
-        let mut document = session
-            .read_with(self.repair.into())
-            .inspect_err(|failure| {
-                let defects = session.odd_edges().map(Defects::of_open);
-                self.report_failure(failure, &defects.unwrap_or_default(), session);
-            })?;
+        let mut document = session.read_with(self.repairing()).inspect_err(|failure| {
+            let defects = session.odd_edges().map(Defects::of_open);
+            self.report_failure(failure, &defects.unwrap_or_default(), session);
+        })?;
         let (defects, found) = self.examine(&document, &params, session);
-        let found = found.map_err(|error| {
+        let mut found = found.map_err(|error| {
             let failure = Failure::from(error);
             self.report_failure(&failure, &defects, session);
             failure
@@ -273,16 +332,28 @@ impl Command for Cli {
                 session.note(&line);
             }
         }
+        let picture = (self.svg.as_ref()).map(|path| (path, svg(&document, &found, &self.title())));
+        let mut symmetry = found.symmetry.clone();
+        if let Some(enclosure) = self.enclosure {
+            let filled = enclosure::fill(&mut document, &mut symmetry, enclosure);
+            let note = filled.map_err(|impossible| {
+                let failure = Failure::from(impossible);
+                self.report_failure(&failure, &defects, session);
+                failure
+            })?;
+            session.note(&note);
+            found.notes.push(note);
+        }
         if let Some(path) = &self.report {
             write_text(
                 path,
                 &json(&Report::new(&document, &found, &defects, session))?,
             )?;
         }
-        if let Some(path) = &self.svg {
-            write_text(path, &svg(&document, &found, &self.title()))?;
+        if let Some((path, picture)) = picture {
+            write_text(path, &picture)?;
         }
-        document.symmetry = Some(found.symmetry);
+        document.symmetry = Some(symmetry);
         document.search = Some(found.search);
         document.history.push(session.history_entry(found.notes));
         session.write(&document)

@@ -28,15 +28,18 @@ pub fn detect(
     }
     let precision = document.source.as_ref().map(|s| s.precision);
     threads::with(params.threads, || {
-        let shape = Shape::new(template, precision).ok_or(Error::NoExtent {
+        let mut shape = Shape::new(template, precision).ok_or(Error::NoExtent {
             triangles: template.triangles.len(),
         })?;
+        shape.may_exchange = params.exchange;
         log(&format!(
             "surface prepared: {} kinds of interface, {} test points",
             shape.interfaces.classes.len(),
             shape.samples.mixed.len()
         ));
-        answer(Query::new(&shape, params), log)
+        let mut found = answer(Query::new(&shape, params), log)?;
+        found.notes.extend(found.exchange(document));
+        Ok(found)
     })
 }
 

@@ -9,6 +9,7 @@
 mod budget;
 mod cli;
 mod detect;
+mod enclosure;
 mod error;
 mod group;
 mod params;

@@ -9,6 +9,8 @@ pub struct Params {
     pub tolerance: f64,
     /// Whether what the facets of curved surfaces hide at a place is allowed on top there.
     pub facets: bool,
+    /// Whether operations may exchange regions of one shape; else each region is mapped to itself.
+    pub exchange: bool,
     /// Unit direction of the axis, if given.
     pub axis: Option<DVec3>,
     /// A point on the axis, world coordinates, if given.
@@ -30,6 +32,7 @@ impl Default for Params {
         Self {
             tolerance: 1e-3,
             facets: true,
+            exchange: true,
             axis: None,
             center: None,
             order: None,

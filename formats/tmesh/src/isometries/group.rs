@@ -241,6 +241,27 @@ impl Group {
         all.filter(|g| g.is_subgroup_of(self)).collect()
     }
 
+    /// The subgroup of the elements that `holds` is true of, which must be one. Its mirror planes and half turns may be
+    /// others than those of the canonical frame.
+    pub fn part(self, holds: impl Fn(Isometry) -> bool) -> Self {
+        let (mut order, mut mirrors, mut over) = (0, false, None);
+        for element in self.elements().filter(|g| holds(*g)) {
+            match (element.flipped(), element.mirrored()) {
+                (false, false) => order += 1,
+                (false, true) => mirrors = true,
+                (true, false) if element == Isometry::FLIP => over = Some(Over::Horizontal),
+                (true, false) => over = over.or(Some(Over::Rotary)),
+                (true, true) => over = over.or(Some(Over::HalfTurn)),
+            }
+        }
+        // The mirror across the axis comes with rotary reflections, these or it and mirrors with half turns.
+        if over == Some(Over::HalfTurn) && mirrors {
+            over = Some(Over::Rotary);
+        }
+        let kind = Kind::of(mirrors, over).unwrap_or(Kind::C);
+        Self::new(kind, order.max(1))
+    }
+
     /// The Schoenflies symbol with the numbers filled in, such as `C16v`.
     pub fn symbol(self) -> String {
         let n = self.order;
@@ -394,6 +415,25 @@ mod tests {
         for group in all([1, 2, 3, 4, 9]) {
             assert_eq!(Group::of(group.order, |g| group.contains(g)), group);
         }
+    }
+
+    #[test]
+    fn parts_are_named_in_whatever_frame() {
+        for group in all([1, 2, 3, 4, 6]) {
+            assert_eq!(group.part(|_| true), group);
+            assert!(group.part(|g| g == Isometry::IDENTITY).is_trivial());
+            for part in group.subgroups() {
+                assert_eq!(group.part(|g| part.contains(g)), part, "{group}");
+            }
+        }
+        // Every other mirror plane, without the one of the frame.
+        let group = Group::new(Kind::Cv, 6);
+        let (step, part) = (group.rotation(), Group::new(Kind::Cv, 3));
+        let between = |g: Isometry| match g.mirrored() {
+            true => part.contains(g.compose(step)),
+            false => part.contains(g),
+        };
+        assert_eq!(group.part(between), part);
     }
 
     #[test]

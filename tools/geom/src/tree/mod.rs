@@ -13,6 +13,7 @@ mod pairs;
 mod placement;
 mod rays;
 
+pub use alignment::alignment;
 pub use nearest::{Nearest, Tree, closest_point};
 pub use pairs::{Search, pairs};
 pub use rays::{Direction, Hit, Met, Rays};

@@ -77,7 +77,7 @@ pub fn read_part(
 ///
 /// # Errors
 /// Solids that overlap, cross, or touch with different triangles.
-pub fn assemble(mut parts: Vec<Part>) -> Result<Imported, HealError> {
+pub fn assemble(mut parts: Vec<Part>, repairing: Repairing) -> Result<Imported, HealError> {
     name_parts(&mut parts);
     let formats: BTreeSet<&str> = parts.iter().map(|p| p.format.name()).collect();
     let formats: Vec<&str> = formats.into_iter().collect();
@@ -88,7 +88,7 @@ pub fn assemble(mut parts: Vec<Part>) -> Result<Imported, HealError> {
         history.extend(part.history);
         all.push(part.mended);
     }
-    let mut imported = label_mended(join(all), &formats.join(", "))?;
+    let mut imported = label_mended(join(all), &formats.join(", "), repairing)?;
     for (region, wish) in imported.document.regions.iter_mut().zip(wishes) {
         region.max_volume = wish;
     }

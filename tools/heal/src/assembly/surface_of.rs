@@ -24,6 +24,7 @@ pub fn surface_of(
         mut document,
         mut notices,
         repairs,
+        joined: _,
     } = imported;
     if !document.is_plain() {
         return Err(HealError::BadSurface(format!(
@@ -36,7 +37,7 @@ pub fn surface_of(
     let template = document.templates.swap_remove(0);
     let bounded = bounded_by_region(&template, document.regions);
     let points = template.vertices.iter();
-    let mut surface = Surface {
+    let surface = Surface {
         points: points.map(|&p| document.frame.to_world(p)).collect(),
         partner: vec![NONE; bounded.triangles.len()],
         source: (0..bounded.triangles.len() as u32).collect(),
@@ -47,9 +48,6 @@ pub fn surface_of(
         solids: bounded.names,
         group_word: "region",
     };
-    if solids == Solids::Whole {
-        surface.make_one_solid();
-    }
     let precision = document.source.map_or(0.0, |s| s.precision);
     let largest = largest_coordinate(&surface.points);
     let relative = if largest > 0.0 {
@@ -59,8 +57,7 @@ pub fn surface_of(
     };
     let mut mending = Mending::new(surface, relative.max(f64::EPSILON));
     if solids == Solids::Whole {
-        // Interfaces between its regions cancel.
-        mending.merge(false)?;
+        mending.unite()?;
     }
     mending.check_closed()?;
     mending.repairs = repairs;

@@ -71,6 +71,7 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
             document,
             notices,
             repairs: Vec::new(),
+            joined: None,
         }
     };
     imported.document.promise = mesh.promise;

@@ -1,12 +1,13 @@
 //! From polygons in groups to a document.
 
+use super::imprinted::{imprinted, touches};
 use super::mended::Mended;
 use super::mending::Mending;
 use super::solids::label;
 use super::surface::{NONE, Surface};
 use super::tables::tables;
 use super::weld;
-use crate::document::{Imported, check_scale, document};
+use crate::document::{Imported, check_scale, document, tolerance};
 use crate::words::unique_names;
 use crate::{HealError, Repair, Repairing};
 use interchange::parsed::Soup;
@@ -22,7 +23,7 @@ use interchange::parsed::Soup;
 /// Open surfaces; solids that overlap, cross, or touch with different triangles; with [`Repairing::Off`], surfaces that
 /// have triangles to be dropped.
 pub fn build(soup: Soup, format: &str, repairing: Repairing) -> Result<Imported, HealError> {
-    label_mended(mend(soup, Solids::Groups, repairing)?, format)
+    label_mended(mend(soup, Solids::Groups, repairing)?, format, repairing)
 }
 
 /// What the solids of a soup are.
@@ -44,16 +45,15 @@ pub fn mend(mut soup: Soup, solids: Solids, repairing: Repairing) -> Result<Mend
     let mut mending = Mending::new(welded(soup)?, relative_precision);
     mending.drop_collapsed()?;
     mending.merge(false)?;
-    if repairing == Repairing::Auto {
+    if repairing != Repairing::Off {
         mending.close()?;
         mending.remove_flat();
     }
-    match solids {
-        Solids::Groups => mending.tell_solids(),
-        Solids::Whole => mending.surface.make_one_solid(),
-    }
+    mending.tell_solids();
     if mending.surface.solids.len() < mending.surface.groups.len() {
         mending.merge(true)?;
+    } else if solids == Solids::Whole {
+        mending.unite()?;
     }
     mending.check_closed()?;
     if repairing == Repairing::Off
@@ -69,14 +69,18 @@ pub fn mend(mut soup: Soup, solids: Solids, repairing: Repairing) -> Result<Mend
 ///
 /// # Errors
 /// Solids that overlap, cross, or touch with different triangles.
-pub fn label_mended(mended: Mended, format: &str) -> Result<Imported, HealError> {
+pub fn label_mended(
+    mended: Mended,
+    format: &str,
+    repairing: Repairing,
+) -> Result<Imported, HealError> {
     let Mended {
         mut mending,
         mut notices,
     } = mended;
-    if mending.surface.solids.len() > 1 {
-        mending.merge(true)?;
-    }
+    let several = mending.surface.solids.len() > 1;
+    let apart = several.then(|| mending.surface.clone());
+    let merged = if several { mending.merge(true) } else { Ok(()) };
     let Mending {
         surface,
         edges,
@@ -84,13 +88,44 @@ pub fn label_mended(mended: Mended, format: &str) -> Result<Imported, HealError>
         relative_precision,
         ..
     } = mending;
-    let mut labels = label(&surface, &edges)?;
+    let told = merged.and_then(|()| label(&surface, &edges));
+    let apart = apart.as_ref().unwrap_or(&surface);
+    let tolerance = tolerance(&apart.points, relative_precision);
+    let mut joined = None;
+    let (surface, mut labels) = match (told, repairing) {
+        (told, Repairing::Off) => (surface, told?),
+        (Ok(labels), Repairing::Auto(contacts))
+            if !(labels.crosses || several && touches(apart, &tolerance, contacts)) =>
+        {
+            (surface, labels)
+        }
+        (told, Repairing::Auto(contacts)) => match imprinted(apart, &tolerance, contacts) {
+            Ok(imprinted) => {
+                joined = Some(imprinted.joined);
+                (imprinted.surface, imprinted.labels)
+            }
+            Err(reason) => match told {
+                Ok(mut labels) => {
+                    labels.notices.push(reason);
+                    (surface, labels)
+                }
+                Err(error) => {
+                    return Err(HealError::BadSurface(format!("{error}; {reason}")));
+                }
+            },
+        },
+    };
     notices.append(&mut labels.notices);
     let mut labelled = tables(surface, labels);
     labelled.relative_precision = relative_precision;
     labelled.notices = notices;
     labelled.repairs = repairs;
-    document(labelled, format)
+    let mut imported = document(labelled, format)?;
+    if let Some(joined) = &mut joined {
+        joined.tell_volumes(&imported.document);
+    }
+    imported.joined = joined;
+    Ok(imported)
 }
 
 /// The triangles of a soup by distinct points, in groups that have triangles.

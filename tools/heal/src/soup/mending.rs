@@ -155,6 +155,18 @@ impl Mending {
         }
     }
 
+    /// Makes all solids one. What they share then lies within it and is no defect.
+    ///
+    /// # Errors
+    /// As those of [`Self::merge`].
+    pub fn unite(&mut self) -> Result<(), HealError> {
+        self.surface.make_one_solid();
+        if merge(&mut self.surface, &self.edges, false)?.dropped > 0 {
+            self.update_edges();
+        }
+        Ok(())
+    }
+
     /// What is left is a closed surface.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 mod build;
 mod closure;
 mod coincident;
+mod imprinted;
 mod mended;
 mod mending;
 mod needles;

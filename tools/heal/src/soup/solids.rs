@@ -29,6 +29,8 @@ pub struct Labels {
     pub turned: Vec<bool>,
     /// What the user should know.
     pub notices: Vec<String>,
+    /// Whether pieces of a lone solid cross: then its triangles are labelled by their orientation.
+    pub crosses: bool,
 }
 
 /// Finds the solid on either side of each triangle.
@@ -52,6 +54,7 @@ pub fn label(surface: &Surface, edges: &Edges) -> Result<Labels, HealError> {
         back: Vec::with_capacity(shell.len()),
         turned: Vec::with_capacity(shell.len()),
         notices,
+        crosses: false,
     };
     for t in 0..shell.len() {
         let front = content[cells.front(t) as usize];
@@ -271,5 +274,6 @@ fn as_oriented(
         back: vec![0; n],
         turned: vec![turned; n],
         notices,
+        crosses: true,
     })
 }

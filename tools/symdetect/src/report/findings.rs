@@ -94,10 +94,6 @@ impl Query<'_> {
                 other_axes.len() + 1
             ));
         }
-        let moved = symmetry.rotation_regions().pairs.len();
-        if moved > 0 {
-            notes.push(format!("the rotation maps {moved} regions onto other ones"));
-        }
         notes
     }
 }

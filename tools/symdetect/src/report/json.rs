@@ -53,6 +53,9 @@ pub struct Report<'a> {
     pub input: &'a [String],
     /// What was repaired of the input.
     pub repairs: Vec<ReportRepair>,
+    /// What was done to make one body of solids that touch or overlap.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joined: Option<ReportJoined<'a>>,
     /// Remarks, a sentence each.
     pub notes: &'a [String],
 }
@@ -78,6 +81,12 @@ pub struct ReportPermutations {
     /// By the mirror across the axis.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub horizontal_regions: Vec<[u32; 2]>,
+    /// Sets of regions that the group exchanges.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub exchanged_regions: Vec<Vec<u32>>,
+    /// The part of the group that keeps every region, where that is not all of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keeping_regions: Option<ReportGroup>,
 }
 
 impl ReportPermutations {
@@ -87,8 +96,24 @@ impl ReportPermutations {
             rotation_regions: pairs(symmetry.group.rotation()),
             mirror_regions: pairs(Isometry::MIRROR),
             horizontal_regions: pairs(Isometry::FLIP),
+            exchanged_regions: symmetry.exchanged_regions(),
+            keeping_regions: Some(symmetry.keeping_regions())
+                .filter(|keeping| *keeping != symmetry.group)
+                .map(|group| ReportGroup {
+                    group,
+                    order: group.order,
+                }),
         }
     }
+}
+
+/// A group in the report.
+#[derive(Debug, Serialize)]
+pub struct ReportGroup {
+    /// The group about the main axis.
+    pub group: Group,
+    /// Order of the rotation.
+    pub order: u32,
 }
 
 /// A region in the report.
@@ -162,7 +187,67 @@ impl<'a> Report<'a> {
             files: session.inputs().iter().map(InputFile::label).collect(),
             input: session.notices(),
             repairs: session.repairs().iter().map(ReportRepair::of).collect(),
+            joined: session.joined().map(ReportJoined::of),
             notes: &found.notes,
+        }
+    }
+}
+
+/// What was done to make one body of solids that touch or overlap.
+#[derive(Debug, Serialize)]
+pub struct ReportJoined<'a> {
+    /// Triangles between solids.
+    pub interfaces: usize,
+    /// The farthest that something was moved, model units.
+    pub largest: f64,
+    /// Points that were added where faces cross.
+    pub points: usize,
+    /// Pairs of solids that claimed the same space.
+    pub overlaps: Vec<ReportOverlap<'a>>,
+    /// The volumes of solids before and after.
+    pub volumes: Vec<ReportVolume<'a>>,
+}
+
+/// Space that two solids claimed.
+#[derive(Debug, Serialize)]
+pub struct ReportOverlap<'a> {
+    /// The solid that has it.
+    pub by: &'a str,
+    /// The one that it was taken from.
+    pub from: &'a str,
+    /// Its volume.
+    pub volume: f64,
+}
+
+/// The volume of a solid before and after.
+#[derive(Debug, Serialize)]
+pub struct ReportVolume<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// In the file.
+    pub before: f64,
+    /// Of its region.
+    pub after: f64,
+}
+
+impl<'a> ReportJoined<'a> {
+    fn of(joined: &'a heal::Joined) -> Self {
+        let overlap = |c: &'a heal::Claimed| ReportOverlap {
+            by: &c.by,
+            from: &c.from,
+            volume: c.volume,
+        };
+        let volume = |v: &'a heal::Changed| ReportVolume {
+            name: &v.name,
+            before: v.before,
+            after: v.after,
+        };
+        Self {
+            interfaces: joined.interfaces,
+            largest: joined.largest,
+            points: joined.points,
+            overlaps: joined.overlaps.iter().map(overlap).collect(),
+            volumes: joined.volumes.iter().map(volume).collect(),
         }
     }
 }

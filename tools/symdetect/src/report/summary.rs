@@ -1,9 +1,10 @@
 //! What was found, in words and as a table of residuals.
 
-use crate::budget::LISTED;
+use crate::budget::{LISTED, SHOWN};
 use crate::report::detection::Detection;
 use kit::point;
 use std::fmt::Write;
+use tmesh::Document;
 
 /// Width of the longest bar of the table, characters.
 const BAR: usize = 32;
@@ -43,7 +44,7 @@ impl Detection {
                 .then(a.order.cmp(&b.order))
         });
         if !rejected.is_empty() {
-            let list: Vec<String> = (rejected.iter().take(4))
+            let list: Vec<String> = (rejected.iter().take(SHOWN))
                 .map(|r| format!("{} (off by {:.1e})", r.order, r.residual))
                 .collect();
             lines.push(format!(
@@ -53,6 +54,39 @@ impl Detection {
         }
         lines.extend(self.nearly.as_ref().map(ToString::to_string));
         lines
+    }
+
+    /// Which regions the group exchanges, and the part of it that keeps them; `None` where all are kept.
+    pub fn exchange(&self, document: &Document) -> Option<String> {
+        let all = self.symmetry.exchanged_regions();
+        let name = |id: &u32| {
+            let known = document.regions.iter().find(|r| r.id == *id);
+            known.map_or_else(|| format!("region {id}"), |r| r.name.clone())
+        };
+        let orbit = |ids: &Vec<u32>| {
+            let names: Vec<String> = ids.iter().map(name).collect();
+            match &names[..] {
+                names if names.len() > SHOWN => {
+                    let (some, others) = names.split_at(SHOWN - 1);
+                    format!("{} and {} more", some.join(", "), others.len())
+                }
+                [some @ .., last] => format!("{} and {last}", some.join(", ")),
+                [] => String::new(),
+            }
+        };
+        let mut orbits: Vec<String> = all.iter().take(SHOWN).map(orbit).collect();
+        if all.len() > SHOWN {
+            orbits.push(format!("{} other sets", all.len() - SHOWN));
+        }
+        let [group, keeping] = [self.symmetry.group, self.symmetry.keeping_regions()];
+        (!orbits.is_empty()).then(|| {
+            format!(
+                "order {} ({group}) exchanging regions {}; order {} ({keeping}) keeping them",
+                group.order,
+                orbits.join(", and "),
+                keeping.order
+            )
+        })
     }
 
     /// Residual against order as bars on a logarithmic scale, a line each.

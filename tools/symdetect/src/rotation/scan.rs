@@ -20,6 +20,8 @@ struct Scan<'a> {
     places: Vec<usize>,
     /// Deviations beyond which a sample is off.
     bound: Bound,
+    /// Where images may land.
+    target: Target,
     /// Samples that may be off.
     outliers: usize,
 }
@@ -33,10 +35,12 @@ impl<'a> Scan<'a> {
             outliers: (outliers * places.len() as f64) as usize,
             places,
             bound,
+            target: shape.target_of_any_exchange(),
         }
     }
 
-    /// How many samples are off under an order, if not too many for it to hold. Regions do not count here.
+    /// How many samples are off under an order, if not too many for it to hold. Regions do not count here
+    /// where they may be exchanged.
     fn misses(&self, n: u32) -> Option<usize> {
         let samples = &self.shape.samples.mixed;
         let mut left = self.outliers;
@@ -48,7 +52,7 @@ impl<'a> Scan<'a> {
             } else {
                 1 + random.after(i / 2).below(n as usize - 1) as i64
             };
-            let turn = Operation::new(self.frame, Isometry::rotation(k, n), Target::Any);
+            let turn = Operation::new(self.frame, Isometry::rotation(k, n), self.target.clone());
             if !self.shape.lands(&turn, &samples[i], self.bound) {
                 left = left.checked_sub(1)?;
             }
@@ -62,11 +66,13 @@ impl Shape {
     /// off the surface, in that order. On a flange, they are at its holes.
     pub fn telling_samples(&self, frame: &Frame, bound: Bound) -> Vec<usize> {
         let samples = &self.samples.mixed;
-        let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
+        let target = self.target_of_any_exchange();
+        let turns = golden_rotations(frame, TELLING_TURNS, target);
         let most = self.most(bound);
         let off = |i: &usize| {
             let distance = |turn: &Operation| {
-                let hit = self.nearest(turn.motion.apply(samples[*i].point), 0, &Target::Any, most);
+                let image = turn.motion.apply(samples[*i].point);
+                let hit = self.nearest(image, samples[*i].triangle, &turn.target, most);
                 hit.map_or(most, |hit| hit.distance)
             };
             // Of numbers that are not negative, the bits are in the order of the numbers.

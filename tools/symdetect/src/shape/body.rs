@@ -35,6 +35,8 @@ pub struct Shape {
     pub moments: Moments,
     /// Test points.
     pub samples: Samples,
+    /// Whether operations may exchange regions of one shape.
+    pub may_exchange: bool,
     all: Tree,
     by_class: Vec<ClassSurface>,
     smooth: OnceLock<SmoothSurface>,
@@ -89,6 +91,7 @@ impl Shape {
             precision: precision / placed.scale,
             moments: placed.moments,
             samples,
+            may_exchange: true,
             all,
             by_class,
             smooth: OnceLock::new(),
@@ -210,6 +213,14 @@ impl Shape {
             told.then(|| Faces::new(&surface, &self.normals, exact))?
         };
         self.faces.get_or_init(make).as_ref()
+    }
+
+    /// Where images may land before it is known which regions an operation exchanges.
+    pub fn target_of_any_exchange(&self) -> Target {
+        match self.may_exchange {
+            true => Target::Any,
+            false => self.target_in_place(),
+        }
     }
 
     /// The target that a permutation of regions asks for.

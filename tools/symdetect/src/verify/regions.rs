@@ -52,7 +52,8 @@ impl Shape {
             Ok(deviation) => return Ok((deviation, identity)),
             Err(failed) => failed,
         };
-        if self.region_count() > 2
+        if self.may_exchange
+            && self.region_count() > 2
             && check(None).is_ok()
             && let Some(permutation) = self.vote(&motion, self.most(bound))
             && !permutation.is_identity()

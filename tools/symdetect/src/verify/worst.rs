@@ -1,6 +1,6 @@
 //! Tests of operations at samples of the surface.
 
-use crate::shape::{Sample, Shape, Target};
+use crate::shape::{Sample, Shape};
 use crate::threads;
 use crate::tolerance::ARITHMETIC;
 use crate::verify::deviation::{Bound, Deviation};
@@ -37,10 +37,11 @@ impl Shape {
         (find(f64::INFINITY).map_or(1.0, |n| n.distance), false)
     }
 
-    /// Whether the image of a sample is on the surface, whatever the regions there.
+    /// Whether the image of a sample is on the surface.
     pub fn lands(&self, operation: &Operation, sample: &Sample, bound: Bound) -> bool {
         let image = operation.motion.apply(sample.point);
-        let hit = self.nearest(image, sample.triangle, &Target::Any, self.most(bound));
+        let target = &operation.target;
+        let hit = self.nearest(image, sample.triangle, target, self.most(bound));
         hit.is_some_and(|hit| {
             hit.distance <= bound.limit
                 || bound.facets && self.facets_explain(sample, operation, &hit, bound)

@@ -1,15 +1,11 @@
 //! How far corners may be moved: by what the facets there can be off the shape that they stand for.
 
+use crate::smooth::SMOOTH;
 use crate::soup::surface::Surface;
 use geom::edges::Edges;
 use geom::measure::double_area_vector;
 use geom::tolerance::Tolerance;
 use glam::DVec3;
-
-/// Angle between facets up to which they may stand for one smooth surface, radians: 30 degrees. A choice: CAD programs
-/// turn by up to 0.5 radians, 28.6 degrees, from facet to facet unless told otherwise. With a larger angle the edges of
-/// prisms count as arcs, and with a smaller one coarse exports as prisms.
-const SMOOTH: f64 = std::f64::consts::PI / 6.0;
 
 /// How far a corner was moved, or an edge to a corner.
 #[derive(Clone, Copy, Debug)]

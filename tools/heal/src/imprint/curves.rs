@@ -1,0 +1,263 @@
+//! The smooth surfaces that facets stand for, and what touches those.
+//!
+//! Two solids that touch along a curve have facets of their own there, and vertices that lie on the curve. Seen from a
+//! facet, the surface that it stands for is a quadratic patch through its corners, with the mean normals of the facets
+//! around each of them: a vertex of the other solid that is where the patch is touches it, however far that is from the
+//! facet itself. An air gap is no contact, even where it is narrower than the facets are off the patch.
+
+use super::faces::Complex;
+use super::near::{Spot, spot};
+use crate::smooth::SMOOTH;
+use geom::edges::Edges;
+use geom::measure::double_area_vector;
+use glam::DVec3;
+
+/// The smooth surface at a facet.
+#[derive(Clone, Copy, Debug)]
+pub struct Patch {
+    corners: [DVec3; 3],
+    /// Unit normal of the facet.
+    pub normal: DVec3,
+    /// Of the edge that begins at each corner: eight times the height of the patch over its middle.
+    bends: [f64; 3],
+    /// Whether the surface goes on smoothly beyond the edge that begins at each corner.
+    pub smooth: [bool; 3],
+    /// The largest height of the patch over the middle of an edge.
+    pub sagitta: f64,
+}
+
+/// The smooth surfaces of all facets.
+pub struct Curves {
+    /// How far from the surface what touches it may be; `None` for what facets explain.
+    gap: Option<f64>,
+    /// Of each triangle.
+    pub patches: Vec<Patch>,
+    /// Of each vertex: the other ends of sharp edges.
+    pub sharp: Vec<Vec<u32>>,
+}
+
+impl Curves {
+    /// The surfaces behind the facets of solids.
+    pub fn new(complex: &Complex, edges: &Edges, solid: &[u32], gap: Option<f64>) -> Self {
+        let cosine = SMOOTH.cos();
+        let normals: Vec<DVec3> = (0..complex.triangles.len() as u32)
+            .map(|t| {
+                let [a, b, c] = complex.corners(t);
+                double_area_vector(a, b, c).normalize_or_zero()
+            })
+            .collect();
+        let mut fans: Vec<Vec<u32>> = vec![Vec::new(); complex.points.len()];
+        for (t, corners) in (0..).zip(&complex.triangles) {
+            for &v in corners {
+                fans[v as usize].push(t);
+            }
+        }
+        let mut patches: Vec<Patch> = (0..complex.triangles.len())
+            .map(|t| {
+                let fan = |v: u32| fans[v as usize].as_slice();
+                patch(complex, t, &normals, solid, fan)
+            })
+            .collect();
+        let mut sharp = vec![Vec::new(); complex.points.len()];
+        for e in 0..edges.len() {
+            let around = edges.around(e);
+            for u in around {
+                let own = u.triangle as usize;
+                let mut others = around.iter().map(|w| w.triangle as usize);
+                let smooth = others.any(|w| {
+                    w != own && solid[w] == solid[own] && normals[w].dot(normals[own]) >= cosine
+                });
+                patches[own].smooth[u.corner as usize] = smooth;
+                if !smooth {
+                    let [a, b] = edges.ends[e];
+                    sharp[a as usize].push(b);
+                    sharp[b as usize].push(a);
+                }
+            }
+        }
+        for list in &mut sharp {
+            list.sort_unstable();
+            list.dedup();
+        }
+        Self {
+            gap,
+            patches,
+            sharp,
+        }
+    }
+
+    /// How much of a feature a vertex is: 0 in a smooth surface, 1 on a sharp edge that goes on, 2 at a corner.
+    pub fn rank(&self, v: u32, points: &[DVec3]) -> u8 {
+        match self.sharp[v as usize][..] {
+            [] => 0,
+            [a, b] => {
+                let at = |v: u32| points[v as usize];
+                let turn = (at(v) - at(a)).angle_between(at(b) - at(v));
+                if turn <= SMOOTH { 1 } else { 2 }
+            }
+            _ => 2,
+        }
+    }
+
+    /// Whether a place, projected onto a facet's plane, is on the line of a sharp edge at a vertex.
+    pub fn on_sharp(
+        &self,
+        v: u32,
+        place: DVec3,
+        normal: DVec3,
+        points: &[DVec3],
+        within: f64,
+    ) -> bool {
+        let from = points[v as usize];
+        self.sharp[v as usize].iter().any(|&w| {
+            let along = (points[w as usize] - from).reject_from_normalized(normal);
+            let off = (place - from).reject_from_normalized(normal);
+            off.reject_from(along).length() <= within
+        })
+    }
+}
+
+fn patch<'a>(
+    complex: &Complex,
+    t: usize,
+    normals: &[DVec3],
+    solid: &[u32],
+    fan: impl Fn(u32) -> &'a [u32],
+) -> Patch {
+    let corners = complex.corners(t as u32);
+    let normal = normals[t];
+    // Mean normals by angle, so that they do not depend on how faces are cut into triangles.
+    let mean = complex.triangles[t].map(|v| {
+        let mut sum = DVec3::ZERO;
+        for &u in fan(v) {
+            let u = u as usize;
+            if solid[u] == solid[t] && normals[u].dot(normal) >= SMOOTH.cos() {
+                let ids = complex.triangles[u];
+                let i = ids.iter().position(|&w| w == v).unwrap_or(0);
+                let places = complex.corners(u as u32);
+                let [a, b] = [1, 2].map(|k| places[(i + k) % 3] - places[i]);
+                sum += normals[u] * a.angle_between(b);
+            }
+        }
+        sum.normalize_or_zero()
+    });
+    let bends = [0, 1, 2].map(|i| {
+        let j = (i + 1) % 3;
+        let along = corners[j] - corners[i];
+        let [back, ahead] = [-mean[i].dot(along), mean[j].dot(along)];
+        // Where the surface ends, the mean normal is the facet's own.
+        2.0 * if back.abs() > ahead.abs() {
+            back
+        } else {
+            ahead
+        }
+    });
+    Patch {
+        corners,
+        normal,
+        bends,
+        smooth: [false; 3],
+        sagitta: bends.into_iter().map(f64::abs).fold(0.0, f64::max) / 8.0,
+    }
+}
+
+impl Patch {
+    /// Height of the patch over the point of an edge that is so far along it.
+    pub fn over_edge(&self, corner: usize, along: f64) -> f64 {
+        0.5 * along * (1.0 - along) * self.bends[corner]
+    }
+
+    /// Height of the patch over a point of the facet's plane.
+    pub fn over(&self, p: DVec3) -> f64 {
+        let [a, b, c] = self.corners;
+        let whole = (b - a).cross(c - a).dot(self.normal);
+        let part = |u: DVec3, v: DVec3| (u - p).cross(v - p).dot(self.normal) / whole;
+        let weights = [part(b, c), part(c, a), part(a, b)].map(|w| w.clamp(0.0, 1.0));
+        let over = (0..3).map(|i| weights[i] * weights[(i + 1) % 3] * self.bends[i]);
+        0.5 * over.sum::<f64>()
+    }
+
+    /// Height of a point over the facet's plane.
+    pub fn height(&self, p: DVec3) -> f64 {
+        (p - self.corners[0]).dot(self.normal)
+    }
+
+    /// Whether two facets look at each other.
+    pub fn faces(&self, other: &Self) -> bool {
+        self.normal.dot(other.normal) <= -SMOOTH.cos()
+    }
+}
+
+impl Curves {
+    /// How far a point may be from the surface behind a facet to touch it: that is as uncertain as half of its height
+    /// over the facet, and what is flat is certain.
+    pub fn uncertain(&self, t: u32) -> f64 {
+        self.gap.unwrap_or(0.5 * self.patches[t as usize].sagitta)
+    }
+
+    /// How far from a facet's box what touches it may be.
+    pub fn reach(&self, t: u32) -> f64 {
+        self.patches[t as usize].sagitta + self.uncertain(t)
+    }
+
+    /// Where on a facet a vertex of another solid's facet lies, if it touches the surface behind it.
+    pub fn spot(&self, v: u32, of: u32, t: u32, complex: &Complex, equal: f64) -> Option<Spot> {
+        let [own, patch] = [of, t].map(|t| &self.patches[t as usize]);
+        let p = complex.points[v as usize];
+        let height = patch.height(p);
+        if self.reach(t) <= equal || !own.faces(patch) || height.abs() > self.reach(t) + equal {
+            return None;
+        }
+        let flat = p - patch.normal * height;
+        let at = spot(flat, &patch.corners, self.uncertain(t).max(equal))?;
+        if (height - patch.over(flat)).abs() > self.uncertain(t).max(equal) {
+            return None;
+        }
+        let corner =
+            |i: usize| self.may_join(v, complex.triangles[t as usize][i], patch, complex, equal);
+        if let Spot::Corner(i) = at
+            && corner(i)
+        {
+            return Some(at);
+        }
+        // Sharp edges are where they are.
+        match (at, spot(flat, &patch.corners, equal)) {
+            (_, Some(narrow @ (Spot::Corner(_) | Spot::Edge(..)))) => Some(narrow),
+            (Spot::Edge(i, _), _) if patch.smooth[i] => Some(at),
+            (_, narrow) => narrow,
+        }
+    }
+
+    /// Whether a vertex may be joined to a corner of a facet: the corner, or the vertex, is moved along its own sharp
+    /// edges only.
+    fn may_join(&self, v: u32, corner: u32, patch: &Patch, complex: &Complex, equal: f64) -> bool {
+        let points = &complex.points;
+        let on = |v: u32, w: u32| {
+            let place = points[w as usize];
+            self.on_sharp(v, place, patch.normal, points, equal)
+        };
+        match [v, corner].map(|v| self.rank(v, points)) {
+            [0, _] | [_, 0] => true,
+            [2, 2] => false,
+            [1, 1] => on(v, corner) && on(corner, v),
+            [1, _] => on(v, corner),
+            _ => on(corner, v),
+        }
+    }
+
+    /// How far the surface behind an edge is over a point of it, along the normal of the facet that the edge belongs to
+    /// and that looks at the facet `t`, and how uncertain that is; `None` where no such facet is at the edge.
+    pub fn edge_over(&self, e: u32, along: f64, t: u32, edges: &Edges) -> Option<(f64, f64)> {
+        let patch = &self.patches[t as usize];
+        edges.around(e as usize).iter().find_map(|u| {
+            let own = &self.patches[u.triangle as usize];
+            let along = if u.forward { along } else { 1.0 - along };
+            own.faces(patch).then(|| {
+                (
+                    own.over_edge(u.corner as usize, along),
+                    self.uncertain(u.triangle),
+                )
+            })
+        })
+    }
+}

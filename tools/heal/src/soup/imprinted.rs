@@ -1,0 +1,255 @@
+//! Solids that cross, overlap or touch with different triangles, and those that cross themselves, with sides.
+
+use super::solids::Labels;
+use super::surface::{NONE, Surface};
+use crate::contacts::{Changed, Claimed, Contacts, Joined, Overlap};
+use crate::imprint::{Complex, Curves, Faces, Reach, Settled, is_related, overlay, settle};
+use crate::meeting::meetings;
+use crate::words::{place, short};
+use geom::contacts::contacts;
+use geom::edges::Edges;
+use geom::measure::tet_volume;
+use geom::tolerance::Tolerance;
+use interchange::text::counted;
+
+/// A surface whose triangles meet in common vertices and edges only, and the solids on its sides.
+pub struct Imprinted {
+    /// The surface.
+    pub surface: Surface,
+    /// The solids on either side of its triangles.
+    pub labels: Labels,
+    /// What was done.
+    pub joined: Joined,
+}
+
+/// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
+/// more elsewhere, faces are divided where they cross.
+///
+/// # Errors
+/// Why that is not possible, for the end of a sentence.
+pub fn imprinted(
+    surface: &Surface,
+    tolerance: &Tolerance,
+    contacts: Contacts,
+) -> Result<Imprinted, String> {
+    let mut reason = String::new();
+    let crosses_itself = crossing_themselves(surface);
+    let flat = Contacts {
+        gap: Some(0.0),
+        ..contacts
+    };
+    for contacts in [contacts, flat] {
+        match attempt(surface, tolerance, contacts, &crosses_itself) {
+            Ok(imprinted) => return Ok(imprinted),
+            Err(why) => reason = why,
+        }
+    }
+    Err(reason)
+}
+
+fn attempt(
+    surface: &Surface,
+    tolerance: &Tolerance,
+    contacts: Contacts,
+    crosses_itself: &[bool],
+) -> Result<Imprinted, String> {
+    let solid = &surface.solid;
+    let complex = complex_of(surface, tolerance);
+    let overlay = overlay(complex, solid, tolerance.equal(), contacts.gap);
+    let complex = &overlay.complex;
+    let met = meetings(&complex.points, &complex.triangles, |t| t, |_| true);
+    if let Some(first) = met.lowest {
+        let (one, many) = ("pair of triangles is left", "pairs of triangles are left");
+        return Err(format!(
+            "they could not be made one complex: {} that cross, the first at {}",
+            counted(met.count, one, many),
+            place(first.point)
+        ));
+    }
+    let Some(settled) = settle(complex, solid, crosses_itself, contacts.overlap) else {
+        return Err("what is inside them cannot be told".to_owned());
+    };
+    if contacts.overlap == Overlap::Refuse
+        && let Some(first) = settled
+            .overlaps
+            .iter()
+            .find(|c| !c.nested && c.thickness > tolerance.equal())
+    {
+        return Err(format!(
+            "{} and {} overlap by a volume of {}, which --overlap refuse does not allow",
+            surface.solid_name(first.loser.min(first.winner)),
+            surface.solid_name(first.loser.max(first.winner)),
+            short(first.volume)
+        ));
+    }
+    let joined = joined(
+        surface,
+        &settled,
+        (overlay.largest, overlay.added),
+        tolerance,
+    );
+    let notices = notices(surface, &settled, &joined, tolerance);
+    Ok(Imprinted {
+        labels: labels(&settled, notices),
+        surface: sided(surface, complex, &settled),
+        joined,
+    })
+}
+
+fn complex_of(surface: &Surface, tolerance: &Tolerance) -> Complex {
+    let alike = |s: u32, t: u32| {
+        let of = |t: u32| (surface.solid[t as usize], surface.group[t as usize]);
+        of(s) == of(t)
+    };
+    Complex::new(
+        surface.points.clone(),
+        surface.triangles.clone(),
+        tolerance.flat(),
+        alike,
+    )
+}
+
+/// Whether solids touch without crossing and with different triangles.
+pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> bool {
+    let mut complex = complex_of(surface, tolerance);
+    let edges = Edges::new(&surface.triangles);
+    let faces = Faces::new(&complex, &edges);
+    let curves = Curves::new(&complex, &edges, &surface.solid, contacts.gap);
+    let reach = Reach {
+        equal: tolerance.equal(),
+        curves: (contacts.gap != Some(0.0)).then_some(&curves),
+    };
+    let solid_of = |t: u32| surface.solid[t as usize];
+    is_related(&mut complex, &edges, &faces, solid_of, reach)
+}
+
+/// Which solids have triangles that meet away from common vertices and edges.
+fn crossing_themselves(surface: &Surface) -> Vec<bool> {
+    let mut crosses = vec![false; surface.solids.len()];
+    contacts(
+        &surface.points,
+        &surface.triangles,
+        |t| t,
+        |contact| {
+            let [a, b] = contact.triangles.map(|t| surface.solid[t as usize]);
+            if a == b {
+                crosses[a as usize] = true;
+            }
+            true
+        },
+    );
+    crosses
+}
+
+fn sided(surface: &Surface, complex: &Complex, settled: &Settled) -> Surface {
+    let of = |list: &[u32]| -> Vec<u32> {
+        let sources = settled.triangles.iter().map(|t| t.1 as usize);
+        sources.map(|s| list[s]).collect()
+    };
+    Surface {
+        points: complex.points.clone(),
+        triangles: settled.triangles.iter().map(|t| t.0).collect(),
+        group: of(&surface.group),
+        solid: settled.triangles.iter().map(|t| t.2[1]).collect(),
+        partner: settled.triangles.iter().map(|t| t.2[0]).collect(),
+        source: of(&surface.source),
+        groups: surface.groups.clone(),
+        solids: surface.solids.clone(),
+        group_word: surface.group_word,
+    }
+}
+
+fn labels(settled: &Settled, notices: Vec<String>) -> Labels {
+    Labels {
+        front: settled.triangles.iter().map(|t| t.2[0]).collect(),
+        back: settled.triangles.iter().map(|t| t.2[1]).collect(),
+        turned: vec![false; settled.triangles.len()],
+        notices,
+        crosses: false,
+    }
+}
+
+/// What was done, before volumes afterwards are known.
+fn joined(
+    surface: &Surface,
+    settled: &Settled,
+    (largest, points): (f64, usize),
+    tolerance: &Tolerance,
+) -> Joined {
+    let name = |solid: u32| surface.solids[solid as usize].clone();
+    let thick = settled
+        .overlaps
+        .iter()
+        .filter(|c| c.thickness > tolerance.equal());
+    let solids = surface.solids.len();
+    let mut before = vec![0.0; solids];
+    let origin = surface.corners(0)[0];
+    for (t, &solid) in (0..).zip(&surface.solid) {
+        let [a, b, c] = surface.corners(t);
+        before[solid as usize] += tet_volume(origin, a, b, c);
+    }
+    Joined {
+        interfaces: settled.triangles.iter().filter(|t| t.2[0] != NONE).count(),
+        largest,
+        points,
+        overlaps: thick
+            .map(|c| Claimed {
+                by: name(c.winner),
+                from: name(c.loser),
+                volume: c.volume,
+            })
+            .collect(),
+        volumes: (0_u32..)
+            .zip(before)
+            .map(|(solid, volume)| Changed {
+                name: name(solid),
+                before: volume.abs(),
+                after: 0.0,
+            })
+            .collect(),
+    }
+}
+
+/// What was done, a sentence each.
+fn notices(
+    surface: &Surface,
+    settled: &Settled,
+    joined: &Joined,
+    tolerance: &Tolerance,
+) -> Vec<String> {
+    let solids = surface.solids.len();
+    let mut notices = Vec::new();
+    let name = |solid: u32| match solids {
+        1 => "the surface".to_owned(),
+        _ => surface.solid_name(solid),
+    };
+    for &(solid, volume) in &settled.doubled {
+        notices.push(format!(
+            "{} crosses or touches itself: it is taken as the union of its parts, which have a volume of {} more than once",
+            name(solid),
+            short(volume)
+        ));
+    }
+    if joined.interfaces > 0 {
+        let (one, many) = ("triangle", "triangles");
+        notices.push(format!(
+            "solids that touch have the same {} there; nothing was moved by more than {}",
+            counted(joined.interfaces, one, many),
+            short(joined.largest)
+        ));
+    }
+    for claim in &settled.overlaps {
+        if claim.thickness <= tolerance.equal() {
+            continue;
+        }
+        let [winner, loser] = [claim.winner, claim.loser].map(name);
+        notices.push(match claim.nested {
+            true => format!("{winner} lies inside {loser}: its place is cut out of that"),
+            false => format!(
+                "{loser} and {winner} overlap by a volume of {}: {winner} has it",
+                short(claim.volume)
+            ),
+        });
+    }
+    notices
+}

@@ -1,0 +1,288 @@
+//! Solids that cross, overlap, touch with different triangles or cross themselves.
+
+mod common;
+
+use bodies::facets::*;
+use bodies::rounds::{Circle, cylinder, tube};
+use common::*;
+use interchange::Format::Stl;
+
+/// The regions and their volumes, and a check that no two triangles of the surface cross.
+fn volumes(imported: &heal::Imported) -> Vec<(String, f64)> {
+    let template = &imported.document.templates[0];
+    let triangles: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
+    geom::contacts::contacts(
+        &template.vertices,
+        &triangles,
+        |t| t,
+        |contact| panic!("{contact:?}"),
+    );
+    let violations = tmesh::validate(&imported.document);
+    assert!(violations.is_empty(), "{violations:?}");
+    let volume = |r: &tmesh::Region| (r.name.clone(), r.volume.map_or(0.0, round));
+    imported.document.regions.iter().map(volume).collect()
+}
+
+fn two(a: Vec<Facet>, b: Vec<Facet>) -> heal::Imported {
+    good(&ascii_stl(&[("a", a), ("b", b)]), Stl)
+}
+
+fn expect(imported: &heal::Imported, wanted: [f64; 2]) {
+    let wanted = vec![("a".to_owned(), wanted[0]), ("b".to_owned(), wanted[1])];
+    assert_eq!(volumes(imported), wanted, "{:?}", imported.notices);
+}
+
+#[test]
+fn the_later_one_of_two_solids_that_overlap_has_what_both_claim() {
+    let cube = || unit_cube([0.0; 3]);
+    let crossing = two(cube(), unit_cube([0.5, 0.25, 0.125]));
+    expect(&crossing, [1.0 - 0.328125, 1.0]);
+    let said = crossing.notices.join("\n");
+    assert!(
+        said.contains("solid 'a' and solid 'b' overlap by a volume of 0.328125: solid 'b' has it"),
+        "{said}"
+    );
+    // With faces in common.
+    expect(
+        &two(
+            cuboid([0.0; 3], [1.0, 1.0, 2.0]),
+            cuboid([0.0, 0.0, 1.0], [1.0, 1.0, 3.0]),
+        ),
+        [1.0, 2.0],
+    );
+}
+
+#[test]
+fn a_solid_inside_another_cuts_its_place_out_whichever_is_first() {
+    let outer = || cuboid([-1.0; 3], [2.0; 3]);
+    let inner = || unit_cube([0.0; 3]);
+    expect(&two(outer(), inner()), [26.0, 1.0]);
+    let nested = two(inner(), outer());
+    expect(&nested, [1.0, 26.0]);
+    let said = nested.notices.join("\n");
+    assert!(said.contains("solid 'a' lies inside solid 'b'"), "{said}");
+    // With a face in common.
+    let flush = two(unit_cube([0.0; 3]), cuboid([0.0; 3], [1.0, 1.0, 2.0]));
+    expect(&flush, [1.0, 1.0]);
+}
+
+#[test]
+fn a_solid_that_is_there_twice_is_refused() {
+    let said = refused(
+        &ascii_stl(&[("a", unit_cube([0.0; 3])), ("b", unit_cube([0.0; 3]))]),
+        Stl,
+    );
+    assert!(said.contains("region 'a' encloses no volume"), "{said}");
+}
+
+#[test]
+fn faces_that_touch_with_different_triangles_get_the_same_ones() {
+    let plate = || cuboid([0.0; 3], [4.0, 3.0, 1.0]);
+    // A post in the middle, at an edge, over a corner, and as large as the plate with the other diagonal.
+    for (low, high) in [
+        ([1.0, 1.0, 1.0], [2.0, 2.0, 3.0]),
+        ([0.0, 1.0, 1.0], [2.0, 2.0, 3.0]),
+        ([3.0, 2.0, 1.0], [5.0, 5.0, 2.0]),
+        ([4.0, 0.5, 0.25], [5.0, 1.5, 0.75]),
+    ] {
+        let size: f64 = (0..3).map(|i| high[i] - low[i]).product();
+        expect(&two(plate(), cuboid(low, high)), [12.0, size]);
+    }
+    let turned = |f: Facet| {
+        let [a, b, c] = f.map(|[x, y, z]| [4.0 - x, y, z + 1.0]);
+        [a, c, b]
+    };
+    let other = plate().into_iter().map(turned).collect();
+    expect(&two(plate(), other), [12.0, 12.0]);
+    // A tip that touches in a point.
+    let tip = [0.5, 0.25, 1.0];
+    let (p, q, r) = ([0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 1.0, 2.0]);
+    let spike = vec![[tip, q, p], [tip, r, q], [tip, p, r], [p, q, r]];
+    expect(&two(plate(), spike), [12.0, round(1.0 / 6.0)]);
+}
+
+#[test]
+fn what_is_off_by_the_precision_touches() {
+    let off = 3e-7;
+    let upper = cuboid([1.0, 1.0, 1.0 + off], [2.0, 2.0, 3.0]);
+    let touching = two(cuboid([0.0; 3], [4.0, 3.0, 1.0]), upper);
+    let template = &touching.document.templates[0];
+    assert!(
+        template
+            .triangles
+            .iter()
+            .any(|t| [t.front, t.back] == [2, 1])
+    );
+    volumes(&touching);
+}
+
+#[test]
+fn a_surface_that_crosses_itself_is_the_union_of_itself() {
+    let pushed = [unit_cube([0.0; 3]), unit_cube([0.5, 0.25, 0.125])].concat();
+    let union = good(&binary_stl(b"", &pushed), Stl);
+    assert_eq!(volumes(&union), [("region1".to_owned(), 1.671875)]);
+    let said = union.notices.join("\n");
+    assert!(
+        said.contains("crosses or touches itself") && said.contains("0.328125 more than once"),
+        "{said}"
+    );
+    // Around a common edge.
+    let turned = unit_cube([0.0; 3])
+        .into_iter()
+        .map(|facet| facet.map(|[x, y, z]| [0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y, z]));
+    let both = [unit_cube([0.0; 3]), turned.collect()].concat();
+    volumes(&good(&binary_stl(b"", &both), Stl));
+}
+
+#[test]
+fn three_solids_with_one_place_in_common() {
+    let solids = [
+        ("a", cuboid([0.0; 3], [2.0, 2.0, 1.0])),
+        ("b", cuboid([1.0, 1.0, 1.0], [3.0, 3.0, 2.0])),
+        ("c", cuboid([0.0, 2.0, 0.0], [2.0, 4.0, 2.0])),
+        ("d", cuboid([0.5, 0.5, 0.5], [1.5, 2.5, 1.5])),
+    ];
+    let imported = good(&ascii_stl(&solids), Stl);
+    let volumes: Vec<f64> = volumes(&imported).into_iter().map(|v| v.1).collect();
+    // `b` and `c` share 1 by 1 by 1; `d` takes 0.75 of `a`, 0.25 of `b` and `c` each where that has it.
+    assert_eq!(volumes, [4.0 - 0.75, 4.0 - 1.0 - 0.25, 8.0 - 0.5, 2.0]);
+}
+
+/// A circle of radius 5.
+fn circle(corners: u32, phase: f64) -> Circle {
+    Circle {
+        radius: 5.0,
+        corners,
+        phase,
+    }
+}
+
+fn outside() -> Circle {
+    Circle {
+        radius: 8.0,
+        corners: 40,
+        phase: 0.0,
+    }
+}
+
+/// A shaft in a bore, each drawn in its own way; then every triangle between them is between them alone.
+fn shaft(corners: [u32; 2], phase: f64, heights: [[f64; 2]; 2]) -> heal::Imported {
+    let shaft = cylinder(circle(corners[0], 0.0), heights[0]);
+    let hub = tube(circle(corners[1], phase), outside(), heights[1]);
+    let body = two(shaft, hub);
+    let [a, b] = &volumes(&body)[..] else {
+        panic!("two regions")
+    };
+    let height = |h: [f64; 2]| h[1] - h[0];
+    let disc = circle(4, 0.0).disc();
+    // Both are within what their facets are off the circle.
+    let coarse = corners
+        .map(|n| circle(n, 0.0).area())
+        .into_iter()
+        .fold(f64::INFINITY, f64::min);
+    let off = |found: f64, wanted: f64, h: f64| {
+        assert!(
+            (found - wanted).abs() <= (disc - coarse) * h + 1e-6 * wanted,
+            "{found} {wanted} {:?}",
+            body.notices
+        );
+    };
+    off(a.1, disc * height(heights[0]), height(heights[0]));
+    off(
+        b.1,
+        (outside().area() - disc) * height(heights[1]),
+        height(heights[1]),
+    );
+    let template = &body.document.templates[0];
+    let area: f64 = template
+        .triangles
+        .iter()
+        .filter(|t| [t.front, t.back] == [2, 1])
+        .map(|t| {
+            let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
+            0.5 * (b - a).cross(c - a).length()
+        })
+        .sum();
+    let common = heights[0][1].min(heights[1][1]) - heights[0][0].max(heights[1][0]);
+    let wanted = 10.0 * std::f64::consts::PI * common;
+    assert!((area / wanted - 1.0).abs() < 0.03, "{area} of {wanted}");
+    body
+}
+
+#[test]
+fn a_shaft_fills_its_bore_however_both_are_drawn() {
+    for (corners, phase) in [
+        ([32, 32], 0.5),
+        ([32, 32], 0.1),
+        ([32, 48], 0.0),
+        ([31, 32], 0.0),
+        ([24, 60], 0.3),
+        ([60, 24], 0.7),
+        ([40, 40], 0.001),
+    ] {
+        for heights in [
+            [[0.0, 4.0], [0.0, 4.0]],
+            [[-3.0, 6.0], [0.0, 4.0]],
+            [[1.0, 3.0], [0.0, 4.0]],
+            [[0.0, 4.0], [1.0, 4.0]],
+        ] {
+            let body = shaft(corners, phase, heights);
+            let said = body.notices.join("\n");
+            assert!(
+                !said.contains("overlap"),
+                "{corners:?} {phase} {heights:?} {said}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_air_gap_narrower_than_the_chord_error_stays() {
+    let rotor = Circle {
+        radius: 4.97,
+        corners: 30,
+        phase: 0.25,
+    };
+    let body = two(
+        cylinder(rotor, [0.0, 4.0]),
+        tube(circle(64, 0.0), outside(), [0.0, 4.0]),
+    );
+    let found = volumes(&body);
+    assert_eq!(found[0].1, round(rotor.area() * 4.0), "{:?}", body.notices);
+    let template = &body.document.templates[0];
+    assert!(template.triangles.iter().all(|t| t.front == tmesh::OUTSIDE));
+    assert!(body.joined.is_none());
+}
+
+#[test]
+fn the_gap_that_is_closed_can_be_said() {
+    let contacts = |gap, overlap| heal::Repairing::Auto(heal::Contacts { gap, overlap });
+    let file = ascii_stl(&[
+        ("a", cuboid([0.0; 3], [4.0, 3.0, 1.0])),
+        ("b", cuboid([1.0, 1.0, 1.01], [2.0, 2.0, 3.0])),
+    ]);
+    let read =
+        |gap| heal::read_with(&file, Stl, contacts(gap, heal::Overlap::Later)).expect("read");
+    let touching = |imported: &heal::Imported| {
+        let triangles = &imported.document.templates[0].triangles;
+        triangles.iter().any(|t| [t.front, t.back] == [2, 1])
+    };
+    assert!(!touching(&read(None)));
+    assert!(touching(&read(Some(0.02))));
+    volumes(&read(Some(0.02)));
+    let file = ascii_stl(&[("a", unit_cube([0.0; 3])), ("b", unit_cube([0.5; 3]))]);
+    let read = |overlap| heal::read_with(&file, Stl, contacts(None, overlap));
+    let earlier = read(heal::Overlap::Earlier).expect("read");
+    expect(&earlier, [1.0, 0.875]);
+    let joined = earlier.joined.expect("what was done");
+    assert_eq!(joined.overlaps.len(), 1);
+    assert_eq!(joined.overlaps[0].by, "a");
+    let refused = read(heal::Overlap::Refuse)
+        .map(|_| ())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        refused.contains("overlap by a volume of 0.125"),
+        "{refused}"
+    );
+}
