@@ -8,3 +8,6 @@ mod split;
 mod worth;
 
 pub use remesh::{Remeshed, Told, remesh};
+
+#[cfg(test)]
+mod tests;

@@ -9,6 +9,7 @@ use crate::input::{Rules, Surface};
 use crate::mesh::{Mesh, NONE};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
 use geom::contacts::contacts;
+use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 /// A surface that was remeshed.
@@ -71,12 +72,9 @@ pub fn remesh(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
             return Some(remeshed);
         }
         let grows = f64::from(1 << attempt);
-        for [place, reach] in crossing
-            .iter()
-            .map(|(p, r)| [*p, glam::DVec3::splat(r * grows)])
-        {
+        for (place, size) in crossing {
             for (held, p) in held.iter_mut().zip(&surface.points) {
-                *held |= p.distance(place) <= reach.x;
+                *held |= p.distance(place) <= grows * size;
             }
         }
     }
@@ -84,7 +82,7 @@ pub fn remesh(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
 }
 
 /// Places where triangles meet that should not, with their size.
-fn crossings(surface: &Surface) -> Vec<(glam::DVec3, f64)> {
+fn crossings(surface: &Surface) -> Vec<(DVec3, f64)> {
     let mut found = Vec::new();
     contacts(
         &surface.points,

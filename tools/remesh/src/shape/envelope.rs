@@ -5,6 +5,7 @@ use crate::input::Surface;
 use geom::measure::double_area_vector;
 use geom::tree::{Tree, closest_point};
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 
 /// The surface and its feature curves, with how far one may be from each part of them.
 pub struct Envelope {
@@ -171,7 +172,6 @@ fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
 
 /// Normals at corners: averages over the patch around the vertex, weighted by area, so that needles do not count.
 fn normals(surface: &Surface, patches: &Patches) -> Vec<[DVec3; 3]> {
-    use rustc_hash::FxHashMap;
     let mut sums: FxHashMap<(u32, u32), DVec3> = FxHashMap::default();
     for (t, corners) in surface.triangles.iter().enumerate() {
         let [a, b, c] = surface.corners(t as u32);

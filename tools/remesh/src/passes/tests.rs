@@ -1,0 +1,210 @@
+//! Surfaces that are remeshed, without any document.
+
+use crate::{Remeshed, Rules, Surface, remesh};
+use geom::contacts::contacts;
+use geom::measure::volume_of_region;
+use geom::tree::Tree;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+/// Nothing is bound to anything.
+fn nowhere(_: u32, p: DVec3) -> DVec3 {
+    p
+}
+
+/// A sphere by longitudes and latitudes, with needles at its poles; its halves have labels of their own.
+fn globe(around: u32, up: u32) -> Surface {
+    let mut surface = Surface::default();
+    let at = |i: u32, j: u32| {
+        let (a, b) = (
+            std::f64::consts::TAU * f64::from(i) / f64::from(around),
+            std::f64::consts::PI * (f64::from(j) / f64::from(up) - 0.5),
+        );
+        DVec3::new(a.cos() * b.cos(), a.sin() * b.cos(), b.sin())
+    };
+    surface.points = vec![-DVec3::Z, DVec3::Z];
+    for j in 1..up {
+        surface.points.extend((0..around).map(|i| at(i, j)));
+    }
+    let id = |i: u32, j: u32| match j {
+        0 => 0,
+        j if j == up => 1,
+        j => 2 + (j - 1) * around + i % around,
+    };
+    for j in 0..up {
+        for i in 0..around {
+            let [a, b, c, d] = [id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)];
+            let both = [[a, b, c], [a, c, d]];
+            let real = both
+                .into_iter()
+                .filter(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
+            surface.triangles.extend(real);
+            surface
+                .labels
+                .resize(surface.triangles.len(), u32::from(2 * j >= up));
+        }
+    }
+    surface
+}
+
+fn done(surface: &Surface, deviation: f64, held: &[bool]) -> Option<Remeshed> {
+    let bound = vec![0; surface.points.len()];
+    remesh(
+        surface,
+        &Rules {
+            held,
+            bound: &bound,
+            onto: &nowhere,
+            deviation,
+            flat: 1e-10,
+            feature: 0.75_f64.sqrt(),
+            turn: std::f64::consts::TAU / 12.0,
+        },
+    )
+}
+
+/// The largest distance of points of one surface from another.
+fn farthest(from: &Surface, to: &Surface) -> f64 {
+    let all = |s: &Surface| -> Vec<[DVec3; 3]> {
+        (0..s.triangles.len() as u32)
+            .map(|t| s.corners(t))
+            .collect()
+    };
+    let tree = Tree::new(all(to));
+    let points = all(from).into_iter().flat_map(|[a, b, c]| {
+        [
+            a,
+            b,
+            c,
+            0.5 * (a + b),
+            0.5 * (b + c),
+            0.5 * (c + a),
+            (a + b + c) / 3.0,
+        ]
+    });
+    let distances = points.filter_map(|p| Some(tree.nearest(p, f64::INFINITY)?.distance));
+    distances.fold(0.0, f64::max)
+}
+
+fn smallest_angle(surface: &Surface) -> f64 {
+    let corners = (0..surface.triangles.len() as u32).map(|t| surface.corners(t));
+    let angles = corners.flat_map(|p| {
+        [0, 1, 2].map(|i| (p[(i + 1) % 3] - p[i]).angle_between(p[(i + 2) % 3] - p[i]))
+    });
+    angles.fold(f64::INFINITY, f64::min).to_degrees()
+}
+
+fn volume(surface: &Surface) -> f64 {
+    let faces = surface.triangles.iter().map(|t| (*t, [0, 1]));
+    volume_of_region(&surface.points, faces, 1)
+}
+
+/// Whether each edge has two triangles that are wound alike.
+fn is_closed(surface: &Surface) -> bool {
+    let mut edges: FxHashMap<[u32; 2], i32> = FxHashMap::default();
+    for t in &surface.triangles {
+        for i in 0..3 {
+            let (a, b) = (t[i], t[(i + 1) % 3]);
+            *edges.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
+        }
+    }
+    edges.values().all(|&sum| sum == 0)
+}
+
+#[test]
+fn needles_go_and_the_surface_stays_in_its_envelope() {
+    let globe = globe(40, 20);
+    let held = vec![false; globe.points.len()];
+    for deviation in [0.003, 0.02] {
+        let made = done(&globe, deviation, &held).expect("needles at the poles");
+        assert_eq!(Some(&made), done(&globe, deviation, &held).as_ref());
+        let surface = &made.surface;
+        assert!(is_closed(surface));
+        assert!(
+            smallest_angle(&globe) < 10.0 && smallest_angle(surface) > 20.0,
+            "{}",
+            smallest_angle(surface)
+        );
+        let distances = [farthest(surface, &globe), farthest(&globe, surface)];
+        assert!(distances.iter().all(|d| *d <= deviation), "{distances:?}");
+        assert!((volume(surface) / volume(&globe) - 1.0).abs() < 4.0 * deviation);
+        contacts(
+            &surface.points,
+            &surface.triangles,
+            |t| t,
+            |contact| panic!("{contact:?}"),
+        );
+        // The border between the labels is a curve that stays one, on the equator.
+        let mut border = 0;
+        let mut of_edge: FxHashMap<[u32; 2], Vec<u32>> = FxHashMap::default();
+        for (t, label) in surface.triangles.iter().zip(&surface.labels) {
+            for i in 0..3 {
+                let (a, b) = (t[i], t[(i + 1) % 3]);
+                of_edge
+                    .entry([a.min(b), a.max(b)])
+                    .or_default()
+                    .push(*label);
+            }
+        }
+        for (ends, labels) in of_edge {
+            if labels[0] != labels[1] {
+                border += 1;
+                let level = |v: u32| surface.points[v as usize].z.abs() <= 1e-12;
+                assert!(ends.into_iter().all(level));
+            }
+        }
+        assert!(border >= 8, "{border}");
+    }
+}
+
+#[test]
+fn what_is_held_stays_to_the_bit() {
+    let globe = globe(40, 20);
+    let held: Vec<bool> = globe.points.iter().map(|p| p.y <= 1e-12).collect();
+    let made = done(&globe, 0.02, &held).expect("needles at the poles");
+    for (v, held) in held.iter().enumerate() {
+        if *held {
+            let new = made.vertices[v];
+            assert_eq!(made.surface.points[new as usize], globe.points[v]);
+        }
+    }
+    for (t, corners) in globe.triangles.iter().enumerate() {
+        if corners.iter().all(|&v| held[v as usize]) {
+            let new = made.surface.triangles[made.triangles[t] as usize];
+            assert_eq!(new, corners.map(|v| made.vertices[v as usize]));
+        }
+    }
+}
+
+#[test]
+fn flat_faces_and_what_has_no_needles_stay() {
+    // A box with a needle in its top.
+    let (p, q) = (DVec3::ZERO, DVec3::ONE);
+    let mut surface = Surface::default();
+    for i in 0..8_u32 {
+        let at = |k: u32| if i >> k & 1 == 1 { q } else { p };
+        surface.points.push(DVec3::new(at(0).x, at(1).y, at(2).z));
+    }
+    surface.points.push(DVec3::new(0.5, 0.4, 1.0));
+    surface.triangles = vec![
+        [0, 2, 1],
+        [1, 2, 3],
+        [0, 1, 4],
+        [1, 5, 4],
+        [1, 3, 5],
+        [3, 7, 5],
+        [3, 2, 7],
+        [2, 6, 7],
+        [2, 0, 6],
+        [0, 4, 6],
+        [4, 5, 8],
+        [5, 7, 8],
+        [7, 6, 8],
+        [6, 4, 8],
+    ];
+    surface.labels = vec![0; surface.triangles.len()];
+    let held = vec![false; surface.points.len()];
+    if let Some(made) = done(&surface, 0.01, &held) {
+        assert_eq!(volume(&made.surface), 1.0);
+    }
+}
