@@ -73,10 +73,13 @@ impl OrderSearch<'_> {
             axisymmetric: false,
             distinct: true,
         };
-        let own = self.order_of_corners(frame).and_then(|order| {
-            let verified = self.shape.verify_rotation(frame, order, bound, self.depth);
-            Some(distinct(order, verified.ok()?))
-        });
+        let corners = self.order_of_corners(frame);
+        let own = corners
+            .filter(|n| self.orders.contains(n))
+            .and_then(|order| {
+                let verified = self.shape.verify_rotation(frame, order, bound, self.depth);
+                Some(distinct(order, verified.ok()?))
+            });
         let multiples = match &own {
             Some(own) if own.order.is_multiple_of(self.multiples) => own.order,
             _ => self.multiples,
