@@ -5,6 +5,7 @@
 mod args;
 mod failure;
 mod input;
+mod input_file;
 mod inputs;
 mod messages;
 mod output;
@@ -17,7 +18,7 @@ mod wishes;
 pub use args::CommonArgs;
 pub use failure::Failure;
 pub use geom::number::{about, grouped, number, point};
-pub use inputs::InputFile;
+pub use input_file::InputFile;
 pub use messages::MessageFormat;
 pub use output::{Closed, Output};
 pub use run::{Command, main};

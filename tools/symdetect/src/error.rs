@@ -1,6 +1,6 @@
 //! Why no symmetry could be reported.
 
-use crate::report::Nearly;
+use crate::nearly::Nearly;
 use glam::DVec3;
 use thiserror::Error;
 

@@ -12,6 +12,7 @@ mod detect;
 mod enclosure;
 mod error;
 mod group;
+mod nearly;
 mod params;
 mod report;
 mod rotation;
@@ -30,6 +31,7 @@ mod tests_groups;
 pub use cli::Cli;
 pub use detect::detect;
 pub use error::{Closest, Error};
+pub use nearly::Nearly;
 pub use params::Params;
 pub use report::{Defects, Detection, OrderResidual, Places, Report, svg};
 

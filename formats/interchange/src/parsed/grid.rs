@@ -272,17 +272,8 @@ impl Grid {
         regions.remove(&OUTSIDE);
         markers.remove(&OUTSIDE);
         let is_sided = sides.is_some();
-        let source = self.json(SOURCE);
-        let finding = self
-            .json(SYMMETRY)
-            .map(|symmetry| Box::new(Finding { symmetry, source }));
-        if finding.is_none() && self.texts.contains_key(SYMMETRY) {
-            notices.push(format!(
-                "its array '{SYMMETRY}' is not as expected: ignored"
-            ));
-        }
         Mesh {
-            finding,
+            finding: self.finding(&mut notices),
             promise: parse_promise(&self.title),
             sector_of: parse_sector(&self.title),
             points: self.points,
@@ -297,6 +288,18 @@ impl Grid {
             relative_precision: self.relative_precision,
             notices,
         }
+    }
+
+    /// What was found in the surface before it was written.
+    fn finding(&self, notices: &mut Vec<String>) -> Option<Box<Finding>> {
+        let source = self.json(SOURCE);
+        let symmetry = self.json(SYMMETRY);
+        if symmetry.is_none() && self.texts.contains_key(SYMMETRY) {
+            notices.push(format!(
+                "its array '{SYMMETRY}' is not as expected: ignored"
+            ));
+        }
+        symmetry.map(|symmetry| Box::new(Finding { symmetry, source }))
     }
 
     /// A surface of another program: groups, orientation and regions are not in the file.

@@ -1,6 +1,6 @@
 //! What was found.
 
-use crate::report::nearly::Nearly;
+use crate::nearly::Nearly;
 use tmesh::{Search, Symmetry};
 
 /// What was found, and remarks for the user.

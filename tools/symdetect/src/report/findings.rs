@@ -1,8 +1,8 @@
 //! What to say of the symmetry found.
 
 use crate::group::Found;
+use crate::nearly::Nearly;
 use crate::report::detection::Detection;
-use crate::report::nearly::Nearly;
 use crate::rotation::{Query, Rotation};
 use kit::{number, point};
 use tmesh::{Axis, Isometry, OtherAxis, RegionMap, Search, Symmetry};

@@ -1,8 +1,8 @@
 //! The JSON report.
 
+use crate::nearly::Nearly;
 use crate::report::defects::Defects;
 use crate::report::detection::{Detection, OrderResidual};
-use crate::report::nearly::Nearly;
 use heal::Repair;
 use kit::{InputFile, Session};
 use serde::Serialize;

@@ -15,5 +15,4 @@ mod svg;
 pub use defects::{Defects, Places};
 pub use detection::{Detection, OrderResidual};
 pub use json::{FailureReport, Report};
-pub use nearly::Nearly;
 pub use svg::svg;

@@ -2,41 +2,15 @@
 
 use crate::budget::{FIT, NEXT_BEST, QUICK};
 use crate::group::Found;
+use crate::nearly::Nearly;
 use crate::rotation::{OUTLIERS, Query, TELLING_TURNS, golden, powers};
 use crate::shape::{Random, Sample, Target};
 use crate::verify::{Bound, Operation, golden_rotations};
 use glam::DVec3;
-use serde::Serialize;
 use tmesh::{Axis, Frame, Isometry};
 
 /// Powers of a rotation that a place is tried under: each other place of an orbit of this many more is tried.
-const POWERS: u32 = 8;
-/// Principal directions, which come first among the candidates.
-const PRINCIPAL: usize = 3;
-
-/// A rotation under which all of the surface but some places goes to the surface.
-#[derive(Clone, Debug, Serialize)]
-pub struct Nearly {
-    /// Its order; none if any rotation does so.
-    pub order: Option<u32>,
-    /// Its axis, in world coordinates.
-    pub axis: Axis,
-    /// Share of the surface that is in the way.
-    pub share: f64,
-    /// A place in the midst of that, in world coordinates.
-    pub place: [f64; 3],
-    /// How far images of that are from the surface at most, relative to the radius about the axis.
-    pub residual: f64,
-}
-
-impl Nearly {
-    /// Of several that leave about as little in the way, the one of the highest order.
-    fn best(of: Vec<Self>) -> Option<Self> {
-        let least = of.iter().map(|n| n.share).fold(f64::INFINITY, f64::min);
-        let few = of.into_iter().filter(|n| n.share <= 2.0 * least);
-        few.max_by_key(|n| n.order.unwrap_or(u32::MAX))
-    }
-}
+const POWERS: u32 = 2 * TELLING_TURNS as u32;
 
 /// Samples, those first that a set of turns takes off the surface.
 struct Lost<'a> {
@@ -60,7 +34,8 @@ impl Query<'_> {
         }
         let frames: Vec<Frame> = match known {
             Some(found) => vec![found.frame],
-            None => (directions.iter().take(PRINCIPAL))
+            // The three principal ones come first.
+            None => (directions.iter().take(3))
                 .filter_map(|d| Frame::from_axis(self.centre, *d, d.any_orthogonal_vector()))
                 .collect(),
         };
@@ -175,22 +150,4 @@ fn middle(places: &[&Sample]) -> DVec3 {
     let points = some.iter().map(|s| s.point);
     let best = points.min_by(|a, b| sum(*a).total_cmp(&sum(*b)));
     best.unwrap_or(DVec3::ZERO)
-}
-
-impl std::fmt::Display for Nearly {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.order {
-            Some(order) => write!(f, "order {order}")?,
-            None => write!(f, "any rotation")?,
-        }
-        write!(
-            f,
-            " about {} through {} holds but for {:.2} % of the surface near {}, which is off by up to {:.1e} of the radius",
-            kit::point(self.axis.direction),
-            kit::point(self.axis.point),
-            100.0 * self.share,
-            kit::point(self.place),
-            self.residual,
-        )
-    }
 }

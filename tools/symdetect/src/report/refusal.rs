@@ -3,9 +3,9 @@
 use crate::budget::{FIT, QUICK, REPORTED};
 use crate::error::{Closest, Error};
 use crate::group::reference;
+use crate::nearly::Nearly;
 use crate::report::detection::Detection;
-use crate::report::nearly::Nearly;
-use crate::rotation::{Canonical, FIRST_DIRECTIONS, Query, powers};
+use crate::rotation::{Canonical, FIRST_DIRECTIONS, LOOSE_RANGE, Query, powers};
 use crate::verify::{Bound, Depth, Deviation, Operation};
 use glam::DVec3;
 use tmesh::{Axis, Frame, Group, Isometry, RejectedOrder, Search, Symmetry};
@@ -24,7 +24,11 @@ impl Query<'_> {
             };
             let radius = self.radius_about(&frame);
             for n in 1..=self.params.max_order.min(ORDERS) {
-                let most = if n == 1 { f64::MAX } else { 0.2 * radius };
+                let most = if n == 1 {
+                    f64::MAX
+                } else {
+                    LOOSE_RANGE[1] * radius
+                };
                 let residual = self.off(&frame, n, REPORTED / 2, most).value / radius;
                 if best.as_ref().is_none_or(|b| residual < b.0) {
                     best = Some((residual, frame, n));

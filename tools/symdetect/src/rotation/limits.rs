@@ -12,7 +12,7 @@ pub const OUTLIERS: f64 = 0.125;
 const LOOSE: f64 = 8.0;
 /// Bounds on that, relative to the radius. At tighter tolerances than the default one, moments know the axis no better.
 /// Beyond a fifth of the radius, any order of any body passes.
-const LOOSE_RANGE: [f64; 2] = [8e-3, 0.2];
+pub const LOOSE_RANGE: [f64; 2] = [8e-3, 0.2];
 
 /// Tolerances of a search, relative to the radius about the axis.
 #[derive(Clone, Copy, Debug)]

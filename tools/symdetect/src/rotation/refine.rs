@@ -12,6 +12,9 @@ use tmesh::{Frame, Isometry};
 const STEPS: usize = 12;
 /// Share of the mean square that must be left at most for another step to be worth it.
 const GAIN: f64 = 0.9;
+/// Times the root of the mean square beyond which an image is an outlier, and the factor by which that distance falls in
+/// one step at most: no error of facets or rounding is that far out, and what is left out once never comes back.
+const FAR: f64 = 20.0;
 /// Largest step, in radians and in units of the shape: more than any candidate is off by, and little enough for the
 /// linearized rotation.
 const LONGEST_STEP: f64 = 0.1;
@@ -74,7 +77,7 @@ pub fn refine(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
         }
         frame = step.frame;
         // Outliers leave as the fit gets better, but never what a good fit would keep.
-        reach = reach.min(20.0 * step.mean_square.sqrt()).max(0.05 * reach);
+        reach = (FAR * step.mean_square.sqrt()).clamp(reach / FAR, reach);
     }
     best
 }
