@@ -79,17 +79,17 @@ pub fn relate(
     finder.found
 }
 
-/// Whether triangles of different solids are related.
+/// Whether triangles of different solids are related, other than those of solids that are `joined` already.
 pub fn is_related(
     complex: &mut Complex,
-    edges: &Edges,
-    faces: &Faces,
+    (edges, faces): (&Edges, &Faces),
     solid_of: impl Fn(u32) -> u32,
+    joined: impl Fn(u32, u32) -> bool,
     reach: Reach<'_>,
 ) -> bool {
     let mut near = Vec::new();
-    let all = |_: u32, _: u32| true;
-    let search = near_pairs(complex, reach, &solid_of, all, |s, t| near.push([s, t]));
+    let apart = |s: u32, t: u32| !joined(solid_of(s), solid_of(t));
+    let search = near_pairs(complex, reach, &solid_of, apart, |s, t| near.push([s, t]));
     if search == Search::GaveUp {
         return false;
     }

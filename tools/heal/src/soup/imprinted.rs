@@ -11,6 +11,7 @@ use geom::edges::Edges;
 use geom::measure::tet_volume;
 use geom::tolerance::Tolerance;
 use interchange::text::counted;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A surface whose triangles meet in common vertices and edges only, and the solids on its sides.
 pub struct Imprinted {
@@ -109,7 +110,8 @@ fn complex_of(surface: &Surface, tolerance: &Tolerance) -> Complex {
     )
 }
 
-/// Whether solids touch without crossing and with different triangles.
+/// Whether solids touch without crossing and with different triangles. Solids that share triangles are drawn with each
+/// other in mind: what is near elsewhere is meant to be apart.
 pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> bool {
     let mut complex = complex_of(surface, tolerance);
     let edges = Edges::new(&surface.triangles);
@@ -120,7 +122,27 @@ pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> 
         curves: (contacts.gap != Some(0.0)).then_some(&curves),
     };
     let solid_of = |t: u32| surface.solid[t as usize];
-    is_related(&mut complex, &edges, &faces, solid_of, reach)
+    let shared = sharing(surface);
+    let joined = |a: u32, b: u32| shared.contains(&[a.min(b), a.max(b)]);
+    is_related(&mut complex, (&edges, &faces), solid_of, joined, reach)
+}
+
+/// Pairs of solids that have the same triangle, to the bit of its corners; the lower one first.
+fn sharing(surface: &Surface) -> FxHashSet<[u32; 2]> {
+    let mut seen: FxHashMap<[[u64; 3]; 3], u32> = FxHashMap::default();
+    let mut shared = FxHashSet::default();
+    for (corners, &solid) in surface.triangles.iter().zip(&surface.solid) {
+        let bits = |v: u32| surface.points[v as usize].to_array().map(f64::to_bits);
+        let mut key = corners.map(bits);
+        key.sort_unstable();
+        if let Some(&other) = seen.get(&key)
+            && other != solid
+        {
+            shared.insert([solid.min(other), solid.max(other)]);
+        }
+        seen.insert(key, solid);
+    }
+    shared
 }
 
 /// Which solids have triangles that meet away from common vertices and edges.

@@ -5,6 +5,10 @@ use crate::shape::Near;
 
 /// Splits an edge near its middle, if that keeps to the rules.
 pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
+    // Along an edge between vertices that are held, the body may touch another piece of it, which nobody would split.
+    if mesh.held[a as usize] && mesh.held[b as usize] {
+        return false;
+    }
     let at_edge = mesh.at_edge(a, b);
     let Some(&first) = at_edge.first() else {
         return false;
