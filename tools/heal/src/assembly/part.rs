@@ -1,13 +1,7 @@
-//! One file among several, and all of them together.
+//! One file among several, and what its regions are called.
 
-use super::names::name_parts;
-use super::surface_of::surface_of;
-use crate::document::Imported;
-use crate::read::heal;
-use crate::soup::{Mended, Solids, join, label_mended, mend};
-use crate::{HealError, Repairing};
-use interchange::{Format, Parsed, parse};
-use std::collections::BTreeSet;
+use crate::soup::Mended;
+use interchange::Format;
 use tmesh::HistoryEntry;
 
 /// What the regions of a file are called.
@@ -43,55 +37,4 @@ impl Part {
     pub fn take_notices(&mut self) -> Vec<String> {
         std::mem::take(&mut self.mended.notices)
     }
-}
-
-/// Reads a whole file of the given format as one among several. Of a mesh, a complex or a document, the surfaces of
-/// regions are read.
-///
-/// # Errors
-/// Malformed bytes, surfaces that are not closed, and documents that are cut already.
-pub fn read_part(
-    bytes: &[u8],
-    format: Format,
-    naming: Naming,
-    repairing: Repairing,
-) -> Result<Part, HealError> {
-    let solids = match naming {
-        Naming::Region(_) => Solids::Whole,
-        Naming::File(_) => Solids::Groups,
-    };
-    let soup = match parse(bytes, format)? {
-        Parsed::Soup(soup) => soup,
-        other => return surface_of(heal(other, format, repairing)?, format, naming, solids),
-    };
-    Ok(Part {
-        mended: mend(soup, solids, repairing)?,
-        naming,
-        wishes: Vec::new(),
-        format,
-        history: Vec::new(),
-    })
-}
-
-/// The body that files make together: a region for each of their solids.
-///
-/// # Errors
-/// Solids that overlap, cross, or touch with different triangles.
-pub fn assemble(mut parts: Vec<Part>, repairing: Repairing) -> Result<Imported, HealError> {
-    name_parts(&mut parts);
-    let formats: BTreeSet<&str> = parts.iter().map(|p| p.format.name()).collect();
-    let formats: Vec<&str> = formats.into_iter().collect();
-    let (mut wishes, mut history, mut all) = (Vec::new(), Vec::new(), Vec::new());
-    for part in parts {
-        let of_solids = part.wishes.into_iter().chain(std::iter::repeat(None));
-        wishes.extend(of_solids.take(part.mended.mending.surface.solids.len()));
-        history.extend(part.history);
-        all.push(part.mended);
-    }
-    let mut imported = label_mended(join(all), &formats.join(", "), repairing)?;
-    for (region, wish) in imported.document.regions.iter_mut().zip(wishes) {
-        region.max_volume = wish;
-    }
-    imported.document.history = history;
-    Ok(imported)
 }

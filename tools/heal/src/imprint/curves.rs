@@ -99,16 +99,10 @@ impl Curves {
         }
     }
 
-    /// Whether a place, projected onto a facet's plane, is on the line of a sharp edge at a vertex.
-    pub fn on_sharp(
-        &self,
-        v: u32,
-        place: DVec3,
-        normal: DVec3,
-        points: &[DVec3],
-        within: f64,
-    ) -> bool {
-        let from = points[v as usize];
+    /// Whether the second vertex, projected onto the plane of a facet with this normal, is on the line of a sharp edge
+    /// at the first one.
+    fn on_sharp(&self, [v, other]: [u32; 2], normal: DVec3, points: &[DVec3], within: f64) -> bool {
+        let [from, place] = [v, other].map(|v| points[v as usize]);
         self.sharp[v as usize].iter().any(|&w| {
             let along = (points[w as usize] - from).reject_from_normalized(normal);
             let off = (place - from).reject_from_normalized(normal);
@@ -210,8 +204,15 @@ impl Curves {
         self.patches[t as usize].sagitta + self.uncertain(t)
     }
 
-    /// Where on a facet a vertex of another solid's facet lies, if it touches the surface behind it.
-    pub fn spot(&self, v: u32, of: u32, t: u32, complex: &Complex, equal: f64) -> Option<Spot> {
+    /// Where on the facet `t` a corner of another solid's facet `of` lies, if it touches the surface behind `t`.
+    pub fn spot(
+        &self,
+        (of, corner): (u32, usize),
+        t: u32,
+        complex: &Complex,
+        equal: f64,
+    ) -> Option<Spot> {
+        let v = complex.triangles[of as usize][corner];
         let [own, patch] = [of, t].map(|t| &self.patches[t as usize]);
         let p = complex.points[v as usize];
         let height = patch.height(p);
@@ -236,7 +237,12 @@ impl Curves {
             });
         }
         if let Spot::Corner(i) = at
-            && self.may_join(v, complex.triangles[t as usize][i], patch, complex, equal)
+            && self.may_join(
+                [v, complex.triangles[t as usize][i]],
+                patch.normal,
+                &complex.points,
+                equal,
+            )
         {
             return Some(at);
         }
@@ -248,14 +254,16 @@ impl Curves {
         }
     }
 
-    /// Whether a vertex may be joined to a corner of a facet: the corner, or the vertex, is moved along its own sharp
-    /// edges only.
-    fn may_join(&self, v: u32, corner: u32, patch: &Patch, complex: &Complex, equal: f64) -> bool {
-        let points = &complex.points;
-        let on = |v: u32, w: u32| {
-            let place = points[w as usize];
-            self.on_sharp(v, place, patch.normal, points, equal)
-        };
+    /// Whether a vertex may be joined to a corner of a facet with this normal: the corner, or the vertex, is moved along
+    /// its own sharp edges only.
+    fn may_join(
+        &self,
+        [v, corner]: [u32; 2],
+        normal: DVec3,
+        points: &[DVec3],
+        within: f64,
+    ) -> bool {
+        let on = |v: u32, other: u32| self.on_sharp([v, other], normal, points, within);
         match [v, corner].map(|v| self.rank(v, points)) {
             [0, _] | [_, 0] => true,
             [2, 2] => false,

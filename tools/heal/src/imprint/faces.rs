@@ -101,3 +101,12 @@ impl Faces {
         faces
     }
 }
+
+/// The edges of a complex and its faces, from which one can tell which triangles, edges and faces are incident.
+#[derive(Clone, Copy)]
+pub struct Incidence<'a> {
+    /// Edges of the triangles.
+    pub edges: &'a Edges,
+    /// Faces, which number their edges as `edges` does.
+    pub faces: &'a Faces,
+}

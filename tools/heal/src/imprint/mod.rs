@@ -17,7 +17,7 @@ mod relate;
 mod settle;
 
 pub use curves::Curves;
-pub use faces::{Complex, Faces};
+pub use faces::{Complex, Faces, Incidence};
 pub use overlay::overlay;
 pub use relate::{Reach, is_related};
 pub use settle::{Settled, settle};

@@ -2,7 +2,7 @@
 
 use super::curves::Curves;
 use super::divide::{Division, Parts, sorted};
-use super::faces::{Complex, Faces};
+use super::faces::{Complex, Faces, Incidence};
 use super::relate::{Reach, Relations, relate};
 use geom::edges::Edges;
 use geom::grid::Grid;
@@ -53,7 +53,11 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, gap: Option<f64
             curves: curves.as_ref(),
         };
         let solid_of = |t: u32| solid[source[t as usize] as usize];
-        let mut found = relate(&mut complex, &edges, &faces, solid_of, reach, |t| {
+        let incidence = Incidence {
+            edges: &edges,
+            faces: &faces,
+        };
+        let mut found = relate(&mut complex, incidence, solid_of, reach, |t| {
             is_new[t as usize]
         });
         if found.is_empty() {
@@ -63,8 +67,7 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, gap: Option<f64
         overlay.largest = overlay.largest.max(found.largest);
         let ids = ids(&complex.points, before, &mut found.same, within);
         let round = Round {
-            edges: &edges,
-            faces: &faces,
+            incidence,
             found: &found,
             ids: &ids,
             within: within.max(found.largest),
@@ -99,8 +102,7 @@ fn ids(points: &[DVec3], before: usize, same: &mut DisjointSets, within: f64) ->
 }
 
 struct Round<'a> {
-    edges: &'a Edges,
-    faces: &'a Faces,
+    incidence: Incidence<'a>,
     found: &'a Relations,
     ids: &'a [u32],
     /// How far apart things are that are related.
@@ -117,7 +119,7 @@ impl Round<'_> {
     /// Divides the faces; which of the resulting triangles are new.
     fn run(&self, complex: &mut Complex) -> Vec<bool> {
         let chains = self.chains();
-        let borders: Vec<Sides> = (0..self.faces.triangles.len())
+        let borders: Vec<Sides> = (0..self.incidence.faces.triangles.len())
             .map(|f| self.border(complex, f, &chains))
             .collect();
         let inside = self.inside(&borders);
@@ -133,7 +135,7 @@ impl Round<'_> {
         };
         let mut is_new = Vec::new();
         let mut count = 0;
-        for (f, triangles) in self.faces.triangles.iter().enumerate() {
+        for (f, triangles) in self.incidence.faces.triangles.iter().enumerate() {
             let whole = || {
                 let ids = triangles.iter().map(|&t| complex.triangles[t as usize]);
                 vec![ids.map(|t| t.map(|v| self.id(v))).collect::<Vec<_>>()]
@@ -184,7 +186,7 @@ impl Round<'_> {
         chains: &[Option<Vec<u32>>],
     ) -> bool {
         triangles.iter().all(|&t| {
-            let edges = self.faces.edges[t as usize];
+            let edges = self.incidence.faces.edges[t as usize];
             let corners = complex.triangles[t as usize];
             corners.iter().all(|&v| self.id(v) == v)
                 && edges.iter().all(|&e| chains[e as usize].is_none())
@@ -193,11 +195,11 @@ impl Round<'_> {
 
     /// Of each edge: its vertices from the lower end to the higher one.
     fn chains(&self) -> Vec<Option<Vec<u32>>> {
-        let mut chains: Vec<Option<Vec<u32>>> = vec![None; self.edges.len()];
+        let mut chains: Vec<Option<Vec<u32>>> = vec![None; self.incidence.edges.len()];
         for (&e, on) in &self.found.on_edge {
             let mut on = on.clone();
             on.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            let ends = self.edges.ends[e as usize].map(|v| self.id(v));
+            let ends = self.incidence.edges.ends[e as usize].map(|v| self.id(v));
             let mut chain = vec![ends[0]];
             for v in on.iter().map(|&(_, v)| self.id(v)) {
                 if !chain.contains(&v) && v != ends[1] {
@@ -213,11 +215,11 @@ impl Round<'_> {
     /// The sides of a face.
     fn border(&self, complex: &Complex, f: usize, chains: &[Option<Vec<u32>>]) -> Sides {
         let mut sides = Sides::new();
-        for &t in &self.faces.triangles[f] {
+        for &t in &self.incidence.faces.triangles[f] {
             let (t, corners) = (t as usize, complex.triangles[t as usize]);
-            for i in (0..3).filter(|&i| self.faces.border[t][i]) {
+            for i in (0..3).filter(|&i| self.incidence.faces.border[t][i]) {
                 let [a, b] = [corners[i], corners[(i + 1) % 3]];
-                let e = self.faces.edges[t][i] as usize;
+                let e = self.incidence.faces.edges[t][i] as usize;
                 match &chains[e] {
                     Some(chain) => sides.extend(chain.windows(2).map(|w| [w[0], w[1]])),
                     None => sides.push([self.id(a), self.id(b)]),
@@ -269,7 +271,7 @@ impl Round<'_> {
             for [own, other] in [pair, [pair[1], pair[0]]] {
                 let sides: FxHashSet<[u32; 2]> = borders[own as usize].iter().copied().collect();
                 let tree = trees.entry(own).or_insert_with(|| {
-                    let triangles = self.faces.triangles[own as usize].iter();
+                    let triangles = self.incidence.faces.triangles[own as usize].iter();
                     Tree::new(triangles.map(|&t| complex.corners(t)))
                 });
                 let of_other = borders[other as usize].iter().chain(&line);

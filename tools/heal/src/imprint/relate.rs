@@ -1,7 +1,7 @@
 //! What is related: vertices, edges and faces that lie at one place and have no vertex there in common.
 
 use super::curves::Curves;
-use super::faces::{Complex, Faces};
+use super::faces::{Complex, Faces, Incidence};
 use super::near::{Spot, crossing, is_beside, piercing, spot};
 use geom::contacts::contact;
 use geom::edges::Edges;
@@ -56,8 +56,7 @@ impl Reach<'_> {
 /// triangles meet: what is thin is not closed.
 pub fn relate(
     complex: &mut Complex,
-    edges: &Edges,
-    faces: &Faces,
+    incidence: Incidence<'_>,
     solid_of: impl Fn(u32) -> u32,
     reach: Reach<'_>,
     is_new: impl Fn(u32) -> bool,
@@ -73,7 +72,7 @@ pub fn relate(
     );
     near.sort_unstable();
     near.retain(|&[s, t]| solid_of(s) != solid_of(t) || meets(complex, s, t));
-    let mut finder = Finder::new(complex, edges, faces, reach);
+    let mut finder = Finder::new(complex, incidence, reach);
     finder.found.search = search;
     finder.run(&near, &solid_of);
     finder.found
@@ -82,7 +81,7 @@ pub fn relate(
 /// Whether triangles of different solids are related, other than those of solids that are `joined` already.
 pub fn is_related(
     complex: &mut Complex,
-    (edges, faces): (&Edges, &Faces),
+    incidence: Incidence<'_>,
     solid_of: impl Fn(u32) -> u32,
     joined: impl Fn(u32, u32) -> bool,
     reach: Reach<'_>,
@@ -94,7 +93,7 @@ pub fn is_related(
         return false;
     }
     near.sort_unstable();
-    let mut finder = Finder::new(complex, edges, faces, reach);
+    let mut finder = Finder::new(complex, incidence, reach);
     finder.run(&near, &solid_of);
     !finder.found.is_empty()
 }
@@ -153,7 +152,8 @@ struct Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
-    fn new(complex: &'a mut Complex, edges: &'a Edges, faces: &'a Faces, reach: Reach<'a>) -> Self {
+    fn new(complex: &'a mut Complex, incidence: Incidence<'a>, reach: Reach<'a>) -> Self {
+        let Incidence { edges, faces } = incidence;
         Self {
             found: Relations {
                 same: DisjointSets::new(complex.points.len()),
@@ -228,7 +228,7 @@ impl<'a> Finder<'a> {
             let at = spot(p, &places, self.reach.equal);
             let at = at.or_else(|| {
                 let curves = self.reach.curves.filter(|_| others)?;
-                curves.spot(v, of, t, self.complex, self.reach.equal)
+                curves.spot((of, i), t, self.complex, self.reach.equal)
             });
             let Some(at) = at else { continue };
             any = true;

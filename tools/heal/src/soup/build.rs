@@ -3,9 +3,8 @@
 use super::imprinted::{imprinted, touches};
 use super::mended::Mended;
 use super::mending::Mending;
-use super::solids::label;
+use super::solids::{label, tables};
 use super::surface::{NONE, Surface};
-use super::tables::tables;
 use super::weld;
 use crate::document::{Imported, check_scale, document, tolerance};
 use crate::words::unique_names;

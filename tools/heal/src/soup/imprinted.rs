@@ -3,7 +3,9 @@
 use super::solids::Labels;
 use super::surface::{NONE, Surface};
 use crate::contacts::{Changed, Claimed, Contacts, Joined, Overlap};
-use crate::imprint::{Complex, Curves, Faces, Reach, Settled, is_related, overlay, settle};
+use crate::imprint::{
+    Complex, Curves, Faces, Incidence, Reach, Settled, is_related, overlay, settle,
+};
 use crate::meeting::meetings;
 use crate::words::{place, short};
 use geom::contacts::contacts;
@@ -121,10 +123,14 @@ pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> 
         equal: tolerance.equal(),
         curves: (contacts.gap != Some(0.0)).then_some(&curves),
     };
+    let incidence = Incidence {
+        edges: &edges,
+        faces: &faces,
+    };
     let solid_of = |t: u32| surface.solid[t as usize];
     let shared = sharing(surface);
     let joined = |a: u32, b: u32| shared.contains(&[a.min(b), a.max(b)]);
-    is_related(&mut complex, (&edges, &faces), solid_of, joined, reach)
+    is_related(&mut complex, incidence, solid_of, joined, reach)
 }
 
 /// Pairs of solids that have the same triangle, to the bit of its corners; the lower one first.

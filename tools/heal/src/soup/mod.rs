@@ -7,11 +7,9 @@ mod imprinted;
 mod mended;
 mod mending;
 mod needles;
-mod notices;
 mod solids;
 mod stitch;
 mod surface;
-mod tables;
 mod weld;
 
 pub use build::{Solids, build, label_mended, mend};

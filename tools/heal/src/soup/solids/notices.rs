@@ -1,7 +1,7 @@
 //! What the user is told of triangles that were turned over, and of what keeps sides from being told apart.
 
-use super::surface::{NONE, Surface};
 use crate::meeting::meetings;
+use crate::soup::surface::{NONE, Surface};
 use crate::words::place;
 use geom::cells::Cells;
 use geom::edges::Edges;

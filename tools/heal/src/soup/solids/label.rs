@@ -6,9 +6,9 @@
 //! overlap.
 
 use super::notices::{causes, explain_turned};
-use super::surface::{NONE, Surface};
 use crate::HealError;
 use crate::meeting::meetings;
+use crate::soup::surface::{NONE, Surface};
 use crate::words::place;
 use geom::cells::Cells;
 use geom::contacts::{Contact, Search};

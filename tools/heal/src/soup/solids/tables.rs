@@ -1,8 +1,8 @@
 //! Tables of regions and markers.
 
-use super::solids::Labels;
-use super::surface::{NONE, Surface};
+use super::label::Labels;
 use crate::document::Labelled;
+use crate::soup::surface::{NONE, Surface};
 use tmesh::{OUTSIDE, Region, Template, Triangle};
 
 /// Regions and markers from labels.
