@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use mesher::{Faces, Piece};
-use remesh::{Rules, Surface, Told, remesh};
+use remesh::{Remeshed, Rules, Surface, Told, remesh};
 use rustc_hash::FxHashMap;
-use tmesh::{Document, FixedSet, Template, Triangle};
+use tmesh::{Document, FixedSet, Gluing, Template, Triangle};
 
 /// Edges in a whole turn of a curved surface: as many as solvers' guides ask for at least, 30 degrees each, the angle
 /// from which on edges are features.
@@ -79,17 +79,34 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Opt
         turn: std::f64::consts::TAU / SEGMENTS,
     };
     let done = remesh(&surface, &rules)?;
-    let new = |v: u32| done.vertices[v as usize];
     let triangle = |(corners, label): (&[u32; 3], &u32)| Triangle {
         vertices: *corners,
         ..kinds[*label as usize]
     };
     let made = &done.surface;
-    let on = |bit: u32| {
-        let all = (0..).zip(&done.bound);
-        all.filter(move |(_, bound)| *bound & 1 << bit != 0)
-            .map(|(v, _)| v)
-    };
+    Some(Smoothed {
+        template: Template {
+            vertices: made.points.clone(),
+            triangles: made
+                .triangles
+                .iter()
+                .zip(&made.labels)
+                .map(triangle)
+                .collect(),
+            tets: Vec::new(),
+            gluings: glued(template, index, &done, &keys),
+            axis: bound_to(&done, AXIS).collect(),
+        },
+        vertices: done.vertices,
+        triangles: done.triangles,
+        told: done.told,
+    })
+}
+
+/// The gluings of a remeshed template; `keys` has the face of each label.
+fn glued(template: &Template, index: usize, done: &Remeshed, keys: &[u32]) -> Vec<Gluing> {
+    let new = |v: u32| done.vertices[v as usize];
+    let made = &done.surface;
     let mut gluings = template.gluings.clone();
     for (i, gluing) in gluings.iter_mut().enumerate() {
         if gluing.is_mirror(index) {
@@ -97,7 +114,7 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Opt
             let of_wall = (0..)
                 .zip(&made.labels)
                 .filter(|(_, l)| keys[**l as usize] == key);
-            gluing.vertex_pairs = on(i as u32).map(|v: u32| [v, v]).collect();
+            gluing.vertex_pairs = bound_to(done, i as u32).map(|v: u32| [v, v]).collect();
             gluing.triangle_pairs = of_wall.map(|(t, _): (u32, _)| [t, t]).collect();
             continue;
         }
@@ -111,23 +128,14 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Opt
         }
         gluing.sort();
     }
-    Some(Smoothed {
-        template: Template {
-            vertices: made.points.clone(),
-            triangles: made
-                .triangles
-                .iter()
-                .zip(&made.labels)
-                .map(triangle)
-                .collect(),
-            tets: Vec::new(),
-            gluings,
-            axis: on(AXIS).collect(),
-        },
-        vertices: done.vertices,
-        triangles: done.triangles,
-        told: done.told,
-    })
+    gluings
+}
+
+/// Vertices on the plane or line of a bit.
+fn bound_to(done: &Remeshed, bit: u32) -> impl Iterator<Item = u32> + '_ {
+    let all = (0..).zip(&done.bound);
+    all.filter(move |(_, bound)| *bound & 1 << bit != 0)
+        .map(|(v, _)| v)
 }
 
 /// Mirror walls of each vertex, and the axis. `None` where there are more walls than bits.

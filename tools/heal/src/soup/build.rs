@@ -99,6 +99,7 @@ pub fn label_mended(
             (surface, labels)
         }
         (told, Repairing::Auto(contacts)) => match imprinted(apart, &tolerance, contacts) {
+            Ok(imprinted) if imprinted.is_slight && told.is_ok() => (surface, told?),
             Ok(imprinted) => {
                 joined = Some(imprinted.joined);
                 (imprinted.surface, imprinted.labels)

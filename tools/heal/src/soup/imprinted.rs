@@ -23,6 +23,9 @@ pub struct Imprinted {
     pub labels: Labels,
     /// What was done.
     pub joined: Joined,
+    /// Whether all that was done is to take out what a single solid has twice, and that is less of it than single
+    /// precision tells: noise makes thin layers cross, and what is taken out leaves slivers.
+    pub is_slight: bool,
 }
 
 /// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
@@ -92,7 +95,12 @@ fn attempt(
         tolerance,
     );
     let notices = notices(surface, &settled, &joined, tolerance);
+    let doubled: f64 = settled.doubled.iter().map(|d| d.1).sum();
+    let volume: f64 = joined.volumes.iter().map(|v| v.before).sum();
+    let is_slight =
+        surface.solids.len() == 1 && doubled > 0.0 && doubled <= f64::from(f32::EPSILON) * volume;
     Ok(Imprinted {
+        is_slight,
         labels: labels(&settled, notices),
         surface: sided(surface, complex, &settled),
         joined,

@@ -1,7 +1,6 @@
 //! A change of a few triangles.
 
-use super::fit::Fitted;
-use super::{Mesh, NONE};
+use glam::DVec3;
 
 /// Triangles and feature edges that are replaced by others.
 #[derive(Clone, Debug, Default)]
@@ -18,49 +17,19 @@ pub struct Change {
     pub moved: Option<u32>,
 }
 
-impl Change {
-    /// Replaces a vertex by another one in triangles.
-    pub fn replacing(mesh: &Mesh<'_>, gone: &[u32], from: u32, to: u32) -> Self {
-        let with = |t: &u32| {
-            let corners = mesh.triangles[*t as usize];
-            let new = corners.map(|v| if v == from { to } else { v });
-            let keep = !corners.contains(&to) || from == to;
-            keep.then_some((new, mesh.patch[*t as usize]))
-        };
-        Self {
-            new: gone.iter().filter_map(with).collect(),
-            gone: gone.to_vec(),
-            ..Self::default()
-        }
-    }
+/// A point of the input.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Where it is.
+    pub point: DVec3,
+    /// How far the surface may be.
+    pub reach: f64,
 }
 
-impl Mesh<'_> {
-    /// Makes a change that was found to fit.
-    pub fn apply(&mut self, change: &Change, fitted: Fitted) {
-        for &t in &change.gone {
-            for v in self.triangles[t as usize] {
-                self.around[v as usize].retain(|&u| u != t);
-            }
-            self.triangles[t as usize] = [NONE; 3];
-            self.samples[t as usize].clear();
-        }
-        for (&(corners, patch), samples) in change.new.iter().zip(fitted.samples) {
-            let t = self.triangles.len() as u32;
-            self.triangles.push(corners);
-            self.patch.push(patch);
-            self.samples.push(samples);
-            corners
-                .iter()
-                .for_each(|&v| self.around[v as usize].push(t));
-        }
-        for ends in &change.chords_gone {
-            self.features.remove(ends);
-            self.on_chords.remove(ends);
-        }
-        for (&(ends, curve), samples) in change.chords.iter().zip(fitted.on_chords) {
-            self.features.insert(ends, curve);
-            self.on_chords.insert(ends, samples);
-        }
-    }
+/// Where the input's points went.
+pub struct Fitted {
+    /// Samples of each new triangle.
+    pub samples: Vec<Vec<Sample>>,
+    /// Samples of each new feature edge.
+    pub on_chords: Vec<Vec<Sample>>,
 }

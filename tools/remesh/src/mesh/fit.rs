@@ -1,27 +1,10 @@
 //! Whether a change stays in the envelope, and keeps what must be kept.
 
-use super::{Change, Mesh};
+use super::Mesh;
+use super::change::{Change, Fitted};
 use crate::shape::Near;
 use geom::measure::double_area_vector;
 use geom::tree::closest_point;
-use glam::DVec3;
-
-/// A point of the input.
-#[derive(Clone, Copy, Debug)]
-pub struct Sample {
-    /// Where it is.
-    pub point: DVec3,
-    /// How far the surface may be.
-    pub reach: f64,
-}
-
-/// Where the input's points went.
-pub struct Fitted {
-    /// Samples of each new triangle.
-    pub samples: Vec<Vec<Sample>>,
-    /// Samples of each new feature edge.
-    pub on_chords: Vec<Vec<Sample>>,
-}
 
 /// Least cosine of the angle between a triangle and the shape that it stands for: 45 degrees, half of what would fold it
 /// over its neighbours if they are off as much.

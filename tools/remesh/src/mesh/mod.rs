@@ -1,5 +1,6 @@
 //! A surface that is changed place by place, inside an envelope.
 
+mod apply;
 mod change;
 mod fit;
 mod triangle;
@@ -9,7 +10,7 @@ pub use triangle::quality;
 
 use crate::input::{Rules, Surface};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
-use fit::Sample;
+use change::Sample;
 use geom::flat::Plane;
 use geom::sets::DisjointSets;
 use glam::DVec3;
