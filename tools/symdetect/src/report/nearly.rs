@@ -24,12 +24,16 @@ impl Query<'_> {
     /// about one of the principal directions; if what is in the way is the lesser part of what tells one turn from
     /// another, and no more than the share of outliers in any search.
     ///
+    /// A body of a higher order that is drawn exactly is taken for what it was meant to be.
+    ///
     /// A place is in the way if most powers of the rotation take it off the surface: of a wheel without one of its
     /// teeth, only the gap is.
     pub fn nearly(&self, directions: &[DVec3], found: Option<&Found>) -> Option<Nearly> {
         let known = found.filter(|f| f.group.order > 2);
         let multiples = known.map_or(1, |f| f.group.order);
-        if found.is_some_and(|f| f.axisymmetric) || self.params.order.is_some() {
+        let is_exact = known.is_some_and(|f| f.verified.deviation.value <= self.noise(f.radius));
+        let is_round = found.is_some_and(|f| f.axisymmetric);
+        if is_exact || is_round || self.params.order.is_some() {
             return None;
         }
         let frames: Vec<Frame> = match known {
