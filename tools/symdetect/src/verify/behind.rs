@@ -98,8 +98,7 @@ impl Shape {
             facets,
             gap: (a.min(b) - high).max(low - a.max(b)).max(0.0),
             shapes: facets + side * here.shape - there.shape,
-            // Either is a drawing of the surface that is known less well.
-            slack: here.slack.max(there.slack) * (here.away + there.away),
+            slack: here.unknown_beside(&there),
         })
     }
 }

@@ -15,7 +15,7 @@ pub struct Heights {
     pub side: [f32; 3],
     /// Height there of the other diagonal of the quadrilateral that the triangle makes with the one beyond.
     pub flipped: [f32; 3],
-    /// How well heights are known where the corners are far away.
+    /// What two estimates of the heights differ by where the corners are far away.
     pub slack: f32,
     /// The chord that each side is part of where it is a sharp edge.
     pub border: [Border; 3],
@@ -74,7 +74,7 @@ impl Heights {
     pub fn most(&self) -> f64 {
         let largest = |x: [f32; 3]| x.iter().fold(0.0_f32, |m, h| m.max(h.abs()));
         let above = largest(self.corner) + largest(self.side);
-        let above = above.max(largest(self.flipped)) + self.slack;
+        let above = above.max(largest(self.flipped)) + 2.0 * self.slack;
         let at_borders = self
             .border
             .iter()

@@ -6,8 +6,7 @@ use crate::shape::table::Table;
 use glam::{DMat3, DVec3};
 use std::f64::consts::SQRT_2;
 
-/// How far heights above each flat may be wrong, by what is known of the facets next to it: twice what two estimates of
-/// them differ by, since the shape may be as far beyond either of them as it is to the other.
+/// What heights above each flat differ by from those that the facets next to it tell.
 pub fn slack(
     facets: &Facets<'_>,
     around: &Table,
@@ -30,7 +29,7 @@ pub fn slack(
         }
     }
     for (heights, &flat) in heights.iter_mut().zip(&facets.flats.of) {
-        heights.slack = (2.0 * slack[flat as usize]) as f32;
+        heights.slack = slack[flat as usize] as f32;
     }
 }
 

@@ -22,10 +22,20 @@ pub struct Height {
     pub shape: f64,
     /// The least and the largest height that the facets allow for.
     pub range: [f64; 2],
-    /// How well that is known where the corners of the facet are far away.
+    /// What two estimates of it differ by where the corners of the facet are far away.
     pub slack: f64,
     /// How far away they are: the part of the slack that counts.
     pub away: f64,
+}
+
+impl Height {
+    /// How far two drawings of the same place may differ by what is not known of them. The shape may be as far beyond
+    /// either estimate as that is from the other, which is twice what they differ by; and a place that one drawing
+    /// tells well may be between corners of it all the same, where the other one tells that the shape bends.
+    pub fn unknown_beside(&self, other: &Self) -> f64 {
+        let own = 2.0 * (self.slack * self.away + other.slack * other.away);
+        own.max(self.slack.max(other.slack) * (self.away + other.away))
+    }
 }
 
 impl SmoothSurface {
