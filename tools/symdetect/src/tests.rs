@@ -292,6 +292,17 @@ fn an_oval_of_a_small_bore_is_not_taken_for_facets() {
     }
 }
 
+/// Facets were taken to hide as much at their corners, which are on the shape, as in their middles.
+#[test]
+fn a_shallow_groove_is_seen_at_the_corners_of_its_facets() {
+    for (n, facets) in [(3, 16), (5, 40), (6, 23)] {
+        let body = |flaw| wheel(n, 12, 0.5, facets, 0.3, flaw);
+        assert_eq!(find(&body(Flaw::None)).order, n as u32);
+        let found = find_with(&body(Flaw::Keyway(2e-3)), &Params::default());
+        assert!(found.is_err() || found.is_ok_and(|s| s.order < n as u32));
+    }
+}
+
 #[test]
 #[ignore = "a table over many bodies; run it with --release"]
 fn facets_and_flaws() {

@@ -151,7 +151,8 @@ impl Command for Cli {
         self.wishes.apply(&mut document)?;
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));
-        for remark in names::lost(&document).iter().chain(&report.warning) {
+        let remarks = [names::lost(&document), report.warning, report.moved];
+        for remark in remarks.iter().flatten() {
             session.note(remark);
         }
         let short = self.strict.judge(session, &document)?;

@@ -30,7 +30,7 @@ pub use error::CutError;
 pub use params::{Domain, Hub, Params};
 
 use body::Body;
-use tmesh::Document;
+use tmesh::{Document, Symmetry};
 
 /// What the cut did, besides its result.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,6 +39,9 @@ pub struct Report {
     pub notes: Vec<String>,
     /// What the user should know at once: that the cut is at a bad place, and where a better one is.
     pub warning: Option<String>,
+    /// What the user should know of a seam whose sides differ by more than the tolerance of the symmetry, so that one
+    /// was replaced by the image of the other: how far points were moved, and what the deviation from symmetry explains.
+    pub moved: Option<String>,
 }
 
 /// Cuts the wedge out of a body.
@@ -52,6 +55,7 @@ pub struct Report {
 /// not match.
 pub fn cut(mut document: Document, params: &Params) -> Result<(Document, Report), CutError> {
     let found = candidates::search(&Body::new(&document, params)?)?;
+    let moved = (document.symmetry.as_ref()).and_then(|s| replaced(s, found.cut.moved));
     let mut notes = found.cut.notes;
     notes.extend(found.notes);
     document.frame = found.cut.place.frame;
@@ -61,6 +65,19 @@ pub fn cut(mut document: Document, params: &Params) -> Result<(Document, Report)
     let report = Report {
         notes,
         warning: found.warning,
+        moved,
     };
     Ok((document, report))
+}
+
+/// What is said of seams where points were moved by more than the tolerance of the symmetry.
+fn replaced(symmetry: &Symmetry, moved: f64) -> Option<String> {
+    let relative = moved / symmetry.radius;
+    (relative > symmetry.tolerance).then(|| {
+        format!(
+            "seam made the image of its other side: points moved by {moved:.1e} at most, {relative:.1e} of the radius; \
+             the body deviates from the symmetry by up to {:.1e}",
+            symmetry.residual
+        )
+    })
 }

@@ -12,7 +12,7 @@ use tmesh::{Axis, Frame, Isometry};
 /// Powers of a rotation that a place is tried under: each other place of an orbit of this many more is tried.
 const POWERS: u32 = 2 * TELLING_TURNS as u32;
 
-/// Samples, those first that a set of turns takes off the surface.
+/// Samples that most of some turns take off the surface.
 struct Lost<'a> {
     samples: Vec<&'a Sample>,
     /// How many were looked at.
@@ -57,7 +57,8 @@ impl Query<'_> {
         // Of a body that has an order, it is no news that its other parts are round.
         let any = (multiples == 1).then_some(None);
         let orders = orders.into_iter().map(Some).chain(any);
-        let rough = orders.filter_map(|order| self.in_the_way(start, order, bound, QUICK));
+        let telling = self.telling(start, bound, QUICK);
+        let rough = orders.filter_map(|order| self.in_the_way(start, order, bound, &telling));
         let order = Nearly::best(rough.collect())?.order;
         let operations = match order {
             Some(order) => powers(order, &Target::Any),
@@ -65,21 +66,29 @@ impl Query<'_> {
         };
         let frame = self.adjusted(*start, self.shape.radius(start), &operations, FIT / 2);
         let bound = self.limits.bound(self.shape.radius(&frame));
-        (self.in_the_way(&frame, order, bound, FIT)).filter(|n| n.share > 0.0)
+        let telling = self.telling(&frame, bound, FIT);
+        (self.in_the_way(&frame, order, bound, &telling)).filter(|n| n.share > 0.0)
     }
 
-    /// The first of the samples that most of some turns take off the surface.
-    fn lost(&self, turns: &[Operation], bound: Bound, count: usize) -> Lost<'_> {
+    /// Those of the first samples that tell one turn about a frame's axis from another.
+    fn telling(&self, frame: &Frame, bound: Bound, count: usize) -> Lost<'_> {
+        let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
         let samples = &self.shape.samples.mixed;
         let samples = &samples[..count.min(samples.len())];
-        let is_lost = |sample: &&Sample| {
-            let lost = |turn: &&Operation| !self.shape.lands(turn, sample, bound);
-            2 * turns.iter().filter(lost).count() > turns.len()
-        };
+        let is_lost = |sample: &&Sample| self.is_lost(sample, &turns, bound);
         Lost {
             samples: samples.iter().filter(is_lost).collect(),
             of: samples.len(),
         }
+    }
+
+    /// Whether most of some turns take a sample off the surface.
+    fn is_lost(&self, sample: &Sample, turns: &[Operation], bound: Bound) -> bool {
+        let half = turns.len() / 2;
+        let lost = turns
+            .iter()
+            .filter(|turn| !self.shape.lands(turn, sample, bound));
+        lost.take(half + 1).count() > half
     }
 
     /// What is in the way of an order, or of any rotation.
@@ -88,37 +97,31 @@ impl Query<'_> {
         frame: &Frame,
         order: Option<u32>,
         bound: Bound,
-        count: usize,
+        telling: &Lost<'_>,
     ) -> Option<Nearly> {
         let shape = self.shape;
-        let telling = self.lost(
-            &golden_rotations(frame, TELLING_TURNS, Target::Any),
-            bound,
-            count,
-        );
+        let few = (OUTLIERS * telling.of as f64) as usize;
         let most = match order {
-            Some(_) => telling.samples.len() / 2,
-            None => telling.samples.len(),
+            Some(_) => few.min(telling.samples.len() / 2),
+            None => few,
         };
         let turns = match order {
             Some(order) => some_turns(frame, order),
             None => golden_rotations(frame, POWERS as usize, Target::Any),
         };
-        let mut lost = telling;
-        lost.samples.retain(|sample| {
-            let is_off = |turn: &&Operation| !shape.lands(turn, sample, bound);
-            2 * turns.iter().filter(is_off).count() > turns.len()
-        });
-        let share = lost.samples.len() as f64 / lost.of as f64;
-        if lost.samples.len() > most || share > OUTLIERS {
+        let lost = telling.samples.iter().copied();
+        let lost = lost.filter(|sample| self.is_lost(sample, &turns, bound));
+        let lost: Vec<&Sample> = lost.take(most + 1).collect();
+        if lost.len() > most {
             return None;
         }
+        let share = lost.len() as f64 / telling.of as f64;
         let distance = |sample: &Sample, turn: &Operation| {
             let image = turn.motion.apply(sample.point);
             let hit = shape.nearest(image, sample.triangle, &Target::Any, f64::INFINITY);
             hit.map_or(0.0, |hit| hit.distance)
         };
-        let farthest = (lost.samples.iter())
+        let farthest = (lost.iter())
             .flat_map(|s| turns.iter().map(|turn| distance(s, turn)))
             .fold(0.0, f64::max);
         Some(Nearly {
@@ -128,7 +131,7 @@ impl Query<'_> {
                 direction: frame.rotation.z_axis.to_array(),
             },
             share,
-            place: shape.to_world(middle(&lost.samples)).to_array(),
+            place: shape.to_world(middle(&lost)).to_array(),
             residual: farthest / shape.radius(frame),
         })
     }

@@ -1,9 +1,10 @@
 //! Whether deviations are explained by facets: comparison of the shapes behind them.
 
-use crate::shape::{Motion, Sample, Shape};
+use crate::shape::{Border, Motion, Sample, Shape};
 use crate::verify::deviation::Bound;
 use crate::verify::operation::Operation;
 use geom::tree::Nearest;
+use glam::DVec3;
 
 /// Cosine of the angle to a facet's normal at which a point is above it rather than beyond its edge: that of about half
 /// the largest turn between facets of one smooth surface, `2 c^2 - 1 = 0.87`, and as much again.
@@ -55,10 +56,27 @@ impl Shape {
         if alike.is_some_and(|hit| explained(&hit)) {
             return true;
         }
+        hit.distance <= limit + self.edges_explain((sample.triangle, sample.point), hit)
+    }
+
+    /// How far apart two drawings of a sharp edge may be that passes near a place and near a point of the surface: either
+    /// is a polyline on a curve that bends as the narrower of the two drawings does.
+    fn edges_explain(&self, place: (u32, DVec3), hit: &Nearest) -> f64 {
         let surface = (&self.vertices[..], &self.triangles[..]);
-        let at_edges = |place| self.smooth().at_edges(surface, place, hit.distance);
-        let here = at_edges((sample.triangle, sample.point));
-        hit.distance <= limit + here + at_edges((hit.triangle, hit.point))
+        let near = |place| self.smooth().edges_near(surface, place, hit.distance);
+        let [here, there] = [near(place), near((hit.triangle, hit.point))];
+        let curvatures = here
+            .iter()
+            .chain(&there)
+            .map(|(b, _)| f64::from(b.curvature));
+        let curvature = curvatures.fold(0.0, f64::max);
+        let most = |edges: &[(Border, f64)]| {
+            let off = edges
+                .iter()
+                .map(|(border, part)| border.off(*part, curvature));
+            off.fold(0.0, f64::max)
+        };
+        most(&here) + most(&there)
     }
 
     /// How far apart facets, and the shapes behind them, are where the image of a sample is near a point of the
@@ -80,7 +98,7 @@ impl Shape {
             facets,
             gap: (a.min(b) - high).max(low - a.max(b)).max(0.0),
             shapes: facets + side * here.shape - there.shape,
-            slack: here.slack + there.slack,
+            slack: here.unknown_beside(&there),
         })
     }
 }

@@ -29,6 +29,8 @@ pub struct Cut {
     pub copies: Copies,
     /// How many of them are wedges.
     pub wedges: usize,
+    /// Largest distance that a point of a seam was moved to make one side the image of the other, model units.
+    pub moved: f64,
     /// What was done, in sentences.
     pub notes: Vec<String>,
 }
@@ -67,7 +69,7 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         regions: &regions,
     };
     cutter.slide(&mut surface, &mut notes);
-    let templates = cutter.cut(surface, &mut notes)?;
+    let (templates, moved) = cutter.cut(surface, &mut notes)?;
     if let Some(radius) = hub {
         notes.push(format!(
             "hub of inscribed radius {radius} and order {} ({} copies), a template of its own",
@@ -88,6 +90,7 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         templates,
         copies,
         wedges,
+        moved,
         notes,
     })
 }
@@ -166,7 +169,12 @@ impl Cutter<'_> {
         }
     }
 
-    fn cut(&self, body: Template, notes: &mut Vec<String>) -> Result<Vec<Template>, CutError> {
+    /// The templates, and the largest distance that a point of a seam was moved.
+    fn cut(
+        &self,
+        body: Template,
+        notes: &mut Vec<String>,
+    ) -> Result<(Vec<Template>, f64), CutError> {
         let (cell, tolerance) = (self.cell, self.tolerance);
         let is_whole = cell.faces.is_empty();
         let faced = (!is_whole).then_some(cell);
@@ -174,11 +182,16 @@ impl Cutter<'_> {
         clip(&mut surface, cell);
         self.clean(&mut surface, notes);
         if is_whole {
-            return Ok(vec![whole(&surface, self.frame)?]);
+            return Ok((vec![whole(&surface, self.frame)?], 0.0));
         }
         divide_at_hub(&mut surface, cell);
         surface.add_corners(cell);
         let matched = self.match_sections(&mut surface, notes)?;
+        let moved = matched
+            .iter()
+            .flatten()
+            .map(|m| m.moved)
+            .fold(0.0, f64::max);
         let faces = std::mem::take(&mut surface.faces);
         let hub = cell.hub();
         let (outer, inner): (Vec<Triangle>, Vec<Triangle>) = faces.into_iter().partition(|f| {
@@ -200,7 +213,7 @@ impl Cutter<'_> {
         };
         let wedge = assemble(&surface, cell, parts, self.frame)?;
         if hub.is_none() {
-            return Ok(vec![wedge.template]);
+            return Ok((vec![wedge.template], moved));
         }
         let caps = self.caps(&inner, true)?;
         let inner = Inner {
@@ -214,7 +227,7 @@ impl Cutter<'_> {
             regions: self.regions,
         };
         let united = unite(&inner, &wedge, self.frame)?;
-        Ok(vec![wedge.template, united])
+        Ok((vec![wedge.template, united], moved))
     }
 
     /// Collapses detail.

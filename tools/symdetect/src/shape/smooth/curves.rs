@@ -1,15 +1,15 @@
 //! Curves that sharp edges are chords of.
 
 use crate::shape::smooth::facets::{Facets, SMOOTH, is_straight};
-use crate::shape::smooth::heights::Heights;
+use crate::shape::smooth::heights::{Border, Heights};
 use crate::shape::table::Table;
 use geom::edges::EdgeUse;
 use glam::DVec3;
 
 /// A sharp edge, as it was drawn: edges that only divide it are one.
 struct Chord {
-    /// Its edges in order, and where each of them starts and ends along it.
-    edges: Vec<(u32, [f64; 2])>,
+    /// Its edges in order, where each of them starts and ends along it, and whether it runs that way itself.
+    edges: Vec<(u32, [f64; 2], bool)>,
     /// The vertices that it ends at.
     ends: [u32; 2],
     length: f64,
@@ -48,9 +48,7 @@ pub fn follow(facets: &Facets<'_>, heights: &mut [Heights]) {
         } else {
             l
         };
-        if curvature != DVec3::ZERO {
-            edges.bend(chord, curvature, heights);
-        }
+        edges.bend(chord, curvature, heights);
     }
 }
 
@@ -80,11 +78,12 @@ impl SharpEdges<'_> {
             let mut next = Some(edge);
             while let Some(edge) = next.filter(|e| !seen[*e as usize]) {
                 seen[edge as usize] = true;
+                let forward = self.facets.edges.ends[edge as usize][0] == chord.ends[1];
                 let end = self.other_end(edge, chord.ends[1]);
                 let [p, q] = [chord.ends[1], end].map(|v| self.facets.vertices[v as usize]);
                 let start = chord.length;
                 chord.length += (q - p).length();
-                chord.edges.push((edge, [start, chord.length]));
+                chord.edges.push((edge, [start, chord.length], forward));
                 chord.ends[1] = end;
                 next = self.straight_on(edge, end);
             }
@@ -132,24 +131,32 @@ impl SharpEdges<'_> {
     /// Lets facets along a chord follow a curve of this curvature.
     fn bend(&self, chord: &Chord, curvature: DVec3, heights: &mut [Heights]) {
         let facets = self.facets;
-        for &(edge, [from, to]) in &chord.edges {
-            let middle = (0.5 * chord.length).clamp(from, to);
-            let border = 0.5 * middle * (chord.length - middle) * curvature.length();
+        for &(edge, [from, to], forward) in &chord.edges {
             for u in facets.edges.around(edge as usize) {
                 let height = -0.125 * (to - from).powi(2) * curvature.dot(facets.normal(u));
-                follow_side(&mut heights[u.triangle as usize], u, [height, border]);
+                let heights = &mut heights[u.triangle as usize];
+                follow_side(heights, u, height);
+                let along = if u.forward == forward {
+                    [from, to]
+                } else {
+                    [to, from]
+                };
+                heights.border[u.corner as usize] = Border {
+                    along: along.map(|at| at as f32),
+                    length: chord.length as f32,
+                    curvature: curvature.length() as f32,
+                };
             }
         }
     }
 }
 
 /// Raises a triangle to the height of a curve above one of its sides, which is as uncertain as it is higher.
-fn follow_side(heights: &mut Heights, u: &EdgeUse, [height, border]: [f64; 2]) {
+fn follow_side(heights: &mut Heights, u: &EdgeUse, height: f64) {
     let side = &mut heights.side[u.corner as usize];
     let old = f64::from(*side);
     if height.abs() > old.abs() {
         *side = height as f32;
         heights.slack = heights.slack.max((height - old).abs() as f32);
     }
-    heights.border[u.corner as usize] = border as f32;
 }

@@ -15,10 +15,34 @@ pub struct Heights {
     pub side: [f32; 3],
     /// Height there of the other diagonal of the quadrilateral that the triangle makes with the one beyond.
     pub flipped: [f32; 3],
-    /// How well heights are known.
+    /// What two estimates of the heights differ by where the corners are far away.
     pub slack: f32,
-    /// How far the curve that each side is a chord of may be from it.
-    pub border: [f32; 3],
+    /// The chord that each side is part of where it is a sharp edge.
+    pub border: [Border; 3],
+}
+
+/// A part of a chord of a curve.
+#[derive(Clone, Copy, Default)]
+pub struct Border {
+    /// Where it starts and ends along the chord.
+    pub along: [f32; 2],
+    /// Length of the chord; zero where there is none.
+    pub length: f32,
+    /// Curvature of the curve.
+    pub curvature: f32,
+}
+
+impl Border {
+    /// How far a curve of some curvature may be from the chord at a part of this piece of it. A circle rises above it
+    /// by `k s (L - s) / 2`; any curve that bends one way stays below the extensions of the chords next to it, which
+    /// rise twice as steeply from the corners, where all of them are on the curve.
+    pub fn off(&self, part: f64, curvature: f64) -> f64 {
+        let [from, to] = self.along.map(f64::from);
+        let length = f64::from(self.length);
+        let at = from + part * (to - from);
+        let most = 0.125 * length * length;
+        curvature * (at * (length - at)).clamp(0.0, most)
+    }
 }
 
 impl Heights {
@@ -38,12 +62,24 @@ impl Heights {
         range
     }
 
+    /// The part of the slack that counts at barycentric coordinates. Corners of a facet are on the shape, and from there
+    /// it rises no more steeply than the facets next to it, twice as steeply as a circle does.
+    pub fn away(&self, b: [f64; 3]) -> f64 {
+        let divides = (0..3).filter(|c| self.corner[*c] != 0.0);
+        let away = 2.0 * bubble([1.0; 3], b) + divides.map(|c| b[c]).sum::<f64>();
+        away.min(1.0)
+    }
+
     /// The most that the triangle hides.
     pub fn most(&self) -> f64 {
         let largest = |x: [f32; 3]| x.iter().fold(0.0_f32, |m, h| m.max(h.abs()));
         let above = largest(self.corner) + largest(self.side);
-        let above = above.max(largest(self.flipped)) + self.slack;
-        above.max(largest(self.border)).into()
+        let above = above.max(largest(self.flipped)) + 2.0 * self.slack;
+        let at_borders = self
+            .border
+            .iter()
+            .map(|b| 0.125 * b.length * b.length * b.curvature);
+        at_borders.fold(above, f32::max).into()
     }
 }
 
@@ -81,6 +117,8 @@ pub fn patches(facets: &Facets<'_>, curvature: &[DMat3]) -> Vec<Heights> {
         }
     }
     let heights = |(t, &flat): (usize, &u32)| {
+        let turning = corners.of(flat);
+        let is_turning = facets.triangles[t].map(|v| turning.binary_search(&v).is_ok());
         let (corners, h) = (facets.corners(t), curvature[flat as usize]);
         let side = |c: usize| {
             let e = corners[(c + 1) % 3] - corners[c];
@@ -89,7 +127,10 @@ pub fn patches(facets: &Facets<'_>, curvature: &[DMat3]) -> Vec<Heights> {
         let patch = planes[flat as usize].as_ref();
         Heights {
             side: [0, 1, 2].map(side),
-            corner: corners.map(|p| patch.map_or(0.0, |q: &Patch| q.height(p) as f32)),
+            corner: [0, 1, 2].map(|c| match (is_turning[c], patch) {
+                (false, Some(patch)) => patch.height(corners[c]) as f32,
+                _ => 0.0,
+            }),
             slack: patch.map_or(0.0, |q| q.off as f32),
             ..Heights::default()
         }

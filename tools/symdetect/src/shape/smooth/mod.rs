@@ -8,7 +8,7 @@
 //! Flat faces, sharp edges between them and straight edges so hide nothing; arcs hide their sagitta. A place may be
 //! anywhere between the facet and the patch, since facets of flat and of curved faces look alike where they meet, and
 //! between the two ways of dividing a quadrilateral into triangles. How well the patch is known is told by the patches
-//! next to it.
+//! next to it; near the corners of a facet, which are on the shape, it is known the better the nearer they are.
 
 mod curvature;
 mod curves;
@@ -18,4 +18,5 @@ mod slack;
 mod surface;
 
 pub use facets::SMOOTH;
+pub use heights::Border;
 pub use surface::SmoothSurface;

@@ -6,7 +6,7 @@ use crate::shape::table::Table;
 use glam::{DMat3, DVec3};
 use std::f64::consts::SQRT_2;
 
-/// How far heights above each flat may be wrong, by what is known of the facets next to it.
+/// What heights above each flat differ by from those that the facets next to it tell.
 pub fn slack(
     facets: &Facets<'_>,
     around: &Table,
@@ -47,9 +47,11 @@ fn from_normals(facets: &Facets<'_>, around: &Table, t: usize, heights: &Heights
     let off = |c: usize| {
         let d = (c + 1) % 3;
         let [p, q] = [c, d].map(|i| facets.vertices[corners[i] as usize]);
-        // A cubic with these slopes at its ends.
+        // A cubic with these slopes at its ends, and what it is beside a parabola: where it bends both ways, it is above
+        // the side on one half of it and below on the other.
         let height = 0.125 * (q - p).dot(normals[d] - normals[c]);
-        (height - f64::from(heights.side[c])).abs()
+        let bends_both_ways = 0.125 * (q - p).dot(normals[c] + normals[d]).abs();
+        (height - f64::from(heights.side[c])).abs() + bends_both_ways
     };
     [0, 1, 2].map(off).into_iter().fold(0.0, f64::max)
 }

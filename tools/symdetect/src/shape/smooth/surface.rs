@@ -3,10 +3,9 @@
 use crate::shape::smooth::curvature::curvature;
 use crate::shape::smooth::curves::follow;
 use crate::shape::smooth::facets::Facets;
-use crate::shape::smooth::heights::{Heights, barycentric, flip, patches};
+use crate::shape::smooth::heights::{Border, Heights, barycentric, flip, patches};
 use crate::shape::smooth::slack::slack;
 use crate::shape::table::Table;
-use geom::measure::distance_to_segment;
 use glam::DVec3;
 
 /// The smooth shape behind the facets of a surface.
@@ -23,8 +22,20 @@ pub struct Height {
     pub shape: f64,
     /// The least and the largest height that the facets allow for.
     pub range: [f64; 2],
-    /// How well that is known.
+    /// What two estimates of it differ by where the corners of the facet are far away.
     pub slack: f64,
+    /// How far away they are: the part of the slack that counts.
+    pub away: f64,
+}
+
+impl Height {
+    /// How far two drawings of the same place may differ by what is not known of them. The shape may be as far beyond
+    /// either estimate as that is from the other, which is twice what they differ by; and a place that one drawing
+    /// tells well may be between corners of it all the same, where the other one tells that the shape bends.
+    pub fn unknown_beside(&self, other: &Self) -> f64 {
+        let own = 2.0 * (self.slack * self.away + other.slack * other.away);
+        own.max(self.slack.max(other.slack) * (self.away + other.away))
+    }
 }
 
 impl SmoothSurface {
@@ -60,29 +71,34 @@ impl SmoothSurface {
             shape: heights.shape(b),
             range: heights.range(b),
             slack: heights.slack.into(),
+            away: heights.away(b),
         }
     }
 
-    /// The most that sharp edges hide which pass within a distance of a point of a triangle of the surface given.
-    pub fn at_edges(
+    /// The sharp edges that pass within a distance of a point of a triangle of the surface given, or so near that the
+    /// point may be beyond the curves that they are chords of; each with the part of it where it does.
+    pub fn edges_near(
         &self,
         (vertices, triangles): (&[DVec3], &[[u32; 3]]),
         (triangle, point): (u32, DVec3),
         distance: f64,
-    ) -> f64 {
-        let mut most = 0.0_f32;
+    ) -> Vec<(Border, f64)> {
+        let mut near = Vec::new();
         let corners = &triangles[triangle as usize];
         for &t in corners.iter().flat_map(|v| self.around.of(*v)) {
-            let border = self.heights[t as usize].border;
+            let heights = &self.heights[t as usize];
             let corners = triangles[t as usize].map(|v| vertices[v as usize]);
-            for c in (0..3).filter(|c| border[*c] > 0.0) {
-                if border[c] > most
-                    && distance_to_segment(point, corners[c], corners[(c + 1) % 3]) <= distance
-                {
-                    most = border[c];
+            for c in (0..3).filter(|c| heights.border[*c].length > 0.0) {
+                let (start, along) = (corners[c], corners[(c + 1) % 3] - corners[c]);
+                let part = (point - start).dot(along) / along.length_squared();
+                let part = part.clamp(0.0, 1.0);
+                let border = heights.border[c];
+                let off = border.off(part, border.curvature.into());
+                if point.distance(start + part * along) <= distance.max(off) {
+                    near.push((border, part));
                 }
             }
         }
-        most.into()
+        near
     }
 }
