@@ -58,6 +58,16 @@ impl Sizes {
         self.turn_is_asked || self.length.is_some()
     }
 
+    /// These sizes without what was asked for.
+    #[must_use]
+    pub fn by_shape(self) -> Self {
+        Self {
+            turn_is_asked: false,
+            length: None,
+            ..self
+        }
+    }
+
     /// Longest edge.
     pub fn longest(&self) -> f64 {
         self.length.unwrap_or(f64::INFINITY)
