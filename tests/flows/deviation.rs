@@ -193,6 +193,49 @@ fn a_deviation_may_be_asked_for() {
     run("tetwedge", &["--deviation", "-1"], &[]).fails(2, &["--deviation"]);
 }
 
+/// The edge length asked for is met where the file has longer edges and where it has shorter ones, and the elements are asked
+/// for once: `wedgecut` is told, and the others inherit it.
+#[test]
+fn edges_of_curved_surfaces_get_the_length_asked_for() {
+    let found = run("symdetect", &["-q"], &vase()).success();
+    for length in [0.12, 0.06, 0.03] {
+        let asked = ["-q", "--deviation", "0.05", "--edge-length"];
+        let cut = run(
+            "wedgecut",
+            &[&asked[..], &[&length.to_string()]].concat(),
+            &found,
+        );
+        let made = run("periodic-surf", &["-q"], &cut.success()).success();
+        let side = |t: &[DVec3; 3]| t.iter().any(|p| p.z != t[0].z);
+        let triangles = outer(&read(&made).templates[0]);
+        let sides: Vec<&[DVec3; 3]> = triangles.iter().filter(|t| side(t)).collect();
+        let around = |[a, b, c]: &[DVec3; 3]| a.distance(*b) + b.distance(*c) + c.distance(*a);
+        let mean = sides.iter().map(|t| around(t) / 3.0).sum::<f64>() / sides.len() as f64;
+        assert!((mean / length - 1.0).abs() < 0.15, "{length}: {mean}");
+        let filled = run("tetwedge", &["-q"], &made).success();
+        assert!(first_percentile(&filled) > 15.0);
+    }
+}
+
+/// More edges in a turn and a slower growth of lengths give more triangles.
+#[test]
+fn edges_in_a_turn_and_their_growth_may_be_asked_for() {
+    let found = run("symdetect", &["-q"], &vase()).success();
+    let cut = run("wedgecut", &["-q", "--deviation", "0.05"], &found).success();
+    let count = |asked: &[&str]| {
+        let made = run("periodic-surf", &[&["-q"], asked].concat(), &cut).success();
+        let filled = run("tetwedge", &["-q"], &made).success();
+        assert!(first_percentile(&filled) > 15.0);
+        read(&made).templates[0].triangles.len()
+    };
+    let few = count(&["--segments-per-turn", "12"]);
+    assert!(count(&["--segments-per-turn", "80"]) > 2 * few);
+    assert!(count(&["--segments-per-turn", "12", "--gradation", "1"]) > few);
+    for wrong in [["--segments-per-turn", "2"], ["--gradation", "0.5"]] {
+        run("periodic-surf", &wrong, &[]).fails(2, &wrong[..1]);
+    }
+}
+
 #[test]
 fn bodies_that_are_exact_are_not_remeshed() {
     let prism = Prism {

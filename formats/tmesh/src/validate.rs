@@ -169,6 +169,8 @@ fn check_numbers(document: &Document, found: &mut Collector) {
         (wishes.radius_edge, "radius-edge ratio"),
         (wishes.optimize, "largest dihedral angle"),
         (wishes.feature_angle, "angle of features"),
+        (wishes.segments_per_turn, "number of edges in a turn"),
+        (wishes.gradation, "gradation"),
         (size, "size of elements"),
         (wishes.timeout, "time limit"),
     ] {

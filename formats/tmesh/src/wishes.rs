@@ -29,6 +29,12 @@ pub struct Wishes {
     /// Angle between the triangles at an edge, degrees, from which on the edge is a feature that stays.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feature_angle: Option<f64>,
+    /// Edges in a whole turn of a curved surface that is remeshed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub segments_per_turn: Option<f64>,
+    /// Largest ratio of the lengths of edges that follow each other where a surface is remeshed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gradation: Option<f64>,
     /// Time limit of the mesher for each template, seconds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
@@ -87,6 +93,14 @@ impl Wishes {
     /// smooth surface by up to half a radian unless told otherwise.
     pub const FEATURE_ANGLE: f64 = 30.0;
 
+    /// Edges in a whole turn of a curved surface that is remeshed, unless something else is asked for: as many as solvers'
+    /// guides ask for at least, 30 degrees each, the angle from which on edges are features.
+    pub const SEGMENTS_PER_TURN: f64 = 360.0 / Self::FEATURE_ANGLE;
+    /// Ratio of the lengths of edges that follow each other, unless something else is asked for: each of a row of edges is
+    /// half as long again as the one before. A choice: near 1 small features make everything beside them small, and from 2 on
+    /// triangles between such edges have corners below 30 degrees.
+    pub const GRADATION: f64 = 1.5;
+
     /// These wishes, and those of an earlier tool where these say nothing.
     #[must_use]
     pub fn over(self, earlier: &Self) -> Self {
@@ -98,6 +112,8 @@ impl Wishes {
             size: self.size.or(earlier.size),
             deviation: self.deviation.or(earlier.deviation),
             feature_angle: self.feature_angle.or(earlier.feature_angle),
+            segments_per_turn: self.segments_per_turn.or(earlier.segments_per_turn),
+            gradation: self.gradation.or(earlier.gradation),
             timeout: self.timeout.or(earlier.timeout),
             keep_surface: self.keep_surface.or(earlier.keep_surface),
         }
@@ -141,6 +157,19 @@ impl Wishes {
     /// Angle from which on an edge is a feature, degrees.
     pub fn feature_angle(&self) -> f64 {
         self.feature_angle.unwrap_or(Self::FEATURE_ANGLE)
+    }
+
+    /// Length of edges that is wanted, model units.
+    pub fn edge_length(&self) -> Option<f64> {
+        match self.size? {
+            Size::EdgeLength(length) => Some(length),
+            Size::MaxVolume(_) => None,
+        }
+    }
+
+    /// Largest ratio of the lengths of edges that follow each other where a surface is remeshed.
+    pub fn gradation(&self) -> f64 {
+        self.gradation.unwrap_or(Self::GRADATION)
     }
 
     /// Time limit of the mesher for each template; none if it is longer than can be told.

@@ -5,7 +5,9 @@ use crate::surface::same_body;
 use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use mesher::{Log, Params, Progress};
-use tmesh::{Deviation, Document};
+use remesh::Sizes;
+use std::f64::consts::TAU;
+use tmesh::{Deviation, Document, Wishes};
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
 /// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for.
@@ -20,6 +22,7 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
         deviation,
         flat: tolerance.flat(),
         feature_angle: document.wishes.feature_angle(),
+        sizes: sizes(&document.wishes),
     };
     for index in 0..document.templates.len() {
         log.progress(&Progress {
@@ -43,6 +46,17 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
         document.wishes.keep_surface = Some(true);
     }
     facts
+}
+
+/// How long the edges of surfaces are to be.
+fn sizes(wishes: &Wishes) -> Sizes {
+    let segments = wishes.segments_per_turn;
+    Sizes {
+        turn: TAU / segments.unwrap_or(Wishes::SEGMENTS_PER_TURN),
+        turn_is_asked: segments.is_some(),
+        length: wishes.edge_length(),
+        growth: wishes.gradation() - 1.0,
+    }
 }
 
 /// How far surfaces may move, model units.

@@ -35,8 +35,43 @@ pub struct Rules<'a> {
     pub flat: f64,
     /// Cosine of the angle between the normals at a feature edge, from which on it is one.
     pub feature: f64,
+    /// How long edges are to be.
+    pub sizes: Sizes,
+}
+
+/// How long edges are to be.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
     /// The angle by which edges turn along a curved surface, radians; less where the surface has to stay nearer.
     pub turn: f64,
+    /// Whether that angle was asked for: then edges get as short as that even where the input's are longer.
+    pub turn_is_asked: bool,
+    /// Longest edge, model units, if one was asked for.
+    pub length: Option<f64>,
+    /// By how much lengths of edges grow over a distance, relative to it.
+    pub growth: f64,
+}
+
+impl Sizes {
+    /// Whether lengths were asked for, so that all curved patches are to have them.
+    pub fn are_asked(&self) -> bool {
+        self.turn_is_asked || self.length.is_some()
+    }
+
+    /// These sizes without what was asked for.
+    #[must_use]
+    pub fn by_shape(self) -> Self {
+        Self {
+            turn_is_asked: false,
+            length: None,
+            ..self
+        }
+    }
+
+    /// Longest edge.
+    pub fn longest(&self) -> f64 {
+        self.length.unwrap_or(f64::INFINITY)
+    }
 }
 
 impl Rules<'_> {

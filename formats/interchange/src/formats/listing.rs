@@ -347,6 +347,8 @@ fn list_wishes(wishes: &Wishes, text: &mut String) {
         }),
     );
     add("features from", wishes.feature_angle.map(number));
+    add("edges in a turn", wishes.segments_per_turn.map(number));
+    add("gradation", wishes.gradation.map(number));
     add(
         "shared faces settled",
         wishes.keep_surface.map(|k| yes(k).to_owned()),

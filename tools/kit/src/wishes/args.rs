@@ -20,7 +20,8 @@ pub struct WishArgs {
     #[arg(conflicts_with = "edge_length")]
     max_volume: Option<f64>,
 
-    /// Largest tetrahedron volume, as that of the regular tetrahedron with this edge
+    /// Length of edges, model units: no tetrahedron is larger than the regular one with this edge, and where the surface of
+    /// a wedge between mirror planes is remeshed, its edges get this length, up or down, as far as the deviation allows
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = positive)]
     edge_length: Option<f64>,
 
@@ -41,6 +42,15 @@ pub struct WishArgs {
     /// Angle between triangles, degrees, from which on their edge is a feature that stays [default: inherited, or 30]
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = feature_angle)]
     feature_angle: Option<f64>,
+
+    /// Edges in a whole turn of a curved surface, where it is remeshed [default: inherited, or 12 at least, but no
+    /// finer than the input's]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = segments)]
+    segments_per_turn: Option<f64>,
+
+    /// Largest ratio of the lengths of edges that follow each other, where the surface is remeshed [default: inherited, or 1.5]
+    #[arg(long, value_name = "G", allow_negative_numbers = true, value_parser = gradation)]
+    gradation: Option<f64>,
 
     /// A plain constrained tetrahedralization: no quality bounds, no optimization; `=false` asks for quality where
     /// a tool before was told otherwise
@@ -82,6 +92,8 @@ impl WishArgs {
             size: volume.or(self.edge_length.map(Size::EdgeLength)),
             deviation: self.deviation,
             feature_angle: self.feature_angle,
+            segments_per_turn: self.segments_per_turn,
+            gradation: self.gradation,
             timeout: self.timeout,
             keep_surface: None,
         }
@@ -193,6 +205,24 @@ fn feature_angle(text: &str) -> Result<f64, String> {
     }
 }
 
+fn segments(text: &str) -> Result<f64, String> {
+    let x = number(text)?;
+    if x >= 3.0 {
+        Ok(x)
+    } else {
+        Err("must be at least 3".to_owned())
+    }
+}
+
+fn gradation(text: &str) -> Result<f64, String> {
+    let x = number(text)?;
+    if x >= 1.0 {
+        Ok(x)
+    } else {
+        Err("must be at least 1".to_owned())
+    }
+}
+
 fn region_size(text: &str) -> Result<RegionSize, String> {
     let Some((region, volume)) = text.rsplit_once(":max-volume=") else {
         return Err("expected NAME:max-volume=V".to_owned());
@@ -248,6 +278,15 @@ mod tests {
         assert_eq!(wishes.deviation(), Deviation::Within(0.0));
         assert_eq!(wishes.feature_angle(), 20.0);
         assert!(parse(&["--deviation", "0.2"]).is_err());
+        parse(&["--segments-per-turn", "20", "--gradation", "1.2"])
+            .unwrap()
+            .apply(&mut document)
+            .unwrap();
+        let wishes = &document.wishes;
+        assert_eq!(wishes.segments_per_turn, Some(20.0));
+        assert_eq!(wishes.gradation(), 1.2);
+        assert!(parse(&["--segments-per-turn", "2"]).is_err());
+        assert!(parse(&["--gradation", "0.9"]).is_err());
         let more = ["--max-volume", "1", "--no-quality=false"];
         parse(&more).unwrap().apply(&mut document).unwrap();
         assert!(document.wishes.quality());

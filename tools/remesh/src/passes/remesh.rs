@@ -115,11 +115,22 @@ fn once(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
     let none = vec![false; patches.planes.len()];
     told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL]);
-    let active = sharp(&mesh);
+    let is_sized = rules.sizes.are_asked();
+    let active = match is_sized {
+        true => mesh.planes.iter().map(Option::is_none).collect(),
+        false => sharp(&mesh),
+    };
     told.flipped += flip_all(&mut mesh, &active);
     for round in 0..ROUNDS {
         if round + 2 < ROUNDS {
-            told.split += split_all(&mut mesh, &active);
+            // Lengths that are asked for may be many halvings away.
+            loop {
+                let split = split_all(&mut mesh, &active);
+                told.split += split;
+                if split == 0 || !is_sized {
+                    break;
+                }
+            }
         }
         told.collapsed += collapse_all(&mut mesh, &active, [SHORT, DETAIL]);
         told.flipped += flip_all(&mut mesh, &active);

@@ -1,6 +1,6 @@
 //! Surfaces that are remeshed, without any document.
 
-use crate::{Remeshed, Rules, Surface, remesh};
+use crate::{Remeshed, Rules, Sizes, Surface, remesh};
 use geom::contacts::contacts;
 use geom::measure::volume_of_region;
 use geom::tree::Tree;
@@ -48,6 +48,14 @@ fn globe(around: u32, up: u32) -> Surface {
 }
 
 fn done(surface: &Surface, deviation: f64, held: &[bool]) -> Option<Remeshed> {
+    sized(surface, deviation, (held, None))
+}
+
+fn sized(
+    surface: &Surface,
+    deviation: f64,
+    (held, length): (&[bool], Option<f64>),
+) -> Option<Remeshed> {
     let bound = vec![0; surface.points.len()];
     remesh(
         surface,
@@ -58,7 +66,12 @@ fn done(surface: &Surface, deviation: f64, held: &[bool]) -> Option<Remeshed> {
             deviation,
             flat: 1e-10,
             feature: 0.75_f64.sqrt(),
-            turn: std::f64::consts::TAU / 12.0,
+            sizes: Sizes {
+                turn: std::f64::consts::TAU / 12.0,
+                turn_is_asked: false,
+                length,
+                growth: 0.5,
+            },
         },
     )
 }
@@ -154,6 +167,27 @@ fn needles_go_and_the_surface_stays_in_its_envelope() {
             }
         }
         assert!(border >= 8, "{border}");
+    }
+}
+
+/// Edges get the length that is asked for, where the input has longer ones and where it has shorter ones.
+#[test]
+fn edges_get_the_length_asked_for() {
+    let globe = globe(120, 60);
+    let held = vec![false; globe.points.len()];
+    for length in [0.3, 0.1, 0.03] {
+        let made = sized(&globe, 0.05, (&held, Some(length))).expect("other lengths");
+        let surface = &made.surface;
+        assert!(is_closed(surface));
+        let (mut sum, mut count) = (0.0, 0.0);
+        for t in 0..surface.triangles.len() as u32 {
+            let [a, b, c] = surface.corners(t);
+            sum += a.distance(b) + b.distance(c) + c.distance(a);
+            count += 3.0;
+        }
+        let mean = sum / count / length;
+        assert!((mean - 1.0).abs() < 0.15, "{length}: {mean}");
+        assert!(smallest_angle(surface) > 20.0);
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a step is worth.
 
-/// Longest edge relative to the length wanted (Botsch and Kobbelt): a longer one has halves that are nearer to it.
-pub const LONG: f64 = 4.0 / 3.0;
+pub use crate::shape::LONG;
+
 /// Shortest edge relative to the length wanted (Botsch and Kobbelt): two edges that meet at a vertex in between, of which
 /// one is shorter, are together nearer to it.
 pub const SHORT: f64 = 4.0 / 5.0;

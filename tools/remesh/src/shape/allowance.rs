@@ -20,10 +20,6 @@ pub struct Allowance {
     pub width: Vec<f64>,
 }
 
-/// By how much lengths of edges grow over a distance: such that each of a row of edges is half as long again as the one
-/// before.
-const GRADING: f64 = 0.5;
-
 /// How a surface bends around a vertex, times area.
 #[derive(Clone, Copy)]
 struct Bend {
@@ -101,8 +97,10 @@ impl Allowance {
         };
         Self {
             reach: (0..surface.triangles.len()).map(reach).collect(),
-            size: graded(surface, patches, size),
-            width: graded(surface, patches, width),
+            size: (graded(surface, rules, patches, size).into_iter())
+                .map(|size| size.min(rules.sizes.longest()))
+                .collect(),
+            width: graded(surface, rules, patches, width),
         }
     }
 }
@@ -221,7 +219,7 @@ fn outer(a: DVec3) -> DMat3 {
 }
 
 /// Lets sizes grow from the smaller ones, at most to that of the surface.
-fn graded(surface: &Surface, patches: &Patches, mut size: Vec<f64>) -> Vec<f64> {
+fn graded(surface: &Surface, rules: &Rules<'_>, patches: &Patches, mut size: Vec<f64>) -> Vec<f64> {
     let mut at = vec![Vec::new(); size.len()];
     for &[a, b] in &patches.edges.ends {
         at[a as usize].push(b);
@@ -238,7 +236,7 @@ fn graded(surface: &Surface, patches: &Patches, mut size: Vec<f64>) -> Vec<f64> 
         }
         for &w in &at[v as usize] {
             let distance = surface.points[v as usize].distance(surface.points[w as usize]);
-            let longest = size[v as usize] + GRADING * distance;
+            let longest = size[v as usize] + rules.sizes.growth * distance;
             if longest < size[w as usize] {
                 size[w as usize] = longest;
                 heap.push(Reverse((longest.to_bits(), w)));

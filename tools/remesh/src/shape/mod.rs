@@ -8,6 +8,7 @@ mod envelope;
 mod patches;
 
 pub use allowance::Allowance;
+pub use arc::LONG;
 pub use curves::Curves;
 pub use envelope::{Envelope, Near};
 pub use patches::Patches;
