@@ -205,12 +205,33 @@ impl<'a> Finder<'a> {
                 any |= self.pierce(s, i, t, others) | self.pierce(t, i, s, others);
             }
             // Faces with the same border may be cut into triangles in two ways.
-            any |= meets(self.complex, s, t);
+            any |= meets(self.complex, s, t) || self.lies_over(s, t);
             self.related(any, s, t);
         }
         if let Some(curves) = self.reach.curves {
             self.keep_features(curves);
         }
+    }
+
+    /// Whether two triangles with an edge in common lie over each other, within the distance in which they need not meet.
+    fn lies_over(&self, s: u32, t: u32) -> bool {
+        let [p, q] = [s, t].map(|t| self.complex.triangles[t as usize]);
+        let alone = |p: [u32; 3], q: [u32; 3]| {
+            let mut others = p.into_iter().filter(|v| !q.contains(v));
+            others.next().filter(|_| others.next().is_none())
+        };
+        let (Some(c), Some(d)) = (alone(p, q), alone(q, p)) else {
+            return false;
+        };
+        let mut common = p.into_iter().filter(|&v| v != c);
+        let (Some(a), Some(b)) = (common.next(), common.next()) else {
+            return false;
+        };
+        let [a, b, c, d] = [a, b, c, d].map(|v| self.complex.points[v as usize]);
+        let along = (b - a).normalize_or_zero();
+        let [c, d] = [c, d].map(|p| (p - a).reject_from_normalized(along));
+        let apart = |c: DVec3, d: DVec3| c.reject_from(d).length();
+        c.dot(d) > 0.0 && apart(c, d).max(apart(d, c)) <= self.reach.equal
     }
 
     fn related(&mut self, any: bool, s: u32, t: u32) {
