@@ -361,10 +361,16 @@ impl<'a> Finder<'a> {
             return false;
         };
         self.moves(moved);
-        let new = self.add(place);
-        self.crossed.insert(key, new);
-        self.on_edge(e, along[0], new);
-        self.on_edge(f, along[1], new);
+        // Where one of them is bent to a vertex, they cross there.
+        let within = match self.reach.curves.filter(|_| others) {
+            Some(curves) => curves.uncertain(s).max(curves.uncertain(t)).max(equal),
+            None => equal,
+        };
+        let known = (self.vertex_near(e, place, within)).or(self.vertex_near(f, place, within));
+        let vertex = known.unwrap_or_else(|| self.add(place));
+        self.crossed.insert(key, vertex);
+        self.on_edge(e, along[0], vertex);
+        self.on_edge(f, along[1], vertex);
         true
     }
 
@@ -415,7 +421,7 @@ impl<'a> Finder<'a> {
                 return false;
             }
         }
-        if self.reach.curves.is_some() && self.has_vertex_near(e, place, self.reach.of(s)) {
+        if self.reach.curves.is_some() && self.vertex_near(e, place, self.reach.of(s)).is_some() {
             return false;
         }
         let new = self.add(place);
@@ -425,11 +431,14 @@ impl<'a> Finder<'a> {
         true
     }
 
-    /// Whether a vertex that an edge will be bent to is near a place of it: then the edge will not be there.
-    fn has_vertex_near(&self, e: u32, place: DVec3, within: f64) -> bool {
+    /// The vertex on an edge that is nearest to a place of it, within a distance: the edge will be bent to that.
+    fn vertex_near(&self, e: u32, place: DVec3, within: f64) -> Option<u32> {
         let on = self.found.on_edge.get(&e).into_iter().flatten();
-        let mut places = on.map(|&(_, v)| self.complex.points[v as usize]);
-        places.any(|p| p.distance(place) <= within)
+        let off = |v: u32| self.complex.points[v as usize].distance(place);
+        on.map(|&(_, v)| (off(v), v))
+            .filter(|&(off, _)| off <= within)
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+            .map(|(_, v)| v)
     }
 
     fn add(&mut self, place: DVec3) -> u32 {
