@@ -1,6 +1,6 @@
 //! A few random bodies of the soak test through the whole pipe; `make soak` takes many more.
 
-use soak::{Laboratory, Verdict};
+use soak::{Kind, Laboratory, Verdict};
 use std::path::Path;
 use std::time::Duration;
 
@@ -23,14 +23,24 @@ const MENDED: [u64; 12] = [
 
 #[test]
 fn random_bodies_are_meshed_and_checked() {
+    all_are_meshed(Kind::Solids, (1..=24).chain(MENDED));
+}
+
+#[test]
+fn random_assemblies_are_meshed_and_checked() {
+    all_are_meshed(Kind::Assemblies, 1..=24);
+}
+
+fn all_are_meshed(kind: Kind, seeds: impl Iterator<Item = u64>) {
     let tools = Path::new(env!("CARGO_BIN_EXE_symdetect")).parent();
     let laboratory = Laboratory {
         binaries: tools.expect("a folder").to_owned(),
         limit: Duration::from_secs(300),
         twice: 8,
+        kind,
     };
     let mut failed = Vec::new();
-    for seed in (1..=24).chain(MENDED) {
+    for seed in seeds {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let trial = laboratory.trial(seed, folder.path()).expect("it runs");
         match trial.verdict {

@@ -4,3 +4,4 @@ mod air;
 mod exchange;
 mod inputs;
 mod motor;
+mod random;

@@ -1,6 +1,6 @@
 //! Many trials, with a table of their results that an interrupted campaign goes on from.
 
-use soak::{Laboratory, Trial, Verdict};
+use soak::{Kind, Laboratory, Trial, Verdict};
 use std::collections::{BTreeMap, HashSet};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Write};
@@ -36,6 +36,10 @@ pub struct Options {
     #[arg(long, default_value_t = 60)]
     limit: u64,
 
+    /// Which bodies
+    #[arg(long, value_enum, default_value_t = Kind::Solids)]
+    kind: Kind,
+
     /// Run every so manieth pipe twice and compare the bytes, 0 for none
     #[arg(long, default_value_t = 10)]
     twice: u64,
@@ -56,6 +60,7 @@ pub fn run(options: &Options) -> io::Result<bool> {
         binaries: options.binaries.clone(),
         limit: Duration::from_secs(options.limit),
         twice: options.twice,
+        kind: options.kind,
     };
     let next = AtomicU64::new(0);
     let worker = || -> io::Result<()> {

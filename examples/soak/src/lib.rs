@@ -1,6 +1,6 @@
-//! A trial of the soak test: a random solid goes through the whole pipe with random options, and what comes
-//! out is compared with what is known of the solid.
+//! A trial of the soak test: a random body goes through the whole pipe with random options, and what comes
+//! out is compared with what is known of the body.
 
 mod trial;
 
-pub use trial::{Laboratory, Trial, Verdict};
+pub use trial::{Kind, Laboratory, Subject, Trial, Verdict};

@@ -1,4 +1,4 @@
-//! Sends random symmetric bodies through the whole pipe and compares what comes out with what is
+//! Sends random bodies and assemblies through the whole pipe and compares what comes out with what is
 //! known of them.
 //!
 //! ```text
@@ -9,11 +9,12 @@
 mod campaign;
 
 use clap::{Parser, Subcommand};
+use soak::{Kind, Subject};
 use std::io::{BufWriter, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Send random symmetric bodies through the whole pipe.
+/// Send random bodies and assemblies through the whole pipe.
 #[derive(Parser)]
 struct Cli {
     #[command(subcommand)]
@@ -30,6 +31,10 @@ enum What {
         #[arg(long)]
         seed: u64,
 
+        /// Which bodies
+        #[arg(long, value_enum, default_value_t = Kind::Solids)]
+        kind: Kind,
+
         /// File to write
         #[arg(short, long)]
         output: PathBuf,
@@ -39,7 +44,7 @@ enum What {
 fn main() -> ExitCode {
     let outcome = match Cli::parse().what {
         What::Run(options) => campaign::run(&options),
-        What::Body { seed, output } => write_body(seed, &output).map(|()| true),
+        What::Body { seed, kind, output } => write_body(seed, kind, &output).map(|()| true),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,
@@ -51,10 +56,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn write_body(seed: u64, output: &PathBuf) -> std::io::Result<()> {
-    let solid = bodies::random_solid::solid(seed);
+fn write_body(seed: u64, kind: Kind, output: &PathBuf) -> std::io::Result<()> {
+    let subject = Subject::of(kind, seed);
     let mut out = BufWriter::new(std::fs::File::create(output)?);
-    bodies::write(&solid.body, solid.encoding, &mut out)?;
-    eprintln!("{:?}", solid.facts);
+    bodies::write(&subject.body, subject.encoding, &mut out)?;
+    eprintln!("{}", subject.description);
     out.flush()
 }

@@ -1,6 +1,6 @@
 //! How solids that touch or overlap are taken, and what was done to them.
 
-use tmesh::Document;
+use tmesh::{Document, Template};
 
 /// Which of two solids keeps the space that both claim, where neither lies inside the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,6 +36,9 @@ pub struct Joined {
     pub overlaps: Vec<Claimed>,
     /// The volumes of all solids.
     pub volumes: Vec<Changed>,
+    /// The solids as they are drawn, each closed by itself and with its region behind its triangles, where they are
+    /// oriented alike. What is symmetric among them need not be so to the bit where they were joined.
+    pub drawn: Option<Template>,
 }
 
 /// Space that two solids claimed.
@@ -47,6 +50,8 @@ pub struct Claimed {
     pub from: String,
     /// Its volume, model units cubed.
     pub volume: f64,
+    /// Whether it has it as it lies inside the other one; else as one comes before the other in the file.
+    pub nested: bool,
 }
 
 /// The volume of a solid before and after.

@@ -1,6 +1,9 @@
 //! What counts as smooth.
 
-/// Angle between facets up to which they may stand for one smooth surface, radians: 30 degrees. A choice: CAD programs
-/// turn by up to 0.5 radians, 28.6 degrees, from facet to facet unless told otherwise. With a larger angle the edges of
-/// prisms count as arcs, and with a smaller one coarse exports as prisms.
-pub const SMOOTH: f64 = std::f64::consts::PI / 6.0;
+use std::f64::consts::TAU;
+
+/// Angle between facets up to which they may stand for one smooth surface, radians: 31.3 degrees, half way between
+/// prisms of twelve and of eleven sides. A choice: CAD programs turn by up to 0.5 radians, 28.6 degrees, from facet to
+/// facet unless told otherwise, and people draw circles of twelve sides, whose 30 degrees rounding must not decide. With a
+/// larger angle the edges of prisms count as arcs, and with a smaller one coarse exports as prisms.
+pub const SMOOTH: f64 = TAU / 11.5;

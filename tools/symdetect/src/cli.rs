@@ -253,7 +253,11 @@ impl Cli {
         params: &Params,
         session: &Session,
     ) -> (Defects, Result<Detection, Error>) {
-        let search = || detect(document, params, &mut |text| session.info(text));
+        let search = || {
+            detect(document, session.joined(), params, &mut |text| {
+                session.info(text)
+            })
+        };
         let (defects, found) = threads::with(params.threads, || {
             threads::both(|| self.defects(document), search)
         });

@@ -8,11 +8,17 @@ use crate::rotation::{Drawn, Query, Rotation};
 use crate::shape::Shape;
 use crate::threads;
 use glam::DVec3;
-use tmesh::Document;
+use heal::Joined;
+use tmesh::{Document, Template};
 
 /// Finds the symmetry of a body's surface. `log` hears of progress.
+///
+/// Where solids were `joined`, it is that of the solids as they are drawn: where faces cross at small angles, or facets of
+/// two were joined, the outcome is less symmetric than either. But where it swaps two that claim the same space, which the
+/// later one has, it is that of the outcome.
 pub fn detect(
     document: &Document,
+    joined: Option<&Joined>,
     params: &Params,
     log: &mut (dyn FnMut(&str) + Send),
 ) -> Result<Detection, Error> {
@@ -28,19 +34,61 @@ pub fn detect(
     }
     let precision = document.source.as_ref().map(|s| s.precision);
     threads::with(params.threads, || {
-        let mut shape = Shape::new(template, precision).ok_or(Error::NoExtent {
-            triangles: template.triangles.len(),
-        })?;
-        shape.may_exchange = params.exchange;
-        log(&format!(
-            "surface prepared: {} kinds of interface, {} test points",
-            shape.interfaces.classes.len(),
-            shape.samples.mixed.len()
-        ));
-        let mut found = answer(Query::new(&shape, params), log)?;
+        let drawn = joined.and_then(|j| Some((j, j.drawn.as_ref()?)));
+        let of_drawn = drawn.and_then(|(joined, drawn)| {
+            let found = of_template(drawn, precision, params, log).ok()?;
+            let holds = found.asymmetric.is_none() && keeps_claims(&found, joined, document);
+            holds.then_some(found)
+        });
+        let mut found = match of_drawn {
+            Some(found) => found,
+            None => of_template(template, precision, params, log)?,
+        };
         found.notes.extend(found.exchange(document));
         Ok(found)
     })
+}
+
+/// Whether no operation takes a solid that has space of another one to one that has lost it to the other's image.
+fn keeps_claims(found: &Detection, joined: &Joined, document: &Document) -> bool {
+    let id = |name: &str| {
+        document
+            .regions
+            .iter()
+            .find(|r| r.name == name)
+            .map(|r| r.id)
+    };
+    let claims = joined.overlaps.iter().filter(|c| !c.nested);
+    let claims: Vec<_> = claims
+        .filter_map(|c| Some([id(&c.by)?, id(&c.from)?]))
+        .collect();
+    found.symmetry.regions.iter().all(|map| {
+        let image = |region: u32| {
+            let pair = map.pairs.iter().find(|p| p[0] == region);
+            pair.map_or(region, |p| p[1])
+        };
+        claims
+            .iter()
+            .all(|&[by, from]| !claims.contains(&[image(from), image(by)]))
+    })
+}
+
+fn of_template(
+    template: &Template,
+    precision: Option<f64>,
+    params: &Params,
+    log: &mut (dyn FnMut(&str) + Send),
+) -> Result<Detection, Error> {
+    let mut shape = Shape::new(template, precision).ok_or(Error::NoExtent {
+        triangles: template.triangles.len(),
+    })?;
+    shape.may_exchange = params.exchange;
+    log(&format!(
+        "surface prepared: {} kinds of interface, {} test points",
+        shape.interfaces.classes.len(),
+        shape.samples.mixed.len()
+    ));
+    answer(Query::new(&shape, params), log)
 }
 
 /// The group of the drawing, or that of the shape behind its facets where that is more and meant; without one, what

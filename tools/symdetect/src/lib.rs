@@ -39,7 +39,7 @@ use tmesh::Document;
 
 /// Adds its symmetry to a document.
 pub fn run(mut document: Document, params: &Params) -> Result<Document, Error> {
-    let detection = detect(&document, params, &mut |_| ())?;
+    let detection = detect(&document, None, params, &mut |_| ())?;
     document.symmetry = Some(detection.symmetry);
     document.search = Some(detection.search);
     Ok(document)

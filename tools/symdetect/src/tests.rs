@@ -45,7 +45,7 @@ fn find(body: &Document) -> Symmetry {
 }
 
 fn find_with(body: &Document, params: &Params) -> Result<Symmetry, Error> {
-    detect(body, params, &mut |_| ()).map(Symmetry::from)
+    detect(body, None, params, &mut |_| ()).map(Symmetry::from)
 }
 
 #[test]
@@ -365,14 +365,14 @@ fn what_breaks_an_order_is_named_with_its_place() {
             allow_asymmetric: true,
             ..Params::default()
         };
-        let found = detect(&placed, &params, &mut |_| ()).expect("passed on");
+        let found = detect(&placed, None, &params, &mut |_| ()).expect("passed on");
         let nearly = found.nearly.expect("something nearly holds");
         assert_eq!(nearly.order, Some(n), "{nearly}");
         assert!(nearly.share < 0.05, "{nearly}");
         assert!((0.5e-2..3e-2).contains(&nearly.residual), "{nearly}");
     }
     let whole = wheel(5, 12, 0.5, 23, 0.3, Flaw::None);
-    let found = detect(&whole, &Params::default(), &mut |_| ()).expect("symmetric");
+    let found = detect(&whole, None, &Params::default(), &mut |_| ()).expect("symmetric");
     assert!(found.nearly.is_none());
 }
 
@@ -403,7 +403,7 @@ fn polyhedra_and_their_axes() {
     }
     let mut random = Random(6);
     let body = bodies::place(&bodies::hull(&points), &mut random, 1.0, 0.0);
-    let detection = detect(&body, &Params::default(), &mut |_| ()).unwrap();
+    let detection = detect(&body, None, &Params::default(), &mut |_| ()).unwrap();
     assert!(detection.notes.iter().any(|n| n.contains("Ih")));
     let found = Symmetry::from(detection);
     assert_eq!(found.group, "D5d");
@@ -416,7 +416,7 @@ fn polyhedra_and_their_axes() {
         [-1.0, -1.0, 1.0],
     ];
     let body = bodies::hull(&corners.map(DVec3::from_array));
-    let detection = detect(&body, &Params::default(), &mut |_| ()).unwrap();
+    let detection = detect(&body, None, &Params::default(), &mut |_| ()).unwrap();
     assert_eq!(detection.symmetry.group.symbol(), "C3v");
     assert!(detection.notes.iter().any(|n| n.contains("Td")));
 }

@@ -191,7 +191,7 @@ fn operations_that_turn_the_axis_over_have_their_frame_and_regions() {
             let state = random.clone();
             let placed = bodies::place(&case.body, &mut random, scale, noise);
             let place = bodies::placement(&mut state.clone(), scale);
-            let detection = detect(&placed, &Params::default(), &mut |_| ()).unwrap();
+            let detection = detect(&placed, None, &Params::default(), &mut |_| ()).unwrap();
             let found = detection.symmetry;
             assert_eq!(found.group.symbol(), case.symbol);
             assert!(found.residual < 10.0 * noise + 4e-6, "{}", found.residual);
@@ -213,7 +213,7 @@ fn the_centre_stays_under_what_turns_the_axis_over() {
     let mut random = Random(22);
     for case in cases() {
         let placed = bodies::place(&case.body, &mut random, 1.0, 1e-6);
-        let found = detect(&placed, &Params::default(), &mut |_| ()).unwrap();
+        let found = detect(&placed, None, &Params::default(), &mut |_| ()).unwrap();
         let frame = found.symmetry.frame().unwrap();
         let over = found.symmetry.group.turning_over().unwrap();
         // The highest points go to the lowest, at equal distances from the centre.
@@ -235,7 +235,7 @@ fn a_group_that_loses_its_half_turns_is_not_taken_for_the_whole() {
             *p *= 1.0 + 0.05 * p.z;
         }
         let placed = bodies::place(&body, &mut random, 1.0, 1e-6);
-        let found = detect(&placed, &Params::default(), &mut |_| ()).unwrap();
+        let found = detect(&placed, None, &Params::default(), &mut |_| ()).unwrap();
         assert_eq!(found.symmetry.group.symbol(), case.symbol.replace('D', "C"));
         assert!(found.symmetry.group.turning_over().is_none());
     }

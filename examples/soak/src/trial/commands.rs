@@ -1,20 +1,21 @@
 //! The pipe of a trial: which tools, with which options.
 
+use super::subject::{Subject, Symmetry};
 use bodies::Dice;
-use bodies::random_solid::Solid;
 
 /// A tool and its arguments.
 pub type Stage = Vec<String>;
 
-/// A pipe with random options for a solid.
-pub fn stages(solid: &Solid, seed: u64) -> Vec<Stage> {
+/// A pipe with random options for a body.
+pub fn stages(subject: &Subject, seed: u64) -> Vec<Stage> {
     // Apart from the choices that made the solid.
     let mut dice = Dice::new(seed ^ 0x6f70_7469_6f6e_7300);
-    let order = solid.facts.order;
+    let order = subject.symmetry.order();
     let stage = |name: &str| vec![name.to_owned()];
 
     let mut detect = stage("symdetect");
-    if order == 1 && dice.chance(0.9) {
+    let open = matches!(subject.symmetry, Symmetry::AtLeast(_));
+    if open || order == 1 && dice.chance(0.9) {
         detect.push("--allow-asymmetric".to_owned());
     }
     let mut cut = stage("wedgecut");
@@ -40,7 +41,7 @@ pub fn stages(solid: &Solid, seed: u64) -> Vec<Stage> {
         cut.extend(["--hub", "none"].map(str::to_owned));
     }
 
-    let volume = solid.body.total_volume();
+    let volume: f64 = subject.regions.iter().map(|r| r.volume).sum();
     let mut elements = Vec::new();
     if dice.chance(0.25) {
         let largest = volume / dice.log_between(50.0, 3000.0);

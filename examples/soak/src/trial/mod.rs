@@ -2,11 +2,12 @@
 
 mod commands;
 mod pipe;
+mod subject;
 mod verdict;
 
+pub use subject::{Kind, Subject};
 pub use verdict::Verdict;
 
-use bodies::random_solid::{Solid, solid};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -20,6 +21,8 @@ pub struct Laboratory {
     pub limit: Duration,
     /// Every how many trials the pipe runs twice, to compare the output; 0 for never.
     pub twice: u64,
+    /// What goes through the pipe.
+    pub kind: Kind,
 }
 
 /// A trial that has ended.
@@ -44,9 +47,8 @@ impl Laboratory {
     /// # Errors
     /// Fails when files cannot be written or processes not be started.
     pub fn trial(&self, seed: u64, folder: &Path) -> io::Result<Trial> {
-        let solid = solid(seed);
-        let facts = &solid.facts;
-        let mut stages = commands::stages(&solid, seed);
+        let subject = Subject::of(self.kind, seed);
+        let mut stages = commands::stages(&subject, seed);
         // TetGen comes to no end on some bodies, as on the whole body alone: tools are asked to say so.
         let patience = format!("{:.0}", (PATIENCE * self.limit.as_secs_f64()).max(1.0));
         for stage in &mut stages {
@@ -55,17 +57,9 @@ impl Laboratory {
             }
         }
         let mut out = BufWriter::new(File::create(folder.join("body"))?);
-        bodies::write(&solid.body, solid.encoding, &mut out)?;
+        bodies::write(&subject.body, subject.encoding, &mut out)?;
         out.flush()?;
         drop(out);
-        let mut plain = facts.group.symbol();
-        plain.push_str(&format!(
-            ", order {}, {} triangles, {} materials; {}",
-            facts.order,
-            solid.body.faces.len(),
-            solid.body.materials.len(),
-            facts.features.join(", ")
-        ));
         stages[0].extend(["--report".to_owned(), path(folder, "symmetry.json")]);
         let check = vec![
             "meshqual".to_owned(),
@@ -73,21 +67,24 @@ impl Laboratory {
             "--json".to_owned(),
             path(folder, "quality.json"),
         ];
-        std::fs::write(folder.join("run.sh"), script(seed, &plain, &stages, &check))?;
+        std::fs::write(
+            folder.join("run.sh"),
+            script(seed, &subject.description, &stages, &check),
+        )?;
         let begun = Instant::now();
-        let (verdict, tetrahedra) = self.verdict(seed, &solid, &stages, check, folder)?;
+        let (verdict, tetrahedra) = self.verdict(seed, &subject, &stages, check, folder)?;
         Ok(Trial {
             verdict,
             time: begun.elapsed(),
             tetrahedra,
-            description: plain,
+            description: subject.description,
         })
     }
 
     fn verdict(
         &self,
         seed: u64,
-        solid: &Solid,
+        subject: &Subject,
         stages: &[commands::Stage],
         check: commands::Stage,
         folder: &Path,
@@ -96,11 +93,11 @@ impl Laboratory {
             pipe::run(&self.binaries, folder, stages, input, output, self.limit)
         };
         let ended = run(stages, "body", "mesh.tmesh")?;
-        if let Some(verdict) = verdict::of_stages(solid, &ended) {
+        if let Some(verdict) = verdict::of_stages(subject, &ended) {
             return Ok((verdict, 0));
         }
         let checked = run(&[check], "mesh.tmesh", "quality.txt")?;
-        if let Some(verdict) = verdict::of_stages(solid, &checked) {
+        if let Some(verdict) = verdict::of_stages(subject, &checked) {
             // What meshqual refuses is a wrong mesh.
             let (Verdict::Refused(text) | Verdict::Failed(text)) = verdict else {
                 return Ok((verdict, 0));
@@ -112,7 +109,7 @@ impl Laboratory {
         };
         let quality = report("quality.json")?;
         let tetrahedra = quality["tetrahedra"].as_u64().unwrap_or(0);
-        let verdict = verdict::of_reports(solid, &report("symmetry.json")?, &quality);
+        let verdict = verdict::of_reports(subject, &report("symmetry.json")?, &quality);
         if verdict == Verdict::Meshed && self.twice > 0 && seed.is_multiple_of(self.twice) {
             run(stages, "body", "again.tmesh")?;
             let [first, second] =

@@ -1,7 +1,8 @@
 //! What to think of how a trial ended.
 
 use super::pipe::Ended;
-use bodies::random_solid::Solid;
+use super::subject::{Subject, Symmetry};
+use bodies::assembly::Claim;
 use serde_json::Value;
 
 /// How a trial ended.
@@ -22,7 +23,7 @@ pub enum Verdict {
 const VOLUME: f64 = 2e-6;
 
 /// Judges the stages of the pipe: `None` when all have ended well.
-pub fn of_stages(solid: &Solid, ended: &[Ended]) -> Option<Verdict> {
+pub fn of_stages(subject: &Subject, ended: &[Ended]) -> Option<Verdict> {
     let first = ended.iter().find(|e| e.hung || e.code != Some(0))?;
     // A stage that waits for one that hangs hangs too; the last one that does is to blame for nothing.
     let tool = &first.tool;
@@ -36,7 +37,7 @@ pub fn of_stages(solid: &Solid, ended: &[Ended]) -> Option<Verdict> {
             Verdict::Failed(format!("{tool}: {reason}"))
         }
         (_, Some(1), Some(reason))
-            if solid.facts.order == 1 && reason.starts_with("no symmetry within") =>
+            if subject.symmetry.order() == 1 && reason.starts_with("no symmetry within") =>
         {
             Verdict::Asymmetric
         }
@@ -47,41 +48,44 @@ pub fn of_stages(solid: &Solid, ended: &[Ended]) -> Option<Verdict> {
 }
 
 /// Compares what symdetect and meshqual report with what is known.
-pub fn of_reports(solid: &Solid, symmetry: &Value, quality: &Value) -> Verdict {
-    let problems = [order(solid, symmetry), volumes(solid, symmetry, quality)];
+pub fn of_reports(subject: &Subject, symmetry: &Value, quality: &Value) -> Verdict {
+    let problems = [
+        order(subject, symmetry),
+        volumes(subject, symmetry, quality),
+    ];
     match problems.into_iter().flatten().next() {
         Some(problem) => Verdict::Failed(problem),
         None => Verdict::Meshed,
     }
 }
 
-fn order(solid: &Solid, symmetry: &Value) -> Option<String> {
-    let known = solid.facts.order as u64;
+fn order(subject: &Subject, symmetry: &Value) -> Option<String> {
+    let known = subject.symmetry.order() as u64;
     let Some(found) = symmetry["order"].as_u64() else {
         return Some("symdetect: the report has no order".to_owned());
     };
     // About another axis than the one known, flat faces may have more; of a body of revolution, as far as the
     // tolerance goes, all orders hold.
+    let Symmetry::Known { mirrors, .. } = subject.symmetry else {
+        let holds = known <= 2 || found.is_multiple_of(known);
+        return (!holds).then(|| format!("order: {found} found, at least {known} known"));
+    };
     let more = found > known && (known <= 2 || symmetry["axisymmetric"] == Value::Bool(true));
     if !more && !found.is_multiple_of(known) {
         return Some(format!("order: {found} found, {known} known"));
     }
     // Groups of lower order may be seen from another axis.
-    if found == known
-        && known > 2
-        && solid.facts.group.has_vertical_mirrors()
-        && symmetry["mirror"] != Value::Bool(true)
-    {
-        return Some(format!("mirror: none found in {}", solid.facts.group));
+    if found == known && known > 2 && mirrors && symmetry["mirror"] != Value::Bool(true) {
+        return Some("mirror: none found".to_owned());
     }
     None
 }
 
-fn volumes(solid: &Solid, symmetry: &Value, quality: &Value) -> Option<String> {
+fn volumes(subject: &Subject, symmetry: &Value, quality: &Value) -> Option<String> {
     let Some(regions) = quality["regions"].as_array() else {
         return Some("meshqual: the report has no regions".to_owned());
     };
-    let body = &solid.body;
+    let body = &subject.body;
     if regions.len() != body.materials.len() {
         return Some(format!(
             "regions: {} of {}",
@@ -90,7 +94,7 @@ fn volumes(solid: &Solid, symmetry: &Value, quality: &Value) -> Option<String> {
         ));
     }
     let residual = symmetry["residual"].as_f64().unwrap_or(f64::INFINITY);
-    let slack = (VOLUME + 2.0 * residual) * body.boundary_area() * solid.facts.radius;
+    let slack = (VOLUME + 2.0 * residual) * body.boundary_area() * subject.radius;
     for (index, material) in body.materials.iter().enumerate() {
         let named = regions.iter().find(|r| r["name"] == material.name.as_str());
         // Binary STL has no names.
@@ -98,7 +102,11 @@ fn volumes(solid: &Solid, symmetry: &Value, quality: &Value) -> Option<String> {
         let Some(found) = region.and_then(|r| r["volume"].as_f64()) else {
             return Some(format!("regions: none is called {}", material.name));
         };
-        let known = body.volume(index);
+        let Claim {
+            volume: known,
+            slack: facets,
+        } = subject.regions[index];
+        let slack = slack + facets;
         if (found - known).abs() > slack {
             return Some(format!(
                 "volume: {} has {found:e}, not {known:e} (slack {slack:.1e})",

@@ -33,13 +33,17 @@ pub enum CdtError {
     },
 }
 
-struct Site(Point2<f64>);
+struct Site {
+    place: Point2<f64>,
+    /// Index of the point; spade numbers sites in an order of its own.
+    index: u32,
+}
 
 impl HasPosition for Site {
     type Scalar = f64;
 
     fn position(&self) -> Point2<f64> {
-        self.0
+        self.place
     }
 }
 
@@ -52,6 +56,8 @@ pub struct Cdt {
     /// Whether that side is a segment or a part of one.
     pub is_segment: Vec<[bool; 3]>,
     inner: ConstrainedDelaunayTriangulation<Site>,
+    /// spade's vertex of each point.
+    vertices: Vec<FixedVertexHandle>,
     /// A power of two that brings the coordinates near one, whatever the model's unit.
     scale: f64,
 }
@@ -76,35 +82,42 @@ impl Cdt {
                 return Err(CdtError::Coincident(first, i));
             }
         }
-        let mut conflict = None;
-        let inner = ConstrainedDelaunayTriangulation::try_bulk_load_cdt(
-            sites.into_iter().map(Site).collect(),
-            segments.iter().map(|s| s.map(|v| v as usize)).collect(),
-            |ends| {
-                conflict.get_or_insert(ends);
-            },
-        )
-        .map_err(|_| CdtError::Coordinate)?;
-        if let Some([a, b]) = conflict {
-            return Err(CdtError::Crossing(a as u32, b as u32));
+        let sites = (0..).zip(sites).map(|(index, place)| Site { place, index });
+        // Points first, segments after them: where both are given at once, spade takes what it left for later in the
+        // order of a hash table, which is another one in every run.
+        let mut inner = ConstrainedDelaunayTriangulation::<Site>::bulk_load(sites.collect())
+            .map_err(|_| CdtError::Coordinate)?;
+        let mut vertices = vec![FixedVertexHandle::from_index(0); points.len()];
+        for vertex in inner.vertices() {
+            vertices[vertex.data().index as usize] = vertex.fix();
         }
-        Ok(Self::from_spade(inner, scale))
+        for &ends in segments {
+            let [a, b] = ends.map(|v| vertices[v as usize]);
+            if inner.try_add_constraint(a, b).is_empty() {
+                return Err(CdtError::Crossing(ends[0], ends[1]));
+            }
+        }
+        Ok(Self::from_spade(inner, vertices, scale))
     }
 
-    fn from_spade(inner: ConstrainedDelaunayTriangulation<Site>, scale: f64) -> Self {
+    fn from_spade(
+        inner: ConstrainedDelaunayTriangulation<Site>,
+        vertices: Vec<FixedVertexHandle>,
+        scale: f64,
+    ) -> Self {
         let count = inner.num_inner_faces();
         let mut cdt = Self {
             triangles: Vec::with_capacity(count),
             across: Vec::with_capacity(count),
             is_segment: Vec::with_capacity(count),
             inner,
+            vertices,
             scale,
         };
         for face in cdt.inner.inner_faces() {
             // Sides in the order of the corners that they begin at.
             let sides = face.adjacent_edges();
-            cdt.triangles
-                .push(sides.map(|e| e.from().fix().index() as u32));
+            cdt.triangles.push(sides.map(|e| e.from().data().index));
             cdt.across.push(sides.map(|e| {
                 let beyond = e.rev().face().as_inner();
                 beyond.map_or(NONE, |f| number(f.fix().index()))
@@ -116,7 +129,7 @@ impl Cdt {
 
     /// Whether two points are joined by a segment or a part of one.
     pub fn has_segment(&self, ends: [u32; 2]) -> bool {
-        let [a, b] = ends.map(|v| FixedVertexHandle::from_index(v as usize));
+        let [a, b] = ends.map(|v| self.vertices[v as usize]);
         self.inner.exists_constraint(a, b)
     }
 

@@ -205,12 +205,33 @@ impl<'a> Finder<'a> {
                 any |= self.pierce(s, i, t, others) | self.pierce(t, i, s, others);
             }
             // Faces with the same border may be cut into triangles in two ways.
-            any |= meets(self.complex, s, t);
+            any |= meets(self.complex, s, t) || self.lies_over(s, t);
             self.related(any, s, t);
         }
         if let Some(curves) = self.reach.curves {
             self.keep_features(curves);
         }
+    }
+
+    /// Whether two triangles with an edge in common lie over each other, within the distance in which they need not meet.
+    fn lies_over(&self, s: u32, t: u32) -> bool {
+        let [p, q] = [s, t].map(|t| self.complex.triangles[t as usize]);
+        let alone = |p: [u32; 3], q: [u32; 3]| {
+            let mut others = p.into_iter().filter(|v| !q.contains(v));
+            others.next().filter(|_| others.next().is_none())
+        };
+        let (Some(c), Some(d)) = (alone(p, q), alone(q, p)) else {
+            return false;
+        };
+        let mut common = p.into_iter().filter(|&v| v != c);
+        let (Some(a), Some(b)) = (common.next(), common.next()) else {
+            return false;
+        };
+        let [a, b, c, d] = [a, b, c, d].map(|v| self.complex.points[v as usize]);
+        let along = (b - a).normalize_or_zero();
+        let [c, d] = [c, d].map(|p| (p - a).reject_from_normalized(along));
+        let apart = |c: DVec3, d: DVec3| c.reject_from(d).length();
+        c.dot(d) > 0.0 && apart(c, d).max(apart(d, c)) <= self.reach.equal
     }
 
     fn related(&mut self, any: bool, s: u32, t: u32) {
@@ -340,10 +361,16 @@ impl<'a> Finder<'a> {
             return false;
         };
         self.moves(moved);
-        let new = self.add(place);
-        self.crossed.insert(key, new);
-        self.on_edge(e, along[0], new);
-        self.on_edge(f, along[1], new);
+        // Where one of them is bent to a vertex, they cross there.
+        let within = match self.reach.curves.filter(|_| others) {
+            Some(curves) => curves.uncertain(s).max(curves.uncertain(t)).max(equal),
+            None => equal,
+        };
+        let known = (self.vertex_near(e, place, within)).or(self.vertex_near(f, place, within));
+        let vertex = known.unwrap_or_else(|| self.add(place));
+        self.crossed.insert(key, vertex);
+        self.on_edge(e, along[0], vertex);
+        self.on_edge(f, along[1], vertex);
         true
     }
 
@@ -394,7 +421,7 @@ impl<'a> Finder<'a> {
                 return false;
             }
         }
-        if self.reach.curves.is_some() && self.has_vertex_near(e, place, self.reach.of(s)) {
+        if self.reach.curves.is_some() && self.vertex_near(e, place, self.reach.of(s)).is_some() {
             return false;
         }
         let new = self.add(place);
@@ -404,11 +431,14 @@ impl<'a> Finder<'a> {
         true
     }
 
-    /// Whether a vertex that an edge will be bent to is near a place of it: then the edge will not be there.
-    fn has_vertex_near(&self, e: u32, place: DVec3, within: f64) -> bool {
+    /// The vertex on an edge that is nearest to a place of it, within a distance: the edge will be bent to that.
+    fn vertex_near(&self, e: u32, place: DVec3, within: f64) -> Option<u32> {
         let on = self.found.on_edge.get(&e).into_iter().flatten();
-        let mut places = on.map(|&(_, v)| self.complex.points[v as usize]);
-        places.any(|p| p.distance(place) <= within)
+        let off = |v: u32| self.complex.points[v as usize].distance(place);
+        on.map(|&(_, v)| (off(v), v))
+            .filter(|&(off, _)| off <= within)
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+            .map(|(_, v)| v)
     }
 
     fn add(&mut self, place: DVec3) -> u32 {

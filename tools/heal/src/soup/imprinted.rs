@@ -9,11 +9,12 @@ use crate::imprint::{
 use crate::meeting::meetings;
 use crate::words::{place, short};
 use geom::contacts::contacts;
-use geom::edges::Edges;
+use geom::edges::{EdgeUse, Edges};
 use geom::measure::tet_volume;
 use geom::tolerance::Tolerance;
 use interchange::text::counted;
 use rustc_hash::{FxHashMap, FxHashSet};
+use tmesh::{OUTSIDE, Template, Triangle};
 
 /// A surface whose triangles meet in common vertices and edges only, and the solids on its sides.
 pub struct Imprinted {
@@ -88,12 +89,15 @@ fn attempt(
             short(first.volume)
         ));
     }
-    let joined = joined(
+    let mut joined = joined(
         surface,
         &settled,
         (overlay.largest, overlay.added),
         tolerance,
     );
+    if !crosses_itself.contains(&true) {
+        joined.drawn = drawn(surface);
+    }
     let notices = notices(surface, &settled, &joined, tolerance);
     let doubled: f64 = settled.doubled.iter().map(|d| d.1).sum();
     let volume: f64 = joined.volumes.iter().map(|v| v.before).sum();
@@ -244,6 +248,7 @@ fn joined(
         before[solid as usize] += tet_volume(origin, a, b, c);
     }
     Joined {
+        drawn: None,
         interfaces: settled.triangles.iter().filter(|t| t.2[0] != NONE).count(),
         largest,
         points,
@@ -252,6 +257,7 @@ fn joined(
                 by: name(c.winner),
                 from: name(c.loser),
                 volume: c.volume,
+                nested: c.nested,
             })
             .collect(),
         volumes: (0_u32..)
@@ -263,6 +269,43 @@ fn joined(
             })
             .collect(),
     }
+}
+
+/// The solids as they are drawn, none where triangles of one are not oriented alike.
+fn drawn(surface: &Surface) -> Option<Template> {
+    let edges = Edges::new(&surface.triangles);
+    let solid = |u: &EdgeUse| surface.solid[u.triangle as usize];
+    for e in 0..edges.len() {
+        for u in edges.around(e) {
+            let of_it = || edges.around(e).iter().filter(|w| solid(w) == solid(u));
+            if of_it().count() != 2 * of_it().filter(|w| w.forward).count() {
+                return None;
+            }
+        }
+    }
+    let mut volumes = vec![0.0; surface.solids.len()];
+    let origin = surface.corners(0)[0];
+    for (t, &solid) in (0..).zip(&surface.solid) {
+        let [a, b, c] = surface.corners(t);
+        volumes[solid as usize] += tet_volume(origin, a, b, c);
+    }
+    let triangles = surface.triangles.iter().zip(&surface.solid);
+    let outwards = triangles.map(|(&[a, b, c], &solid)| Triangle {
+        vertices: if volumes[solid as usize] < 0.0 {
+            [a, c, b]
+        } else {
+            [a, b, c]
+        },
+        marker: 0,
+        front: OUTSIDE,
+        // Regions are numbered as solids are, from 1.
+        back: solid + 1,
+    });
+    Some(Template {
+        triangles: outwards.collect(),
+        vertices: surface.points.clone(),
+        ..Template::default()
+    })
 }
 
 /// What was done, a sentence each.
