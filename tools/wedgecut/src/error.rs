@@ -106,6 +106,18 @@ pub enum CutError {
         /// Where.
         near: DVec3,
     },
+    /// A seam that is no plane crosses the surface, though none of its points is beyond.
+    #[error(
+        "the seam, between its points, crosses the surface or another cut face near ({:.6}, {:.6}, {:.6})",
+        .near.x, .near.y, .near.z
+    )]
+    SeamCrosses {
+        /// Where.
+        near: DVec3,
+    },
+    /// A seam that the group cannot have.
+    #[error("--seam FILE does not fit: {0}")]
+    NoSeam(String),
     /// The wedge's surface does not close.
     #[error(
         "the cut surface does not close at {count} edges, the first near ({:.6}, {:.6}, {:.6})",
@@ -171,6 +183,7 @@ impl CutError {
             Self::BadSection { .. }
             | Self::SectionsDiffer { .. }
             | Self::SectionsJoinedDifferently { .. }
+            | Self::SeamCrosses { .. }
             | Self::NotClosed { .. }
             | Self::VolumeDiffers { .. }
             | Self::RegionVolumeDiffers { .. }
@@ -182,6 +195,7 @@ impl CutError {
             | Self::NoMirror(_)
             | Self::NotAMirrorPlane { .. }
             | Self::BadPlace { .. }
+            | Self::NoSeam(_)
             | Self::BadAxis(..) => false,
         }
     }

@@ -5,12 +5,15 @@ use crate::body::Body;
 use crate::cell::angle;
 use crate::cutting::Place;
 use crate::error::CutError;
+use crate::graph::Graph;
+use crate::params::Seam;
 use estimate::CostModel;
 use estimate::harm::sliced::Harm;
 use estimate::harm::{halved, sliced};
 use geom::number::number;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 use tmesh::{Frame, Group, Isometry, Kind};
 
 /// Harm from which walls on the axes of half turns, which nobody asked for, are given up, since they cannot be elsewhere;
@@ -40,8 +43,25 @@ impl Places {
             _ if group.is_trivial() => Self::fixed(body, 0, 0.0),
             Kind::Cv | Kind::Dh | Kind::Dd => Self::of_mirrors(body, group),
             Kind::D => Self::of_half_turns(body, group),
-            Kind::C | Kind::Ch | Kind::S => Self::of_seams(body, group),
+            Kind::C | Kind::Ch | Kind::S => match &body.params.seam {
+                Seam::Graph(graph) => Self::of_graph(body, graph),
+                Seam::Plane | Seam::Auto => Self::of_seams(body, group),
+            },
         }
+    }
+
+    /// The seam that was asked for.
+    fn of_graph(body: &Body<'_>, graph: &Arc<Graph>) -> Result<Self, CutError> {
+        let place = Place {
+            frame: turned(body, body.params.start_angle.unwrap_or(0.0))?,
+            start: Isometry::IDENTITY,
+            harm: 0.0,
+            graph: Some(Arc::clone(graph)),
+        };
+        Ok(Self {
+            list: vec![place],
+            warning: None,
+        })
     }
 
     /// The one place that is `steps` half steps of the group found from the reference.
@@ -55,6 +75,7 @@ impl Places {
             frame: turned(body, angle)?,
             start: Isometry::rotation(steps, 2 * found),
             harm,
+            graph: None,
         };
         Ok(Self {
             list: vec![place],
@@ -187,6 +208,7 @@ impl Places {
                 frame: turned(body, angle)?,
                 start: Isometry::IDENTITY,
                 harm: sides * harm.sliced,
+                graph: None,
             })
         };
         Ok(Self {

@@ -8,6 +8,7 @@ use crate::cell::{Cell, Join, Part, Role, Shape, hub_order, of_group};
 use crate::clean::{collapse_at_sides, collapse_short_edges};
 use crate::clip::{clip, divide_at_hub};
 use crate::error::CutError;
+use crate::graph::{Graph, divide, follow, restore};
 use crate::seam::{Matched, Matching, match_sections};
 use crate::section::{Known, Piece, Section};
 use crate::surface::{Plane, Surface, slide, snap_heights_and_columns};
@@ -49,7 +50,8 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
     let regions = |element| regions_in(body.symmetry, place.start, element);
     let copies = Copies::new(group, hub.is_some(), regions);
     let wedges = group.size() as usize;
-    let cell = of_group(group, tolerance.on_plane(), tolerance.on_axis(), hub);
+    let cell = of_group(group, tolerance.on_plane(), tolerance.on_axis(), hub)
+        .straightened(place.graph.clone());
     let mut notes = vec![format!(
         "{} wedge of order {} ({wedges} copies), points within {:.1e} of a cut plane and {:.1e} of the axis moved onto \
          it, heights and columns within {:.1e} made equal (largest movement {snapped:.1e})",
@@ -67,7 +69,13 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         regions: &regions,
     };
     cutter.slide(&mut surface, &mut notes);
-    let templates = cutter.cut(surface, &mut notes)?;
+    if let Some(graph) = &place.graph {
+        notes.push(straighten(&mut surface, graph, &cell));
+    }
+    let mut templates = cutter.cut(surface, &mut notes)?;
+    if let Some(graph) = &place.graph {
+        restore(&mut templates, graph, &place.frame)?;
+    }
     if let Some(radius) = hub {
         notes.push(format!(
             "hub of inscribed radius {radius} and order {} ({} copies), a template of its own",
@@ -90,6 +98,19 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         wedges,
         notes,
     })
+}
+
+/// Straightens a surface by the graph of the seam; says so.
+fn straighten(surface: &mut Template, graph: &Graph, cell: &Cell) -> String {
+    let added = divide(surface, graph, cell);
+    for p in &mut surface.vertices {
+        *p = graph.straighten(*p);
+    }
+    let [least, largest] = graph.range().map(f64::to_degrees);
+    format!(
+        "the seam follows angles of {least:.1} to {largest:.1} degrees at {} knots; {added} points where edges bend",
+        graph.knots()
+    )
 }
 
 /// What the sides of a wedge are, in a word.
@@ -178,7 +199,10 @@ impl Cutter<'_> {
         }
         divide_at_hub(&mut surface, cell);
         surface.add_corners(cell);
-        let matched = self.match_sections(&mut surface, notes)?;
+        let mut matched = self.match_sections(&mut surface, notes)?;
+        if cell.is_straightened() {
+            self.follow(&mut surface, &mut matched, notes)?;
+        }
         let faces = std::mem::take(&mut surface.faces);
         let hub = cell.hub();
         let (outer, inner): (Vec<Triangle>, Vec<Triangle>) = faces.into_iter().partition(|f| {
@@ -270,6 +294,31 @@ impl Cutter<'_> {
             all.push(Some(matched));
         }
         Ok(all)
+    }
+
+    /// Gives sections points so that what closes them follows the seam.
+    fn follow(
+        &self,
+        surface: &mut Surface,
+        matched: &mut [Option<Matched>],
+        notes: &mut Vec<String>,
+    ) -> Result<(), CutError> {
+        let mut added = 0;
+        let hub = self.cell.hub().map(Part::whole);
+        let joins = self.cell.joins.iter().zip(matched);
+        let seams =
+            joins.filter_map(|(join, matched)| Some((join.there, Some((join, matched.as_mut()?)))));
+        for (part, seam) in seams.chain(hub.map(|part| (part, None))) {
+            let points = follow(surface, self.cell, part, self.frame)?;
+            added += points.len();
+            if let Some((join, matched)) = seam {
+                matched.add(surface, join, &points);
+            }
+        }
+        notes.push(format!(
+            "{added} points within the cut faces, which follow the seam"
+        ));
+        Ok(())
     }
 
     /// The faces on one side of the hub's plane, with the corners there.

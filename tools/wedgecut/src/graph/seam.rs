@@ -1,0 +1,146 @@
+//! The angle of a seam over distance from the axis and height.
+
+use glam::DVec3;
+
+/// The angle of a seam, as a function of the distance from the axis and the height: bilinear between knots,
+/// constant beyond them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graph {
+    /// Distances from the axis of the knots, increasing, model units.
+    radii: Vec<f64>,
+    /// Heights of the knots, increasing, model units.
+    heights: Vec<f64>,
+    /// Angles at the knots, radians: for each distance those at all heights.
+    angles: Vec<f64>,
+}
+
+/// What a graph does where the height changes its sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parity {
+    /// The angle stays.
+    Even,
+    /// The angle changes its sign.
+    Odd,
+    /// Anything else.
+    None,
+}
+
+/// The interval between increasing knots that holds a value, and the share of the way along it.
+fn locate(knots: &[f64], x: f64) -> (usize, f64) {
+    let after = knots.partition_point(|&k| k <= x);
+    match after {
+        0 => (0, 0.0),
+        _ if after == knots.len() => (knots.len() - 1, 0.0),
+        _ => {
+            let (low, high) = (knots[after - 1], knots[after]);
+            (after - 1, (x - low) / (high - low))
+        }
+    }
+}
+
+impl Graph {
+    /// From increasing distances and heights, and the angles (radians) of all heights at each distance.
+    pub fn new(radii: Vec<f64>, heights: Vec<f64>, angles: Vec<f64>) -> Self {
+        debug_assert_eq!(radii.len() * heights.len(), angles.len());
+        Self {
+            radii,
+            heights,
+            angles,
+        }
+    }
+
+    /// The angle at a distance from the axis and a height, radians.
+    pub fn angle(&self, radius: f64, height: f64) -> f64 {
+        let (i, s) = locate(&self.radii, radius);
+        let (j, t) = locate(&self.heights, height);
+        let count = self.heights.len();
+        let at = |i: usize, j: usize| {
+            self.angles[i.min(self.radii.len() - 1) * count + j.min(count - 1)]
+        };
+        let along = |i: usize| match t {
+            0.0 => at(i, j),
+            t => at(i, j) + (at(i, j + 1) - at(i, j)) * t,
+        };
+        match s {
+            0.0 => along(i),
+            s => along(i) + (along(i + 1) - along(i)) * s,
+        }
+    }
+
+    /// The point, turned back by the angle of the graph there.
+    pub fn straighten(&self, p: DVec3) -> DVec3 {
+        turn(p, -self.angle(p.x.hypot(p.y), p.z))
+    }
+
+    /// The point of which another is the straightened one.
+    pub fn bend(&self, p: DVec3) -> DVec3 {
+        turn(p, self.angle(p.x.hypot(p.y), p.z))
+    }
+
+    /// The number of the patch of the graph that a point is in: within a patch the graph is smooth.
+    pub fn patch(&self, p: DVec3) -> [usize; 2] {
+        let number = |knots: &[f64], x: f64| knots.partition_point(|&k| k <= x);
+        [
+            number(&self.radii, p.x.hypot(p.y)),
+            number(&self.heights, p.z),
+        ]
+    }
+
+    /// What the graph does where the height changes its sign; `rounding` is that of an angle, radians.
+    pub fn parity(&self, rounding: f64) -> Parity {
+        let mirrored = self.heights.iter().map(|z| -z);
+        let heights: Vec<f64> = mirrored.chain(self.heights.iter().copied()).collect();
+        let all = |is: &dyn Fn(f64, f64) -> bool| {
+            self.radii.iter().all(|&r| {
+                let both = |&z: &f64| is(self.angle(r, z), self.angle(r, -z));
+                heights.iter().all(both)
+            })
+        };
+        match () {
+            () if all(&|up, down| (up + down).abs() <= rounding) => Parity::Odd,
+            () if all(&|up, down| (up - down).abs() <= rounding) => Parity::Even,
+            () => Parity::None,
+        }
+    }
+
+    /// How many knots there are.
+    pub fn knots(&self) -> usize {
+        self.angles.len()
+    }
+
+    /// Least and largest angle, radians.
+    pub fn range(&self) -> [f64; 2] {
+        let angles = self.angles.iter().copied();
+        [
+            angles.clone().fold(f64::INFINITY, f64::min),
+            angles.fold(f64::NEG_INFINITY, f64::max),
+        ]
+    }
+}
+
+fn turn(p: DVec3, angle: f64) -> DVec3 {
+    if angle == 0.0 {
+        return p;
+    }
+    let (s, c) = (libm::sin(angle), libm::cos(angle));
+    DVec3::new(p.x * c - p.y * s, p.x * s + p.y * c, p.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn graphs_are_linear_between_knots_and_constant_beyond() {
+        let graph = Graph::new(vec![1.0, 3.0], vec![0.0, 2.0], vec![0.0, 1.0, 0.5, 2.5]);
+        assert_eq!(graph.angle(0.1, -1.0), 0.0);
+        assert_eq!(graph.angle(1.0, 1.0), 0.5);
+        assert_eq!(graph.angle(2.0, 2.0), 1.75);
+        assert_eq!(graph.angle(9.0, 9.0), 2.5);
+        let p = DVec3::new(1.2, -0.7, 0.4);
+        assert!(graph.bend(graph.straighten(p)).distance(p) < 1e-15);
+        assert_eq!(graph.parity(0.0), Parity::None);
+        let odd = Graph::new(vec![0.0], vec![-1.0, 1.0], vec![-0.3, 0.3]);
+        assert_eq!(odd.parity(f64::EPSILON), Parity::Odd);
+    }
+}
