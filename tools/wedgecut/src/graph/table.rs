@@ -29,7 +29,7 @@ pub fn read(text: &str) -> Result<Graph, String> {
         let is_between = |c: char| c.is_whitespace() || c == ',' || c == ';';
         let words: Vec<&str> = line.split(is_between).filter(|w| !w.is_empty()).collect();
         let is_number = |w: &&str| w.parse::<f64>().is_ok();
-        if words.is_empty() || rows.is_empty() && !words.iter().any(|w| is_number(&w)) {
+        if words.is_empty() || rows.is_empty() && !words.iter().any(is_number) {
             continue;
         }
         let numbers: Vec<f64> = words.iter().filter_map(|w| w.parse().ok()).collect();
