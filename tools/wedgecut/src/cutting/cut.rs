@@ -304,16 +304,18 @@ impl Cutter<'_> {
         notes: &mut Vec<String>,
     ) -> Result<(), CutError> {
         let mut added = 0;
-        let hub = self.cell.hub().map(Part::whole);
-        let joins = self.cell.joins.iter().zip(matched);
-        let seams =
-            joins.filter_map(|(join, matched)| Some((join.there, Some((join, matched.as_mut()?)))));
-        for (part, seam) in seams.chain(hub.map(|part| (part, None))) {
-            let points = follow(surface, self.cell, part, self.frame)?;
-            added += points.len();
-            if let Some((join, matched)) = seam {
+        let hub = self.cell.hub();
+        for (join, matched) in self.cell.joins.iter().zip(matched) {
+            let Some(matched) = matched else { continue };
+            let of_hub = hub.map(|_| join.there.of_hub());
+            for part in [Some(join.there), of_hub].into_iter().flatten() {
+                let points = follow(surface, self.cell, part, self.frame)?;
+                added += points.len();
                 matched.add(surface, join, &points);
             }
+        }
+        if let Some(face) = hub {
+            added += follow(surface, self.cell, Part::whole(face), self.frame)?.len();
         }
         notes.push(format!(
             "{added} points within the cut faces, which follow the seam"

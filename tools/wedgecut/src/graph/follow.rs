@@ -4,6 +4,7 @@ use crate::cell::{Cell, Class, Part};
 use crate::error::CutError;
 use crate::section::{Known, Piece, Section};
 use crate::surface::Surface;
+use geom::cdt::{Cdt, CdtError};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use tmesh::{Frame, Triangle};
@@ -30,30 +31,35 @@ pub fn follow(
     part: Part,
     frame: &Frame,
 ) -> Result<Vec<u32>, CutError> {
-    let faces = surface.faces.clone();
-    let sided: Vec<Triangle> = match cell.hub() {
-        // The hub's wall is closed from outside.
-        Some(hub) if part.face == hub => {
-            let is_outer = |v: &u32| surface.classes[*v as usize].of(hub) >= 0;
-            (faces.into_iter())
-                .filter(|f| f.vertices.iter().all(is_outer))
-                .collect()
-        }
-        _ => faces,
+    // Wedge and hub are closed apart.
+    let is_own = |surface: &Surface, v: &u32| {
+        let side = cell.hub().map_or(0, |h| surface.classes[*v as usize].of(h));
+        if part.of_hub { side <= 0 } else { side >= 0 }
     };
+    let faces = surface.faces.iter().copied();
+    let faces: Vec<Triangle> = faces
+        .filter(|f| f.vertices.iter().all(|v| is_own(surface, v)))
+        .collect();
     let mut added = Vec::new();
+    let mut is_rounded = false;
     for _ in 0..ROUNDS {
-        let new = {
-            let piece = Piece {
-                surface,
-                faces: &sided,
-                corners: surface.corners.clone(),
-            };
-            let section = Section::new(&piece, cell, part);
-            let cap = section.cap(&piece, cell, frame, &Known::default())?;
-            Look::new(surface, cell, &section, &cap).points()
+        let corners = surface.corners.iter().copied();
+        let piece = Piece {
+            surface,
+            faces: &faces,
+            corners: corners.filter(|v| is_own(surface, v)).collect(),
         };
-        let before = added.len();
+        let section = Section::new(&piece, cell, part);
+        let cap = section.cap(&piece, cell, frame, &Known::default())?;
+        let look = Look::new(surface, cell, &section, &cap);
+        let mut new = look.middles();
+        if new.is_empty() && !is_rounded && look.is_bent() {
+            is_rounded = true;
+            new = look.rounded().unwrap_or_default();
+        }
+        if new.is_empty() {
+            break;
+        }
         for q in new {
             let (p, class) = cell.classify(part.at(&cell.faces, q));
             if class.bound() == Class::INSIDE.with(part.face, 0).bound() {
@@ -61,9 +67,6 @@ pub fn follow(
                 surface.corners.push(v);
                 added.push(v);
             }
-        }
-        if added.len() == before {
-            break;
         }
     }
     Ok(added)
@@ -108,12 +111,16 @@ impl<'a> Look<'a> {
         self.cell.bulge([p, q], middle)
     }
 
-    /// Where points are missing, as coordinates of the part.
-    fn points(&self) -> Vec<DVec2> {
-        let edges = |t: &Triangle| {
-            let [a, b, c] = t.vertices;
-            [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)])
-        };
+    /// Whether any edge inside is off the seam by more than rounding makes of it.
+    fn is_bent(&self) -> bool {
+        let inner = self.cap.iter().flat_map(edges).filter(|e| !self.is_rim(*e));
+        inner
+            .into_iter()
+            .any(|e| self.bulge(e) > f64::EPSILON.sqrt())
+    }
+
+    /// The middles of edges that are away from the seam, as coordinates of the part.
+    fn middles(&self) -> Vec<DVec2> {
         let mut bulges: FxHashMap<[u32; 2], f64> = FxHashMap::default();
         for ends in self.cap.iter().flat_map(edges) {
             bulges
@@ -128,31 +135,29 @@ impl<'a> Look<'a> {
             .filter(|(_, bulge)| **bulge > BULGE)
             .map(|(&[v, w], _)| ([v, w], self.at[&v].midpoint(self.at[&w])))
             .collect();
-        if !found.is_empty() {
-            found.sort_unstable_by_key(|(ends, _)| *ends);
-            return found.into_iter().map(|(_, q)| q).collect();
+        found.sort_unstable_by_key(|(ends, _)| *ends);
+        found.into_iter().map(|(_, q)| q).collect()
+    }
+
+    /// Points that take narrow triangles out.
+    fn rounded(&self) -> Result<Vec<DVec2>, CdtError> {
+        let points = &self.section.points;
+        let number = |v: u32| points.binary_search(&v).map_or(0, |i| i as u32);
+        let mut uses: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+        for ends in self.cap.iter().flat_map(edges) {
+            *uses.entry(ends).or_default() += 1;
         }
-        // Flat: off by no more than rounding makes of it.
-        let is_bent = |t: &&Triangle| edges(t).iter().any(|e| bulges[e] > f64::EPSILON.sqrt());
-        let mut centres: Vec<(DVec2, f64)> = Vec::new();
-        for t in self.cap.iter().filter(is_bent) {
-            let corners = t.vertices.map(|v| self.at[&v]);
-            let sides = [0, 1, 2].map(|k| corners[k].distance(corners[(k + 1) % 3]));
-            let shortest = sides.into_iter().fold(f64::INFINITY, f64::min);
-            let Some(centre) = circumcentre(corners) else {
-                continue;
-            };
-            let radius = centre.distance(corners[0]);
-            if radius <= RATIO * shortest || !self.is_inside(centre) || self.is_at_rim(centre) {
-                continue;
-            }
-            let apart =
-                |&(other, reach): &(DVec2, f64)| centre.distance(other) >= radius.min(reach);
-            if centres.iter().all(apart) {
-                centres.push((centre, radius));
-            }
-        }
-        centres.into_iter().map(|(centre, _)| centre).collect()
+        let rim = uses
+            .iter()
+            .filter(|(ends, count)| **count == 1 || self.is_rim(**ends));
+        let mut rim: Vec<[u32; 2]> = rim.map(|(ends, _)| ends.map(number)).collect();
+        rim.sort_unstable();
+        let places: Vec<[f64; 2]> = points.iter().map(|v| self.at[v].to_array()).collect();
+        let new = Cdt::new(&places, &rim)?.refining(RATIO).into_iter();
+        Ok(new
+            .map(DVec2::from)
+            .filter(|q| self.is_inside(*q))
+            .collect())
     }
 
     fn is_inside(&self, q: DVec2) -> bool {
@@ -163,20 +168,9 @@ impl<'a> Look<'a> {
             sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
         })
     }
-
-    /// Whether a point is in the circle over an edge where the section ends.
-    fn is_at_rim(&self, q: DVec2) -> bool {
-        self.section.edges.iter().any(|e| {
-            let [a, b] = e.ends.map(|v| self.at[&v]);
-            (a - q).dot(b - q) <= 0.0
-        })
-    }
 }
 
-fn circumcentre([a, b, c]: [DVec2; 3]) -> Option<DVec2> {
-    let (u, v) = (b - a, c - a);
-    let area = 2.0 * u.perp_dot(v);
-    let (x, y) = (u.length_squared(), v.length_squared());
-    let centre = a + DVec2::new(v.y * x - u.y * y, u.x * y - v.x * x) / area;
-    centre.is_finite().then_some(centre)
+fn edges(t: &Triangle) -> [[u32; 2]; 3] {
+    let [a, b, c] = t.vertices;
+    [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)])
 }
