@@ -46,10 +46,11 @@ pub struct Cli {
     start_angle: Angle,
 
     /// Surface in which the sides of a rotation wedge lie: `plane`, a half plane; `auto`, one that passes between the
-    /// blades where that is better; or a file that gives its angle as a table. Each line has a distance from the
-    /// axis, a height (model units, in the symmetry's frame) and an angle from the reference direction (degrees),
-    /// linear between them; each distance comes with each height
-    #[arg(long, value_name = "plane|auto|FILE", default_value = "auto")]
+    /// blades where that slices less; or a file that gives its angle as a table. Each line has a distance from the
+    /// axis, a height along it from the origin (model units) and an angle from the reference direction (degrees; axis
+    /// and direction as symdetect reports them), linear between them; each distance comes with each height.
+    /// --start-angle turns it
+    #[arg(long, value_name = "plane|auto|FILE", default_value = "plane")]
     seam: PathBuf,
 
     /// Column around the axis that is meshed apart from the wedge, against small angles on the axis:

@@ -117,7 +117,7 @@ pub enum CutError {
     },
     /// A seam that the group cannot have.
     #[error("--seam FILE does not fit: {0}")]
-    NoSeam(String),
+    NoSeam(&'static str),
     /// The wedge's surface does not close.
     #[error(
         "the cut surface does not close at {count} edges, the first near ({:.6}, {:.6}, {:.6})",
@@ -207,7 +207,9 @@ impl From<CutError> for Failure {
             CutError::NotADivisor { .. } | CutError::NoMirror(_) => {
                 Self::Impossible(error.to_string())
             }
-            CutError::NotAMirrorPlane { .. } => Self::Usage(error.to_string()),
+            CutError::NotAMirrorPlane { .. } | CutError::NoSeam(_) => {
+                Self::Usage(error.to_string())
+            }
             CutError::NoSymmetry | CutError::NotASurface(_) | CutError::BadAxis(..) => {
                 Self::Input(error.to_string())
             }

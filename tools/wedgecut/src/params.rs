@@ -31,11 +31,11 @@ pub enum Hub {
 /// Which surface the sides of a rotation wedge lie in.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Seam {
-    /// A half plane, or what passes between the blades where that is better.
-    #[default]
-    Auto,
     /// A half plane.
+    #[default]
     Plane,
+    /// A half plane, or what passes between the blades where that is better.
+    Auto,
     /// The graph of an angle from the reference direction.
     Graph(Arc<Graph>),
 }

@@ -5,7 +5,7 @@ use crate::body::Body;
 use crate::cell::angle;
 use crate::cutting::Place;
 use crate::error::CutError;
-use crate::graph::Graph;
+use crate::graph::{Graph, between};
 use crate::params::Seam;
 use estimate::CostModel;
 use estimate::harm::sliced::Harm;
@@ -42,10 +42,13 @@ impl Places {
         match group.kind {
             _ if group.is_trivial() => Self::fixed(body, 0, 0.0),
             Kind::Cv | Kind::Dh | Kind::Dd => Self::of_mirrors(body, group),
-            Kind::D => Self::of_half_turns(body, group),
-            Kind::C | Kind::Ch | Kind::S => match &body.params.seam {
-                Seam::Graph(graph) => Self::of_graph(body, graph),
-                Seam::Plane | Seam::Auto => Self::of_seams(body, group),
+            Kind::D => match &body.graph {
+                Some(graph) => Self::of_graph(body, graph),
+                None => Self::of_half_turns(body, group),
+            },
+            Kind::C | Kind::Ch | Kind::S => match &body.graph {
+                Some(graph) => Self::of_graph(body, graph),
+                None => Self::of_seams(body, group),
             },
         }
     }
@@ -201,6 +204,10 @@ impl Places {
             warning = is_harmful(angle, given, list[0])?;
             list = vec![(angle, given)];
         }
+        let graph = match (&body.params.seam, body.params.start_angle) {
+            (Seam::Auto, None) if group.kind != Kind::S => Self::between(body, opening, list[0].1),
+            _ => None,
+        };
         // Turns of the rotation have as many faces as it has sides.
         let sides = if group.kind == Kind::S { 2.0 } else { 1.0 };
         let place = |(angle, harm): (f64, Harm)| {
@@ -211,12 +218,30 @@ impl Places {
                 graph: None,
             })
         };
+        let planes: Vec<Place> = list
+            .into_iter()
+            .map(place)
+            .collect::<Result<_, CutError>>()?;
         Ok(Self {
-            list: list
-                .into_iter()
-                .map(place)
-                .collect::<Result<_, CutError>>()?,
+            list: graph.into_iter().chain(planes).collect(),
             warning,
+        })
+    }
+
+    /// The seam between the blades, where it harms less than a plane does.
+    fn between(body: &Body<'_>, opening: f64, plane: Harm) -> Option<Place> {
+        let elements = |harm: Harm| (CostModel::CALIBRATED.sliced * harm.total()).round();
+        if elements(plane) == 0.0 {
+            return None;
+        }
+        let vertices = body.canonical();
+        let graph = between(&vertices, &body.surface.triangles, opening)?;
+        let harm = harm_of_graph(body, &vertices, &graph);
+        (elements(harm) < elements(plane)).then(|| Place {
+            frame: body.frame,
+            start: Isometry::IDENTITY,
+            harm: harm.sliced,
+            graph: Some(Arc::new(graph)),
         })
     }
 }
@@ -237,6 +262,17 @@ fn slicing(body: &Body<'_>) -> impl Fn(f64) -> Harm {
     let size = body.element_size();
     let plane = body.tolerance.on_plane().max(body.tolerance.detail());
     move |angle| sliced::harm(&vertices, &body.surface.triangles, angle, plane, &size)
+}
+
+/// The harm of a graph.
+fn harm_of_graph(body: &Body<'_>, vertices: &[DVec3], graph: &Graph) -> Harm {
+    let step = f64::EPSILON.cbrt() * body.tolerance.extent().size();
+    let cut = sliced::Surface {
+        heights: vertices.iter().map(|p| graph.straighten(*p).y).collect(),
+        normal: |p: DVec3| graph.normal(p, step),
+        tolerance: body.tolerance.on_plane().max(body.tolerance.detail()),
+    };
+    sliced::harm_of(vertices, &body.surface.triangles, cut, body.element_size())
 }
 
 /// Says that the place of a seam, as an angle (radians) and the harm there, is a bad one, if there is a much

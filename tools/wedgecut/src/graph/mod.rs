@@ -7,14 +7,17 @@
 //! divided before ([`divide`]), and a section has points inside of it so that its triangles follow the graph
 //! ([`follow`]).
 
+mod between;
 mod divide;
 mod follow;
+mod gaps;
 mod restore;
 mod seam;
 mod table;
 
+pub use between::between;
 pub use divide::divide;
 pub use follow::follow;
 pub use restore::restore;
-pub use seam::Graph;
+pub use seam::{Graph, Parity};
 pub use table::read;

@@ -77,6 +77,35 @@ impl Graph {
         turn(p, self.angle(p.x.hypot(p.y), p.z))
     }
 
+    /// The same graph, raised by a height, model units.
+    pub fn raised(mut self, by: f64) -> Self {
+        self.heights.iter_mut().for_each(|z| *z += by);
+        self
+    }
+
+    /// The same graph, turned by an angle, radians.
+    pub fn turned(mut self, angle: f64) -> Self {
+        self.angles.iter_mut().for_each(|a| *a += angle);
+        self
+    }
+
+    /// The unit normal of the seam at the distance and height of a point, in the direction of increasing angles; `None`
+    /// where the point is on the other side of the axis. `step`: a length over which the graph hardly changes.
+    pub fn normal(&self, p: DVec3, step: f64) -> Option<DVec3> {
+        if self.straighten(p).x <= 0.0 {
+            return None;
+        }
+        let radius = p.x.hypot(p.y);
+        let slope = |r: f64, z: f64| {
+            self.angle(radius + r, p.z + z) - self.angle((radius - r).max(0.0), p.z - z)
+        };
+        let (out, up) = (slope(step, 0.0), slope(0.0, step));
+        let outward = DVec3::new(p.x, p.y, 0.0) / radius;
+        let along = DVec3::Z.cross(outward);
+        let normal = along - (outward * out + DVec3::Z * up) * (0.5 * radius / step);
+        normal.try_normalize()
+    }
+
     /// The number of the patch of the graph that a point is in: within a patch the graph is smooth.
     pub fn patch(&self, p: DVec3) -> [usize; 2] {
         let number = |knots: &[f64], x: f64| knots.partition_point(|&k| k <= x);
@@ -86,8 +115,10 @@ impl Graph {
         ]
     }
 
-    /// What the graph does where the height changes its sign; `rounding` is that of an angle, radians.
-    pub fn parity(&self, rounding: f64) -> Parity {
+    /// What the graph does where the height changes its sign.
+    pub fn parity(&self) -> Parity {
+        // The height of the centre is that of a body, not of a table.
+        let rounding = f64::EPSILON.sqrt();
         let mirrored = self.heights.iter().map(|z| -z);
         let heights: Vec<f64> = mirrored.chain(self.heights.iter().copied()).collect();
         let all = |is: &dyn Fn(f64, f64) -> bool| {
@@ -139,8 +170,8 @@ mod tests {
         assert_eq!(graph.angle(9.0, 9.0), 2.5);
         let p = DVec3::new(1.2, -0.7, 0.4);
         assert!(graph.bend(graph.straighten(p)).distance(p) < 1e-15);
-        assert_eq!(graph.parity(0.0), Parity::None);
+        assert_eq!(graph.parity(), Parity::None);
         let odd = Graph::new(vec![0.0], vec![-1.0, 1.0], vec![-0.3, 0.3]);
-        assert_eq!(odd.parity(f64::EPSILON), Parity::Odd);
+        assert_eq!(odd.parity(), Parity::Odd);
     }
 }
