@@ -131,7 +131,7 @@ impl Work<'_> {
         let measures = TetMeasures::of(self.mesh.corners(tet).map(at));
         Failing {
             past: measures.radius_edge_ratio > self.wish.radius_edge,
-            angle: measures.min_dihedral.to_degrees(),
+            angle: measures.min_dihedral().to_degrees(),
         }
     }
 

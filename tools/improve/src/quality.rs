@@ -200,7 +200,7 @@ mod tests {
             assert!((grade.six_volume - 6.0 * m.volume).abs() < 1e-14);
             signs[usize::from(m.volume > 0.0)] += 1;
             if m.volume > 0.0 {
-                let angle = m.min_dihedral.tan() / 20_f64.to_radians().tan();
+                let angle = m.min_dihedral().tan() / 20_f64.to_radians().tan();
                 let expected = goal.quality(angle, 1.4 / m.radius_edge_ratio);
                 assert!(
                     (grade.quality / expected - 1.0).abs() < 1e-9,

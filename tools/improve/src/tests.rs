@@ -390,7 +390,7 @@ fn partners_on_a_seam_move_as_one() {
     assert!((volume(&template, &template.tets) - whole).abs() < 1e-12);
     for t in &template.tets {
         let m = TetMeasures::of(t.vertices.map(|v| template.vertices[v as usize]));
-        assert!(m.min_dihedral.to_degrees() > 5.0);
+        assert!(m.min_dihedral().to_degrees() > 5.0);
     }
 }
 

@@ -24,10 +24,10 @@ pub struct TetMeasures {
     /// Radius of the circumscribed sphere over the shortest edge; sqrt(6)/4 when regular, infinite
     /// when flat.
     pub radius_edge_ratio: f64,
-    /// Smallest angle between two faces, radians; acos(1/3) when regular, 0 when flat.
-    pub min_dihedral: f64,
-    /// Largest angle between two faces, radians; pi when flat (unless it is a needle).
-    pub max_dihedral: f64,
+    /// The least and the greatest cotangent of an angle between two faces, both times `sine`.
+    cosines: [f64; 2],
+    /// What the cotangents are over: six times the volume of the tetrahedron in a unit of its size.
+    sine: f64,
     /// Longest edge over 2 sqrt(6) times the radius of the inscribed sphere; 1 when regular,
     /// infinite when flat.
     pub aspect_ratio: f64,
@@ -71,10 +71,25 @@ impl TetMeasures {
             volume,
             edges,
             radius_edge_ratio: or_infinite(circumradius / shortest),
-            min_dihedral: libm::atan2(six_volume, high),
-            max_dihedral: libm::atan2(six_volume, low),
+            cosines: [low, high],
+            sine: six_volume,
             aspect_ratio: or_infinite(longest / (2.0 * 6.0_f64.sqrt() * inradius)),
         }
+    }
+
+    /// Smallest angle between two faces, radians; acos(1/3) when regular, 0 when flat.
+    pub fn min_dihedral(&self) -> f64 {
+        libm::atan2(self.sine, self.cosines[1])
+    }
+
+    /// Largest angle between two faces, radians; pi when flat (unless it is a needle).
+    pub fn max_dihedral(&self) -> f64 {
+        libm::atan2(self.sine, self.cosines[0])
+    }
+
+    /// Whether an angle between two faces is below the one of this cotangent, without computing the angle.
+    pub fn has_dihedral_below(&self, cotangent: f64) -> bool {
+        self.cosines[1] > cotangent * self.sine
     }
 }
 
@@ -112,8 +127,8 @@ mod tests {
             );
             close(m.edges[3] / size, edge);
             close(m.radius_edge_ratio, 6.0_f64.sqrt() / 4.0);
-            close(m.min_dihedral, (1.0_f64 / 3.0).acos());
-            close(m.max_dihedral, (1.0_f64 / 3.0).acos());
+            close(m.min_dihedral(), (1.0_f64 / 3.0).acos());
+            close(m.max_dihedral(), (1.0_f64 / 3.0).acos());
             close(m.aspect_ratio, 1.0);
         }
     }
@@ -124,8 +139,8 @@ mod tests {
         let m = TetMeasures::of(corners);
         close(m.volume, 1.0 / 6.0);
         close(m.radius_edge_ratio, 0.75_f64.sqrt());
-        close(m.min_dihedral, (1.0 / 3.0_f64.sqrt()).acos());
-        close(m.max_dihedral, std::f64::consts::FRAC_PI_2);
+        close(m.min_dihedral(), (1.0 / 3.0_f64.sqrt()).acos());
+        close(m.max_dihedral(), std::f64::consts::FRAC_PI_2);
         // Inradius 1 / (3 + sqrt 3).
         close(
             m.aspect_ratio,
@@ -134,7 +149,7 @@ mod tests {
         let [a, b, c, d] = corners;
         let turned = TetMeasures::of([b, a, c, d]);
         close(turned.volume, -1.0 / 6.0);
-        close(turned.min_dihedral, m.min_dihedral);
+        close(turned.min_dihedral(), m.min_dihedral());
         close(turned.radius_edge_ratio, m.radius_edge_ratio);
     }
 
@@ -150,22 +165,22 @@ mod tests {
             DVec3::new(0.0, 1.0, h),
         ]);
         assert!(m.volume > 0.0);
-        close(m.max_dihedral, std::f64::consts::PI - 2.0 * h);
+        close(m.max_dihedral(), std::f64::consts::PI - 2.0 * h);
         // Both faces at a side of the square rise by about h over a distance 1/sqrt 2.
         let expected = 2.0_f64.sqrt() * h;
-        assert!((m.min_dihedral / expected - 1.0).abs() < 1e-9);
+        assert!((m.min_dihedral() / expected - 1.0).abs() < 1e-9);
     }
 
     #[test]
     fn flat_and_collapsed_ones_are_infinitely_bad() {
         let flat = TetMeasures::of([DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y]);
         assert_eq!(flat.volume, 0.0);
-        assert_eq!(flat.min_dihedral, 0.0);
-        close(flat.max_dihedral, std::f64::consts::PI);
+        assert_eq!(flat.min_dihedral(), 0.0);
+        close(flat.max_dihedral(), std::f64::consts::PI);
         assert!(flat.radius_edge_ratio.is_infinite() && flat.aspect_ratio.is_infinite());
         let point = TetMeasures::of([DVec3::ONE; 4]);
         assert!(point.radius_edge_ratio.is_infinite() && point.aspect_ratio.is_infinite());
-        assert!(!point.min_dihedral.is_nan() && !point.max_dihedral.is_nan());
+        assert!(!point.min_dihedral().is_nan() && !point.max_dihedral().is_nan());
     }
 
     #[test]

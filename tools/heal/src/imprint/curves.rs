@@ -46,17 +46,9 @@ impl Curves {
                 double_area_vector(a, b, c).normalize_or_zero()
             })
             .collect();
-        let mut fans: Vec<Vec<u32>> = vec![Vec::new(); complex.points.len()];
-        for (t, corners) in (0..).zip(&complex.triangles) {
-            for &v in corners {
-                fans[v as usize].push(t);
-            }
-        }
+        let around = flat_parts(complex, &normals, solid);
         let mut patches: Vec<Patch> = (0..complex.triangles.len())
-            .map(|t| {
-                let fan = |v: u32| fans[v as usize].as_slice();
-                patch(complex, t, &normals, solid, fan)
-            })
+            .map(|t| patch(complex, t, normals[t], solid[t], &around))
             .collect();
         let mut sharp = vec![Vec::new(); complex.points.len()];
         for e in 0..edges.len() {
@@ -111,29 +103,56 @@ impl Curves {
     }
 }
 
-fn patch<'a>(
-    complex: &Complex,
-    t: usize,
-    normals: &[DVec3],
-    solid: &[u32],
-    fan: impl Fn(u32) -> &'a [u32],
-) -> Patch {
-    let corners = complex.corners(t as u32);
-    let normal = normals[t];
-    // Mean normals by angle, so that they do not depend on how faces are cut into triangles.
-    let mean = complex.triangles[t].map(|v| {
-        let mut sum = DVec3::ZERO;
-        for &u in fan(v) {
-            let u = u as usize;
-            if solid[u] == solid[t] && normals[u].dot(normal) >= SMOOTH.cos() {
-                let ids = complex.triangles[u];
-                let i = ids.iter().position(|&w| w == v).unwrap_or(0);
-                let places = complex.corners(u as u32);
-                let [a, b] = [1, 2].map(|k| places[(i + k) % 3] - places[i]);
-                sum += normals[u] * a.angle_between(b);
+/// What one flat face of a solid has around a vertex.
+struct FlatPart {
+    face: u32,
+    solid: u32,
+    /// Unit normal of one of its triangles.
+    normal: DVec3,
+    /// Normals of its triangles by their angles at the vertex, so that they do not depend on how faces are cut into
+    /// triangles.
+    sum: DVec3,
+}
+
+/// Of each vertex: the flat faces around it, a fan of triangles in one plane being one of them.
+fn flat_parts(complex: &Complex, normals: &[DVec3], solid: &[u32]) -> Vec<Vec<FlatPart>> {
+    let mut around: Vec<Vec<FlatPart>> = complex.points.iter().map(|_| Vec::new()).collect();
+    for (t, corners) in complex.triangles.iter().enumerate() {
+        let places = complex.corners(t as u32);
+        let (face, solid, normal) = (complex.face[t], solid[t], normals[t]);
+        for (i, &v) in corners.iter().enumerate() {
+            let [a, b] = [1, 2].map(|k| places[(i + k) % 3] - places[i]);
+            let weighted = normal * a.angle_between(b);
+            let parts = &mut around[v as usize];
+            match parts.iter_mut().find(|p| p.face == face) {
+                Some(part) => part.sum += weighted,
+                None => parts.push(FlatPart {
+                    face,
+                    solid,
+                    normal,
+                    sum: weighted,
+                }),
             }
         }
-        sum.normalize_or_zero()
+    }
+    around
+}
+
+fn patch(
+    complex: &Complex,
+    t: usize,
+    normal: DVec3,
+    solid: u32,
+    around: &[Vec<FlatPart>],
+) -> Patch {
+    let corners = complex.corners(t as u32);
+    let mean = complex.triangles[t].map(|v| {
+        let smooth = (around[v as usize].iter())
+            .filter(|part| part.solid == solid && part.normal.dot(normal) >= SMOOTH.cos());
+        smooth
+            .map(|part| part.sum)
+            .sum::<DVec3>()
+            .normalize_or_zero()
     });
     let bends = [0, 1, 2].map(|i| {
         let j = (i + 1) % 3;

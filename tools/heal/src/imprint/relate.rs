@@ -63,8 +63,9 @@ pub fn relate(
 ) -> Relations {
     let mut near = Vec::new();
     let face = complex.face.clone();
+    let all: Vec<u32> = (0..complex.triangles.len() as u32).collect();
     let search = near_pairs(
-        complex,
+        (complex, &all),
         reach,
         |t| face[t as usize],
         |s, t| is_new(s) || is_new(t),
@@ -78,17 +79,18 @@ pub fn relate(
     finder.found
 }
 
-/// Whether triangles of different solids are related, other than those of solids that are `joined` already.
+/// Whether some triangles of different solids are related, other than those of solids that are `joined` already.
 pub fn is_related(
     complex: &mut Complex,
     incidence: Incidence<'_>,
     solid_of: impl Fn(u32) -> u32,
-    joined: impl Fn(u32, u32) -> bool,
+    (some, joined): (&[u32], impl Fn(u32, u32) -> bool),
     reach: Reach<'_>,
 ) -> bool {
     let mut near = Vec::new();
     let apart = |s: u32, t: u32| !joined(solid_of(s), solid_of(t));
-    let search = near_pairs(complex, reach, &solid_of, apart, |s, t| near.push([s, t]));
+    let visit = |s, t| near.push([s, t]);
+    let search = near_pairs((complex, some), reach, &solid_of, apart, visit);
     if search == Search::GaveUp {
         return false;
     }
@@ -103,10 +105,10 @@ fn meets(complex: &Complex, s: u32, t: u32) -> bool {
     contact(&complex.points, p, q).is_some()
 }
 
-/// Calls `visit` with the pairs of triangles of different groups that are `wanted` and may be within reach of each
+/// Calls `visit` with the pairs of some triangles of different groups that are `wanted` and may be within reach of each
 /// other, the lower one first.
 fn near_pairs(
-    complex: &Complex,
+    (complex, some): (&Complex, &[u32]),
     reach: Reach<'_>,
     group: impl Fn(u32) -> u32,
     wanted: impl Fn(u32, u32) -> bool,
@@ -115,23 +117,27 @@ fn near_pairs(
     // Boxes only sort out pairs: those of a frame along the faces are smaller, and what turning rounds is less than the
     // reach.
     let frame = alignment(complex.triangles.len(), |t| complex.corners(t as u32));
-    let boxes = (0..complex.triangles.len() as u32).map(|t| {
+    let boxes = some.iter().map(|&t| {
         let [a, b, c] = (complex.corners(t)).map(|p| frame.map_or(p, |frame| frame * p));
         let reach = reach.of(t);
         [a.min(b).min(c) - reach, a.max(b).max(c) + reach]
     });
-    pairs(boxes, group, |s, t| {
-        let (s, t) = (s.min(t), s.max(t));
-        if !wanted(s, t) {
-            return true;
-        }
-        let [p, q] = [s, t].map(|t| complex.corners(t));
-        let within = reach.of(s).max(reach.of(t));
-        if !(is_beside(&p, &q, within) || is_beside(&q, &p, within)) {
-            visit(s, t);
-        }
-        true
-    })
+    pairs(
+        boxes,
+        |i| group(some[i as usize]),
+        |s, t| {
+            let [s, t] = [s.min(t), s.max(t)].map(|i| some[i as usize]);
+            if !wanted(s, t) {
+                return true;
+            }
+            let [p, q] = [s, t].map(|t| complex.corners(t));
+            let within = reach.of(s).max(reach.of(t));
+            if !(is_beside(&p, &q, within) || is_beside(&q, &p, within)) {
+                visit(s, t);
+            }
+            true
+        },
+    )
 }
 
 /// Looks for relations in pairs of triangles.

@@ -136,27 +136,46 @@ pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> 
         faces: &faces,
     };
     let solid_of = |t: u32| surface.solid[t as usize];
-    let shared = sharing(surface);
-    let joined = |a: u32, b: u32| shared.contains(&[a.min(b), a.max(b)]);
-    is_related(&mut complex, incidence, solid_of, joined, reach)
+    let shared = Shared::of(surface);
+    let joined = |a: u32, b: u32| shared.solids.contains(&[a.min(b), a.max(b)]);
+    let some = (shared.others.as_slice(), joined);
+    is_related(&mut complex, incidence, solid_of, some, reach)
 }
 
-/// Pairs of solids that have the same triangle, to the bit of its corners; the lower one first.
-fn sharing(surface: &Surface) -> FxHashSet<[u32; 2]> {
-    let mut seen: FxHashMap<[[u64; 3]; 3], u32> = FxHashMap::default();
-    let mut shared = FxHashSet::default();
-    for (corners, &solid) in surface.triangles.iter().zip(&surface.solid) {
+/// What solids have in common.
+struct Shared {
+    /// Pairs of solids that have the same triangle, to the bit of its corners; the lower one first.
+    solids: FxHashSet<[u32; 2]>,
+    /// The triangles that one solid has, in order. Behind the others there is a solid on either side: what touches them
+    /// overlaps one of the two.
+    others: Vec<u32>,
+}
+
+impl Shared {
+    fn of(surface: &Surface) -> Self {
         let bits = |v: u32| surface.points[v as usize].to_array().map(f64::to_bits);
-        let mut key = corners.map(bits);
-        key.sort_unstable();
-        if let Some(&other) = seen.get(&key)
-            && other != solid
-        {
-            shared.insert([solid.min(other), solid.max(other)]);
+        let mut seen: FxHashMap<[[u64; 3]; 3], u32> = FxHashMap::default();
+        let mut solids = FxHashSet::default();
+        let mut is_shared = vec![false; surface.triangles.len()];
+        for (t, corners) in (0..).zip(&surface.triangles) {
+            let mut key = corners.map(bits);
+            key.sort_unstable();
+            let Some(other) = seen.insert(key, t) else {
+                continue;
+            };
+            let [a, b] = [t, other].map(|t| surface.solid[t as usize]);
+            if a != b {
+                solids.insert([a.min(b), a.max(b)]);
+                is_shared[t as usize] = true;
+                is_shared[other as usize] = true;
+            }
         }
-        seen.insert(key, solid);
+        let others = (0..surface.triangles.len() as u32).filter(|&t| !is_shared[t as usize]);
+        Self {
+            solids,
+            others: others.collect(),
+        }
     }
-    shared
 }
 
 /// Which solids have triangles that meet away from common vertices and edges.

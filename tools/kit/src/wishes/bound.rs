@@ -20,6 +20,9 @@ pub enum Measure {
 pub struct Bound {
     pub measure: Measure,
     pub asked: f64,
+    /// What elements are compared with: `asked`, or the cotangent of that angle, as taking the angles of all elements
+    /// would take longer than all else.
+    limit: f64,
     /// What was asked, as a message says it.
     pub words: String,
     /// Regions that it holds for; `None` for all.
@@ -46,7 +49,7 @@ impl Measure {
     /// The value of an element.
     pub fn of(self, element: &TetMeasures) -> f64 {
         match self {
-            Self::Dihedral => element.min_dihedral.to_degrees(),
+            Self::Dihedral => element.min_dihedral().to_degrees(),
             Self::RadiusEdge => element.radius_edge_ratio,
             Self::Volume => element.volume,
         }
@@ -72,6 +75,10 @@ impl Bound {
             asked.map(|asked| Self {
                 measure,
                 asked,
+                limit: match measure {
+                    Measure::Dihedral => libm::tan(asked.to_radians()).recip(),
+                    Measure::RadiusEdge | Measure::Volume => asked,
+                },
                 words: format!("{} asked for", number(asked)),
                 regions: None,
             })
@@ -85,6 +92,7 @@ impl Bound {
                 bounds.push(Self {
                     measure: Measure::Volume,
                     asked,
+                    limit: asked,
                     words: format!("{} asked for in '{}'", number(asked), region.name),
                     regions: Some(vec![region.id]),
                 });
@@ -107,14 +115,20 @@ impl Bound {
         Self {
             measure: Measure::Volume,
             asked,
+            limit: asked,
             words,
             regions: own.then(|| without.map(|r| r.id).collect()),
         }
     }
 
-    /// Whether a value is beyond the bound.
-    pub fn fails(&self, value: f64) -> bool {
-        self.measure.badness(value) > self.measure.badness(self.asked)
+    /// The value of an element that is beyond the bound.
+    pub fn beyond(&self, element: &TetMeasures) -> Option<f64> {
+        let fails = match self.measure {
+            Measure::Dihedral => element.has_dihedral_below(self.limit),
+            Measure::RadiusEdge => element.radius_edge_ratio > self.limit,
+            Measure::Volume => element.volume > self.limit,
+        };
+        fails.then(|| self.measure.of(element))
     }
 
     /// Whether it holds for a region.

@@ -103,8 +103,8 @@ fn elements<'a>(document: &'a Document, bounds: &[Bound]) -> Vec<Failing<'a>> {
             let measures = TetMeasures::of(corners(&template.vertices, tet.vertices));
             let region = document.placed_region(first, tet.region);
             let failing = bounds.iter().enumerate().filter_map(move |(i, bound)| {
-                let value = bound.measure.of(&measures);
-                (bound.holds_for(region) && bound.fails(value)).then_some((i, value))
+                let value = bound.beyond(&measures)?;
+                bound.holds_for(region).then_some((i, value))
             });
             failing.map(move |(i, value)| (i, value, tet))
         });

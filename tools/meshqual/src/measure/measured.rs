@@ -126,8 +126,8 @@ fn values(template: &Template) -> [Vec<f64>; 6] {
     for tet in &template.tets {
         let m = TetMeasures::of(tet.vertices.map(|v| template.vertices[v as usize]));
         radius_edge.push(m.radius_edge_ratio);
-        min_dihedral.push(m.min_dihedral.to_degrees());
-        max_dihedral.push(m.max_dihedral.to_degrees());
+        min_dihedral.push(m.min_dihedral().to_degrees());
+        max_dihedral.push(m.max_dihedral().to_degrees());
         aspect.push(m.aspect_ratio);
         edges.extend_from_slice(&m.edges);
         volumes.push(m.volume);

@@ -57,7 +57,9 @@ impl Look<'_> {
             divisors.map(of).fold(0.0, f64::max)
         };
         wanted.find(|&n| {
-            apart(n, largest(n, &|d| worst[d as usize]))
+            // Most orders fail by themselves; their divisors are not looked at.
+            worst[n as usize] <= limit
+                && apart(n, largest(n, &|d| worst[d as usize]))
                 && apart(n, largest(n, &|d| self.measure(d, SCAN)))
         })
     }

@@ -105,7 +105,7 @@ fn qualities(template: &Template) -> Vec<[u8; 3]> {
     corners
         .map(|v| {
             let m = TetMeasures::of(v.map(|v| template.vertices[v as usize]));
-            quality_colour(m.min_dihedral.to_degrees()).map(|c| c as u8)
+            quality_colour(m.min_dihedral().to_degrees()).map(|c| c as u8)
         })
         .collect()
 }
