@@ -64,6 +64,11 @@ impl Cell {
         middle.distance(p.midpoint(q)) / p.distance(q)
     }
 
+    /// Where on a way, from 0 to 1, it passes a crease of the seam.
+    pub fn crease(&self, at: impl Fn(f64) -> DVec3) -> Option<f64> {
+        self.graph.as_ref()?.crease(at)
+    }
+
     /// Where on the way between two points of opposite classes a face is crossed, given their distances from it.
     fn root(&self, face: usize, [p, q]: [DVec3; 2], [dp, dq]: [f64; 2]) -> f64 {
         let straight = dp / (dp - dq);

@@ -14,25 +14,53 @@ const TURNS: usize = 8;
 /// Passes over all rows and columns at most; most end after three.
 const PASSES: usize = 16;
 
-/// The graph that slices least of a surface in the canonical frame, whose images are `opening` (radians) apart.
+/// Numbers of knots along distances and heights of the graphs to choose from.
+const KNOTS: [[usize; 2]; 7] = [[1, 2], [2, 1], [2, 2], [1, 3], [2, 3], [3, 3], [5, 5]];
+
+/// Graphs with few and with more knots that slice little of a surface in the canonical frame, whose images are `opening` (radians) apart.
 ///
 /// It minimizes, over the half plane of distance and height, what is sliced and how steep it is, both in elements as wide as the
 /// arc `w` of the opening. At a distance `d` from the nearest surface, along the circle, an area `a` in material costs
 /// the elements as small as that beyond the fewest possible, `a ((w / 2d)^2 - 1) / w^2`; outside of material, where there are
 /// elements only at its ends, `a (w / 2d - 1) / w^2`. A slope `s`, which is that of the angle times the distance from the axis,
 /// costs `a s^2 / w^2`. Each row and column of a grid is solved by dynamic programming, the others given, until
-/// nothing changes.
-pub fn between(points: &[DVec3], triangles: &[Triangle], opening: f64) -> Option<Graph> {
-    let grid = grid(points)?;
+/// nothing changes. Graphs with a few knots begin at that and go downhill in the same measure.
+pub fn between(points: &[DVec3], triangles: &[Triangle], opening: f64) -> Vec<Graph> {
+    let Some(grid) = grid(points) else {
+        return Vec::new();
+    };
     let circles = Circles::new(points, triangles, opening, grid);
     let mut field = Field::new(&circles, opening);
     field.solve();
-    let angles = field.smooth();
-    Some(Graph::new(
-        circles.radii,
-        circles.heights,
-        angles.into_iter().map(|a| a * opening).collect(),
-    ))
+    let even = field.smooth();
+    let [radii, heights] = [&circles.radii, &circles.heights];
+    let fine = Graph::new(radii.clone(), heights.clone(), even);
+    let fits = |count: &[usize; 2]| count[0] <= radii.len() && count[1] <= heights.len();
+    let graphs = KNOTS.iter().filter(|count| fits(count)).map(|count| {
+        let knots = [knots(radii, count[0]), knots(heights, count[1])];
+        let place = |&r: &f64| knots[1].iter().map(move |&z| (r, z));
+        let places = knots[0].iter().flat_map(place);
+        let start: Vec<f64> = places.map(|(r, z)| fine.angle(r, z)).collect();
+        let [radii, heights] = &knots;
+        let make = |angles: Vec<f64>| Graph::new(radii.clone(), heights.clone(), angles);
+        let angles = field.downhill(&circles, start, &make);
+        make(angles.into_iter().map(|a| a * opening).collect())
+    });
+    graphs.collect()
+}
+
+/// Knots as far apart as each other from one end of a body to the other, given the middles of cells; one is in the middle.
+fn knots(values: &[f64], count: usize) -> Vec<f64> {
+    let (first, last) = (values[0], values[values.len() - 1]);
+    // A crease within the body is of no use.
+    let half = 0.5 * (last - first) / (values.len() as f64 - 1.0).max(1.0);
+    let (first, last) = (first - half, last + half);
+    match count {
+        1 => vec![0.5 * (first + last)],
+        _ => (0..count)
+            .map(|i| first + (last - first) * i as f64 / (count - 1) as f64)
+            .collect(),
+    }
 }
 
 /// Middles of square cells of the half plane of distance and height.
@@ -187,6 +215,63 @@ impl Field {
         }
         found.reverse();
         found
+    }
+
+    /// What a graph costs, whose angles are in openings.
+    fn cost(&self, circles: &Circles, graph: &Graph) -> f64 {
+        let mut sum = 0.0;
+        let mut last: Vec<f64> = Vec::new();
+        for (i, &radius) in circles.radii.iter().enumerate() {
+            let now: Vec<f64> = (circles.heights.iter())
+                .map(|&z| graph.angle(radius, z))
+                .collect();
+            for (j, &a) in now.iter().enumerate() {
+                // Between the middles of two parts.
+                let at = (a - a.floor()) * ANGLES as f64 - 0.5;
+                let part = at.floor();
+                let costs = &self.costs[self.at([i, j])];
+                let of = |k: f64| costs[(k as isize).rem_euclid(ANGLES as isize) as usize];
+                sum += of(part) + (of(part + 1.0) - of(part)) * (at - part);
+                if let Some(b) = last.get(j) {
+                    sum += self.steps[0] * (a - b).powi(2);
+                }
+                if j > 0 {
+                    sum += self.steps[1] * (a - now[j - 1]).powi(2);
+                }
+            }
+            last = now;
+        }
+        sum
+    }
+
+    /// Moves angles at knots, in openings, as long as the graph made of them costs less, by less and less.
+    fn downhill(
+        &self,
+        circles: &Circles,
+        mut angles: Vec<f64>,
+        make: &impl Fn(Vec<f64>) -> Graph,
+    ) -> Vec<f64> {
+        let mut least = self.cost(circles, &make(angles.clone()));
+        let mut step = 0.5;
+        while step > 0.5 / ANGLES as f64 {
+            let before = least;
+            for k in 0..angles.len() {
+                for by in [step, -step] {
+                    let was = angles[k];
+                    angles[k] += by;
+                    let cost = self.cost(circles, &make(angles.clone()));
+                    if cost < least {
+                        least = cost;
+                        break;
+                    }
+                    angles[k] = was;
+                }
+            }
+            if least == before {
+                step *= 0.5;
+            }
+        }
+        angles
     }
 
     /// The angles in openings, moved within their parts so that the graph is as even as they allow.

@@ -1,6 +1,6 @@
 //! Dividing edges that bend where the seam passes them.
 
-use super::seam::Graph;
+use super::seam::{Graph, samples};
 use crate::cell::{Cell, Face};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -10,9 +10,6 @@ use tmesh::{Template, Triangle};
 /// of one that is off by so much meet at a quarter of a radian at most. Larger, and an edge may pass the seam more than once;
 /// smaller, and the surface has more triangles along the seam than it needs.
 const STRAIGHT: f64 = 1.0 / 16.0;
-
-/// Places along an edge at which it is looked at.
-const SAMPLES: usize = 8;
 
 /// How often edges are halved at most: an edge is off by a quarter of what it was off by before, so that one of all of a turn
 /// is straight after half as many rounds.
@@ -55,11 +52,7 @@ pub fn divide(surface: &mut Template, graph: &Graph, cell: &Cell) -> usize {
 fn place(graph: &Graph, faces: &[&Face], [p, q]: [DVec3; 2]) -> Option<f64> {
     let at = |s: f64| p.lerp(q, s);
     let [a, b] = [p, q].map(|p| graph.straighten(p));
-    let sample = |i: usize| (i as f64 + 0.5) / SAMPLES as f64;
-    let off = (0..SAMPLES).map(|i| {
-        let s = sample(i);
-        graph.straighten(at(s)).distance(a.lerp(b, s))
-    });
+    let off = samples().map(|s| graph.straighten(at(s)).distance(a.lerp(b, s)));
     let off = off.fold(0.0, f64::max);
     if off <= STRAIGHT * p.distance(q) {
         return None;
@@ -72,20 +65,7 @@ fn place(graph: &Graph, faces: &[&Face], [p, q]: [DVec3; 2]) -> Option<f64> {
         return None;
     }
     // Where the graph has a crease, the edge is divided just there.
-    let patch = |s: f64| graph.patch(at(s));
-    let creases = (1..SAMPLES).filter(|&i| patch(sample(i - 1)) != patch(sample(i)));
-    let crease = creases.min_by_key(|i| i.abs_diff(SAMPLES / 2));
-    let Some(i) = crease else { return Some(0.5) };
-    let (mut low, mut high) = (sample(i - 1), sample(i));
-    let first = patch(low);
-    for _ in 0..f64::MANTISSA_DIGITS {
-        let middle = 0.5 * (low + high);
-        match patch(middle) == first {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    Some(high)
+    Some(graph.crease(at).unwrap_or(0.5))
 }
 
 /// The parts of a triangle some of whose edges have a point between their ends.

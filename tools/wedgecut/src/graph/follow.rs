@@ -17,7 +17,7 @@ const BULGE: f64 = 1.0 / 32.0;
 const RATIO: f64 = 1.4;
 
 /// Rounds of points: each at least halves what is too long.
-const ROUNDS: usize = 24;
+const ROUNDS: usize = 64;
 
 /// Adds points to a section until its triangles follow the seam: the middles of edges that are away from it, then
 /// the circumcentres of narrow triangles beside edges that are not flat. Returns the points, which no face of the
@@ -42,6 +42,8 @@ pub fn follow(
         .collect();
     let mut added = Vec::new();
     let mut is_rounded = false;
+    // What turns the axis over takes its points elsewhere.
+    let may_divide_axis = cell.joins.iter().all(|join| !join.step.flipped());
     for _ in 0..ROUNDS {
         let corners = surface.corners.iter().copied();
         let piece = Piece {
@@ -53,6 +55,9 @@ pub fn follow(
         let cap = section.cap(&piece, cell, frame, &Known::default())?;
         let look = Look::new(surface, cell, &section, &cap);
         let mut new = look.middles();
+        if new.is_empty() && may_divide_axis && look.is_bent() {
+            new = look.borders();
+        }
         if new.is_empty() && !is_rounded && look.is_bent() {
             is_rounded = true;
             new = look.rounded().unwrap_or_default();
@@ -62,7 +67,11 @@ pub fn follow(
         }
         for q in new {
             let (p, class) = cell.classify(part.at(&cell.faces, q));
-            if class.bound() == Class::INSIDE.with(part.face, 0).bound() {
+            let inside = Class::INSIDE.with(part.face, 0);
+            // The wall of the hub has been divided where it meets the seam.
+            let border = cell.hub().map(|hub| inside.with(hub, 0));
+            let is_own = [Some(inside), border].contains(&Some(class));
+            if is_own || class.is_axis() && may_divide_axis {
                 let v = surface.add(p, class);
                 surface.corners.push(v);
                 added.push(v);
@@ -111,6 +120,13 @@ impl<'a> Look<'a> {
         self.cell.bulge([p, q], middle)
     }
 
+    /// Where an edge within the section is to be divided: at a crease of the seam, else in the middle.
+    fn middle(&self, ends: [u32; 2]) -> DVec2 {
+        let [a, b] = ends.map(|v| self.at[&v]);
+        let at = |s: f64| self.section.part.at(&self.cell.faces, a.lerp(b, s));
+        a.lerp(b, self.cell.crease(at).unwrap_or(0.5))
+    }
+
     /// Whether any edge inside is off the seam by more than rounding makes of it.
     fn is_bent(&self) -> bool {
         let inner = self.cap.iter().flat_map(edges).filter(|e| !self.is_rim(*e));
@@ -130,10 +146,42 @@ impl<'a> Look<'a> {
                     false => self.bulge(ends),
                 });
         }
-        let mut found: Vec<([u32; 2], DVec2)> = bulges
+        let mut away: Vec<(f64, [u32; 2])> = bulges
             .iter()
             .filter(|(_, bulge)| **bulge > BULGE)
-            .map(|(&[v, w], _)| ([v, w], self.at[&v].midpoint(self.at[&w])))
+            .map(|(&[v, w], _)| (self.at[&v].distance(self.at[&w]), [v, w]))
+            .collect();
+        away.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        // The longest first; what is near to one of them is divided by it, and looked at in the next round.
+        let mut found: Vec<DVec2> = Vec::new();
+        for (length, [v, w]) in away {
+            let middle = self.middle([v, w]);
+            if found.iter().all(|q| q.distance(middle) >= length) {
+                found.push(middle);
+            }
+        }
+        found
+    }
+
+    /// The middles of edges along the axis and the hub in whose circle a triangle of the section ends. Nothing else holds
+    /// these edges.
+    fn borders(&self) -> Vec<DVec2> {
+        let mut uses: FxHashMap<[u32; 2], Vec<&Triangle>> = FxHashMap::default();
+        for t in self.cap {
+            for ends in edges(t) {
+                uses.entry(ends).or_default().push(t);
+            }
+        }
+        let open = uses
+            .iter()
+            .filter(|(ends, uses)| uses.len() == 1 && !self.is_rim(**ends));
+        let mut found: Vec<([u32; 2], DVec2)> = open
+            .filter_map(|(ends, uses)| {
+                let apex = uses[0].vertices.into_iter().find(|v| !ends.contains(v))?;
+                let [a, b] = ends.map(|v| self.at[&v]);
+                let q = self.at[&apex];
+                ((a - q).dot(b - q) < 0.0).then_some((*ends, a.midpoint(b)))
+            })
             .collect();
         found.sort_unstable_by_key(|(ends, _)| *ends);
         found.into_iter().map(|(_, q)| q).collect()

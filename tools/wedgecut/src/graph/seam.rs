@@ -14,6 +14,14 @@ pub struct Graph {
     angles: Vec<f64>,
 }
 
+/// Places along an edge at which it is looked at.
+const SAMPLES: usize = 8;
+
+/// Places along an edge, from 0 to 1 without these.
+pub fn samples() -> impl Iterator<Item = f64> {
+    (0..SAMPLES).map(|i| (i as f64 + 0.5) / SAMPLES as f64)
+}
+
 /// What a graph does where the height changes its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parity {
@@ -107,12 +115,30 @@ impl Graph {
     }
 
     /// The number of the patch of the graph that a point is in: within a patch the graph is smooth.
-    pub fn patch(&self, p: DVec3) -> [usize; 2] {
+    fn patch(&self, p: DVec3) -> [usize; 2] {
         let number = |knots: &[f64], x: f64| knots.partition_point(|&k| k <= x);
         [
             number(&self.radii, p.x.hypot(p.y)),
             number(&self.heights, p.z),
         ]
+    }
+
+    /// Where on a way, from 0 to 1, it passes a knot: of such places one near the middle.
+    pub fn crease(&self, at: impl Fn(f64) -> DVec3) -> Option<f64> {
+        let patch = |s: f64| self.patch(at(s));
+        let ways = samples().zip(samples().skip(1));
+        let creases = ways.filter(|&(a, b)| patch(a) != patch(b));
+        let off = |&(a, b): &(f64, f64)| (a + b - 1.0).abs();
+        let (mut low, mut high) = creases.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let first = patch(low);
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = 0.5 * (low + high);
+            match patch(middle) == first {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        Some(high)
     }
 
     /// What the graph does where the height changes its sign.

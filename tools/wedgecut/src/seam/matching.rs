@@ -35,6 +35,10 @@ impl Matched {
     pub fn add(&mut self, surface: &mut Surface, join: &Join, points: &[u32]) {
         for &v in points {
             let (p, class) = surface.at(v);
+            if class.is_axis() {
+                self.pairs.push([v, v]);
+                continue;
+            }
             let class = class.with(join.there.face, 1).with(join.here.face, 0);
             let w = surface.add(join.step.apply(p), class);
             surface.corners.push(w);
