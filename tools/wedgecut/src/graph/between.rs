@@ -52,9 +52,9 @@ pub fn between(points: &[DVec3], triangles: &[Triangle], opening: f64) -> Vec<Gr
 /// Knots as far apart as each other from one end of a body to the other, given the middles of cells; one is in the middle.
 fn knots(values: &[f64], count: usize) -> Vec<f64> {
     let (first, last) = (values[0], values[values.len() - 1]);
-    // A crease within the body is of no use.
-    let half = 0.5 * (last - first) / (values.len() as f64 - 1.0).max(1.0);
-    let (first, last) = (first - half, last + half);
+    // A crease within the body is of no use, nor is one in its faces.
+    let cell = (last - first) / (values.len() as f64 - 1.0).max(1.0);
+    let (first, last) = (first - cell, last + cell);
     match count {
         1 => vec![0.5 * (first + last)],
         _ => (0..count)

@@ -11,7 +11,7 @@ use tmesh::{Frame, Triangle};
 
 /// How far the middle of an edge within a section may be from the seam, in parts of the edge's length: triangles
 /// meet at a quarter of a radian at most, half of what is a feature for the stages that follow.
-const BULGE: f64 = 1.0 / 32.0;
+const BULGE: f64 = 1.0 / 16.0;
 
 /// Largest circumradius over shortest side of a triangle that is not flat against its neighbours, as elements have by default.
 const RATIO: f64 = 1.4;

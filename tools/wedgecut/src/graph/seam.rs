@@ -126,8 +126,18 @@ impl Graph {
     /// Where on a way, from 0 to 1, it passes a knot: of such places one near the middle.
     pub fn crease(&self, at: impl Fn(f64) -> DVec3) -> Option<f64> {
         let patch = |s: f64| self.patch(at(s));
+        // A way along a knot is on neither side of it but for rounding.
+        let is_off = |s: f64| {
+            let p = at(s);
+            let off = |knots: &[f64], x: f64| {
+                let size = knots.iter().fold(0.0_f64, |m, k| m.max(k.abs()));
+                let near = knots.iter().map(|k| (x - k).abs());
+                near.fold(f64::INFINITY, f64::min) > f64::EPSILON.sqrt() * size
+            };
+            off(&self.radii, p.x.hypot(p.y)) && off(&self.heights, p.z)
+        };
         let ways = samples().zip(samples().skip(1));
-        let creases = ways.filter(|&(a, b)| patch(a) != patch(b));
+        let creases = ways.filter(|&(a, b)| patch(a) != patch(b) && is_off(a) && is_off(b));
         let off = |&(a, b): &(f64, f64)| (a + b - 1.0).abs();
         let (mut low, mut high) = creases.min_by(|a, b| off(a).total_cmp(&off(b)))?;
         let first = patch(low);
