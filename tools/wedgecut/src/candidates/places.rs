@@ -240,21 +240,10 @@ impl Places {
             .into_iter()
             .map(|graph| (harm_of_graph(body, &vertices, &graph), graph));
         let all: Vec<(Harm, Graph)> = all.collect();
-        if std::env::var("FORCE").is_ok() {
-            for (h, g) in &all {
-                eprintln!(
-                    "knots {} range {:?} {h:?} = {} plane {plane:?} = {}",
-                    g.knots(),
-                    g.range().map(f64::to_degrees),
-                    elements(*h),
-                    elements(plane)
-                );
-            }
-        }
         // The first of those that differ by less than an element has the fewest knots.
         let (harm, graph) =
             (all.into_iter()).min_by(|a, b| elements(a.0).total_cmp(&elements(b.0)))?;
-        (std::env::var("FORCE").is_ok() || elements(harm) < elements(plane)).then(|| Place {
+        (elements(harm) < elements(plane)).then(|| Place {
             frame: body.frame,
             start: Isometry::IDENTITY,
             harm: harm.sliced,

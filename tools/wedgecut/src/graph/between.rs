@@ -42,7 +42,7 @@ pub fn between(points: &[DVec3], triangles: &[Triangle], opening: f64) -> Vec<Gr
         let places = knots[0].iter().flat_map(place);
         let start: Vec<f64> = places.map(|(r, z)| fine.angle(r, z)).collect();
         let [radii, heights] = &knots;
-        let make = |angles: Vec<f64>| Graph::new(radii.clone(), heights.clone(), angles);
+        let make = |angles: Vec<f64>| Graph::new(radii.clone(), heights.clone(), angles).rounded();
         let angles = field.downhill(&circles, start, &make);
         make(angles.into_iter().map(|a| a * opening).collect())
     });

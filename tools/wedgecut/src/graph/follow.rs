@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use tmesh::{Frame, Triangle};
 
 /// How far the middle of an edge within a section may be from the seam, in parts of the edge's length: triangles
-/// meet at a quarter of a radian at most, half of what is a feature for the stages that follow.
+/// meet at half a radian at most, just less than the 30 degrees from which on an edge is a feature for the stages that follow.
 const BULGE: f64 = 1.0 / 16.0;
 
 /// Largest circumradius over shortest side of a triangle that is not flat against its neighbours, as elements have by default.

@@ -22,6 +22,26 @@ pub fn samples() -> impl Iterator<Item = f64> {
     (0..SAMPLES).map(|i| (i as f64 + 0.5) / SAMPLES as f64)
 }
 
+/// How often each interval between knots is halved where a graph is rounded: an eighth of a crease is left at each new knot,
+/// less than what edges of triangles are allowed to be off.
+const SUBDIVISIONS: usize = 3;
+
+/// Twice as many intervals, on a cubic spline; the ends stay.
+fn finer(values: &[f64]) -> Vec<f64> {
+    let [first, .., last] = values else {
+        return values.to_vec();
+    };
+    let mut made = vec![*first];
+    for (i, w) in values.windows(2).enumerate() {
+        made.push(w[0].midpoint(w[1]));
+        if let Some(next) = values.get(i + 2) {
+            made.push(0.125 * (w[0] + 6.0 * w[1] + next));
+        }
+    }
+    made.push(*last);
+    made
+}
+
 /// What a graph does where the height changes its sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parity {
@@ -83,6 +103,26 @@ impl Graph {
     /// The point of which another is the straightened one.
     pub fn bend(&self, p: DVec3) -> DVec3 {
         turn(p, self.angle(p.x.hypot(p.y), p.z))
+    }
+
+    /// The graph without creases: a spline whose control points are the knots, with new knots often enough that it may be
+    /// taken as linear between them (J. Lane, R. Riesenfeld, "A theoretical development for the computer generation and
+    /// display of piecewise polynomial surfaces", 1980).
+    pub fn rounded(mut self) -> Self {
+        for _ in 0..SUBDIVISIONS {
+            let count = self.heights.len();
+            let rows = self.angles.chunks(count).map(finer);
+            let rows: Vec<Vec<f64>> = rows.collect();
+            let columns = (0..rows[0].len()).map(|j| rows.iter().map(|r| r[j]).collect::<Vec<_>>());
+            let columns: Vec<Vec<f64>> = columns.map(|column| finer(&column)).collect();
+            let across = 0..columns[0].len();
+            self.angles = across
+                .flat_map(|i| columns.iter().map(move |column| column[i]))
+                .collect();
+            // Heights and distances that are as far apart as each other stay so.
+            (self.radii, self.heights) = (finer(&self.radii), finer(&self.heights));
+        }
+        self
     }
 
     /// The same graph, raised by a height, model units.
