@@ -187,6 +187,14 @@ impl<'a> Look<'a> {
         found.into_iter().map(|(_, q)| q).collect()
     }
 
+    /// Whether a point is in the circle over an edge where the section ends: a triangle there would be a narrow one.
+    fn is_at_rim(&self, q: DVec2) -> bool {
+        self.section.edges.iter().any(|e| {
+            let [a, b] = e.ends.map(|v| self.at[&v]);
+            (a - q).dot(b - q) <= 0.0
+        })
+    }
+
     /// Points that take narrow triangles out.
     fn rounded(&self) -> Result<Vec<DVec2>, CdtError> {
         let points = &self.section.points;
@@ -202,10 +210,8 @@ impl<'a> Look<'a> {
         rim.sort_unstable();
         let places: Vec<[f64; 2]> = points.iter().map(|v| self.at[v].to_array()).collect();
         let new = Cdt::new(&places, &rim)?.refining(RATIO).into_iter();
-        Ok(new
-            .map(DVec2::from)
-            .filter(|q| self.is_inside(*q))
-            .collect())
+        let may_be = |q: &DVec2| self.is_inside(*q) && !self.is_at_rim(*q);
+        Ok(new.map(DVec2::from).filter(may_be).collect())
     }
 
     fn is_inside(&self, q: DVec2) -> bool {
