@@ -132,3 +132,21 @@ fn what_is_wrong_with_a_seam_is_said() {
     cut(&prism.build(), &plain, &[]).fails(2, &["--seam", "--domain rotation"]);
     run("wedgecut", &["--seam", "/no/such/file"], b"").fails(2, &["--seam /no/such/file"]);
 }
+
+#[test]
+fn planes_are_kept_where_a_seam_between_the_blades_costs_more() {
+    let body = impeller(7, 0.0);
+    let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();
+    let plane = run("wedgecut", &["-q", "--seam", "plane"], &found).success();
+    let auto = run("wedgecut", &["-v", "--seam", "auto"], &found);
+    assert!(
+        auto.stderr
+            .contains("a seam between the blades is not taken: narrow faces"),
+        "{}",
+        auto.stderr
+    );
+    let [plane, auto] = [plane, auto.success()].map(|bytes| read(&bytes));
+    assert_eq!(plane.templates, auto.templates);
+    let default = run("wedgecut", &["-q"], &found).success();
+    assert_eq!(read(&default).templates, plane.templates);
+}

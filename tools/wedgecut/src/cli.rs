@@ -46,7 +46,7 @@ pub struct Cli {
     start_angle: Angle,
 
     /// Surface in which the sides of a rotation wedge lie: `plane`, a half plane; `auto`, one that passes between the
-    /// blades where that slices less; or a file that gives its angle as a table. Each line has a distance from the
+    /// blades where that costs fewer elements; or a file that gives its angle as a table. Each line has a distance from the
     /// axis, a height along it from the origin (model units) and an angle from the reference direction (degrees; axis
     /// and direction as symdetect reports them), linear between them; each distance comes with each height.
     /// --start-angle turns it

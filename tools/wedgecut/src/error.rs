@@ -177,6 +177,18 @@ pub enum CutError {
 }
 
 impl CutError {
+    /// The same at another place.
+    pub fn moved(mut self, to: impl Fn(DVec3) -> DVec3) -> Self {
+        match &mut self {
+            Self::BadSection { near, .. }
+            | Self::SectionsDiffer { near, .. }
+            | Self::SectionsJoinedDifferently { near, .. }
+            | Self::NotClosed { near, .. } => *near = to(*near),
+            _ => {}
+        }
+        self
+    }
+
     /// Whether the body's shape where it was cut is the reason, so that another cut may do.
     pub fn is_of_the_shape(&self) -> bool {
         match self {

@@ -241,7 +241,7 @@ impl Places {
             let all = graphs.map(|graph| (harm_of(&graph), graph));
             all.min_by(|a, b| elements(a.0).total_cmp(&elements(b.0)))
         };
-        let graphs = between(&vertices, &body.surface.triangles, opening);
+        let graphs = between(&vertices, &body.surface.triangles, opening, PLACES);
         let (_, graph) = least(&mut graphs.into_iter())?;
         // Turned a little, it passes fewer points closely.
         let part = opening / (PLACES * PLACES) as f64;

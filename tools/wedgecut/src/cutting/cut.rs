@@ -67,12 +67,22 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         tolerance,
         frame: &place.frame,
         regions: &regions,
+        // No triangle has less than one over the square root of three.
+        ratio: body.document.wishes.radius_edge().max(1.0),
     };
     cutter.slide(&mut surface, &mut notes);
     if let Some(graph) = &place.graph {
         notes.push(straighten(&mut surface, graph, &cell));
     }
-    let mut templates = cutter.cut(surface, &mut notes)?;
+    // Errors of a straightened body have their places there.
+    let bent = |error: CutError| match &place.graph {
+        Some(graph) => error.moved(|p| {
+            let p = graph.bend(place.frame.to_canonical(p));
+            place.frame.to_world(p)
+        }),
+        None => error,
+    };
+    let mut templates = cutter.cut(surface, &mut notes).map_err(bent)?;
     if let Some(graph) = &place.graph {
         restore(&mut templates, graph, &place.frame)?;
     }
@@ -137,6 +147,8 @@ struct Cutter<'a> {
     tolerance: &'a Tolerance,
     frame: &'a Frame,
     regions: &'a dyn Fn(Isometry) -> RegionMap,
+    /// Circumradius over shortest side asked of elements.
+    ratio: f64,
 }
 
 impl Cutter<'_> {
@@ -309,13 +321,19 @@ impl Cutter<'_> {
             let Some(matched) = matched else { continue };
             let of_hub = hub.map(|_| join.there.of_hub());
             for part in [Some(join.there), of_hub].into_iter().flatten() {
-                let points = follow(surface, self.cell, part, self.frame)?;
+                let points = follow(surface, self.cell, part, (self.frame, self.ratio))?;
                 added += points.len();
                 matched.add(surface, join, &points);
             }
         }
         if let Some(face) = hub {
-            added += follow(surface, self.cell, Part::whole(face), self.frame)?.len();
+            added += follow(
+                surface,
+                self.cell,
+                Part::whole(face),
+                (self.frame, self.ratio),
+            )?
+            .len();
         }
         notes.push(format!(
             "{added} points within the cut faces, which follow the seam"

@@ -5,18 +5,6 @@ use super::seam::Graph;
 use glam::DVec3;
 use tmesh::Triangle;
 
-/// Angles to choose from within the opening: gaps narrower than two of them are not seen.
-const ANGLES: usize = 32;
-/// Cells along the longer side of the body's section: of blades shorter than two of them the ends are not seen.
-const CELLS: f64 = 24.0;
-/// Openings by which the seam may be turned from its first place, to either side.
-const TURNS: usize = 8;
-/// Passes over all rows and columns at most; most end after three.
-const PASSES: usize = 16;
-
-/// Numbers of knots along distances and heights of the graphs to choose from.
-const KNOTS: [[usize; 2]; 7] = [[1, 2], [2, 1], [2, 2], [1, 3], [2, 3], [3, 3], [5, 5]];
-
 /// Graphs with few and with more knots that slice little of a surface in the canonical frame, whose images are `opening` (radians) apart.
 ///
 /// It minimizes, over the half plane of distance and height, what is sliced and how steep it is, both in elements as wide as the
@@ -25,18 +13,26 @@ const KNOTS: [[usize; 2]; 7] = [[1, 2], [2, 1], [2, 2], [1, 3], [2, 3], [3, 3], 
 /// elements only at its ends, `a (w / 2d - 1) / w^2`. A slope `s`, which is that of the angle times the distance from the axis,
 /// costs `a s^2 / w^2`. Each row and column of a grid is solved by dynamic programming, the others given, until
 /// nothing changes. Graphs with a few knots begin at that and go downhill in the same measure.
-pub fn between(points: &[DVec3], triangles: &[Triangle], opening: f64) -> Vec<Graph> {
-    let Some(grid) = grid(points) else {
+///
+/// `parts`: parts of the opening of which each has an angle to choose, and of the longer side of the body's section of which each
+/// has a row or column. The seam may turn by as many openings altogether.
+pub fn between(points: &[DVec3], triangles: &[Triangle], opening: f64, parts: usize) -> Vec<Graph> {
+    let Some(grid) = grid(points, parts) else {
         return Vec::new();
     };
     let circles = Circles::new(points, triangles, opening, grid);
-    let mut field = Field::new(&circles, opening);
+    let mut field = Field::new(&circles, opening, parts);
     field.solve();
     let even = field.smooth();
     let [radii, heights] = [&circles.radii, &circles.heights];
     let fine = Graph::new(radii.clone(), heights.clone(), even);
     let fits = |count: &[usize; 2]| count[0] <= radii.len() && count[1] <= heights.len();
-    let graphs = KNOTS.iter().filter(|count| fits(count)).map(|count| {
+    // From no bend to one along each direction.
+    let counts = [1, 2, 3].map(|n| [[n, 1], [n, 2], [n, 3]]).concat();
+    let counts = counts
+        .into_iter()
+        .filter(|count| count[0] * count[1] > 1 && fits(count));
+    let graphs = counts.map(|count| {
         let knots = [knots(radii, count[0]), knots(heights, count[1])];
         let place = |&r: &f64| knots[1].iter().map(move |&z| (r, z));
         let places = knots[0].iter().flat_map(place);
@@ -64,7 +60,7 @@ fn knots(values: &[f64], count: usize) -> Vec<f64> {
 }
 
 /// Middles of square cells of the half plane of distance and height.
-fn grid(points: &[DVec3]) -> Option<[Vec<f64>; 2]> {
+fn grid(points: &[DVec3], parts: usize) -> Option<[Vec<f64>; 2]> {
     let flat = points.iter().map(|p| [p.x.hypot(p.y), p.z]);
     let low = flat
         .clone()
@@ -73,7 +69,7 @@ fn grid(points: &[DVec3]) -> Option<[Vec<f64>; 2]> {
     let size = [0, 1].map(|k| high[k] - low[k]);
     let longest = size[0].max(size[1]);
     let middles = |k: usize| {
-        let count = (CELLS * size[k] / longest).ceil().max(1.0);
+        let count = (parts as f64 * size[k] / longest).ceil().max(1.0);
         let middle = |i: usize| low[k] + (i as f64 + 0.5) * size[k] / count;
         (0..count as usize).map(middle).collect::<Vec<f64>>()
     };
@@ -85,15 +81,17 @@ struct Field {
     /// Number of distances and of heights.
     size: [usize; 2],
     /// For each distance those of all heights: the cost of each angle within the opening.
-    costs: Vec<[f64; ANGLES]>,
-    /// Angles, in parts of the opening; from 0 to twice [`TURNS`] openings.
+    costs: Vec<Vec<f64>>,
+    /// Parts of the opening.
+    parts: usize,
+    /// Angles, in parts of the opening; from 0 to as many openings.
     labels: Vec<usize>,
     /// Cost of a step between neighbours, of one opening, along distances and along heights.
     steps: [f64; 2],
 }
 
 impl Field {
-    fn new(circles: &Circles, opening: f64) -> Self {
+    fn new(circles: &Circles, opening: f64, parts: usize) -> Self {
         let size = [circles.radii.len(), circles.heights.len()];
         let gap = |list: &[f64]| match list {
             [a, b, ..] => b - a,
@@ -106,22 +104,23 @@ impl Field {
             let area = across * up / (arc * arc);
             for j in 0..size[1] {
                 let cost = |k: usize| {
-                    let at = (k as f64 + 0.5) / ANGLES as f64;
+                    let at = (k as f64 + 0.5) / parts as f64;
                     let Some((near, inside)) = circles.gap([i, j], at) else {
                         return 0.0;
                     };
-                    let narrow = 0.5 / near.max(0.5 / ANGLES as f64);
+                    let narrow = 0.5 / near.max(0.5 / parts as f64);
                     area * match inside {
                         true => narrow * narrow - 1.0,
                         false => narrow - 1.0,
                     }
                 };
-                costs.push(std::array::from_fn(cost));
+                costs.push((0..parts).map(cost).collect());
             }
         }
         Self {
             size,
             costs,
+            parts,
             labels: Vec::new(),
             steps: [up / across, across / up],
         }
@@ -141,7 +140,7 @@ impl Field {
     fn solve(&mut self) {
         const NONE: usize = usize::MAX;
         self.labels = vec![NONE; self.costs.len()];
-        for pass in 0..PASSES {
+        for pass in 0..self.parts {
             let along = pass % 2;
             let mut changed = false;
             for k in 0..self.size[1 - along] {
@@ -161,8 +160,8 @@ impl Field {
 
     /// The best angles of a line, all others given as far as they are known.
     fn best(&self, along: usize, line: &[[usize; 2]]) -> Vec<usize> {
-        let count = (2 * TURNS + 1) * ANGLES;
-        let unit = 1.0 / ANGLES as f64;
+        let count = self.parts * self.parts;
+        let unit = 1.0 / self.parts as f64;
         let pull = self.steps[1 - along] * unit * unit;
         let is_first = self.labels.iter().all(|&l| l == usize::MAX);
         let own = |at: [usize; 2]| -> Vec<f64> {
@@ -183,14 +182,14 @@ impl Field {
             (0..count)
                 .map(|l| {
                     let apart = beside.iter().map(|&b| (b.abs_diff(l) as f64).powi(2));
-                    costs[l % ANGLES] + pull * apart.sum::<f64>()
+                    costs[l % self.parts] + pull * apart.sum::<f64>()
                 })
                 .collect()
         };
         let push = self.steps[along] * unit * unit;
         let mut sums = vec![own(line[0])];
         if is_first {
-            let middle = TURNS * ANGLES..(TURNS + 1) * ANGLES;
+            let middle = self.parts / 2 * self.parts..(self.parts / 2 + 1) * self.parts;
             (0..count)
                 .filter(|l| !middle.contains(l))
                 .for_each(|l| sums[0][l] = f64::INFINITY);
@@ -227,10 +226,10 @@ impl Field {
                 .collect();
             for (j, &a) in now.iter().enumerate() {
                 // Between the middles of two parts.
-                let at = (a - a.floor()) * ANGLES as f64 - 0.5;
+                let at = (a - a.floor()) * self.parts as f64 - 0.5;
                 let part = at.floor();
                 let costs = &self.costs[self.at([i, j])];
-                let of = |k: f64| costs[(k as isize).rem_euclid(ANGLES as isize) as usize];
+                let of = |k: f64| costs[(k as isize).rem_euclid(self.parts as isize) as usize];
                 sum += of(part) + (of(part + 1.0) - of(part)) * (at - part);
                 if let Some(b) = last.get(j) {
                     sum += self.steps[0] * (a - b).powi(2);
@@ -253,7 +252,7 @@ impl Field {
     ) -> Vec<f64> {
         let mut least = self.cost(circles, &make(angles.clone()));
         let mut step = 0.5;
-        while step > 0.5 / ANGLES as f64 {
+        while step > 0.5 / self.parts as f64 {
             let before = least;
             for k in 0..angles.len() {
                 for by in [step, -step] {
@@ -276,11 +275,11 @@ impl Field {
 
     /// The angles in openings, moved within their parts so that the graph is as even as they allow.
     fn smooth(&self) -> Vec<f64> {
-        let unit = 1.0 / ANGLES as f64;
-        let middle = |label: usize| (label as f64 + 0.5) * unit - TURNS as f64;
+        let unit = 1.0 / self.parts as f64;
+        let middle = |label: usize| (label as f64 + 0.5) * unit - (self.parts / 2) as f64;
         let given: Vec<f64> = self.labels.iter().map(|&l| middle(l)).collect();
         let mut now = given.clone();
-        for _ in 0..2 * CELLS as usize {
+        for _ in 0..2 * self.parts {
             for i in 0..self.size[0] {
                 for j in 0..self.size[1] {
                     let mut sum = (0.0, 0.0);

@@ -1,26 +1,18 @@
 //! Dividing edges that bend where the seam passes them.
 
-use super::seam::{Graph, samples};
+use super::seam::{Graph, STRAIGHT, samples};
 use crate::cell::{Cell, Face};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Template, Triangle};
-
-/// How far an edge may be from a straight one once it is straightened, in parts of its length: the two halves
-/// of one that is off by so much meet at a quarter of a radian at most. Larger, and an edge may pass the seam more than once;
-/// smaller, and the surface has more triangles along the seam than it needs.
-const STRAIGHT: f64 = 1.0 / 16.0;
-
-/// How often edges are halved at most: an edge is off by a quarter of what it was off by before, so that one of all of a turn
-/// is straight after half as many rounds.
-const ROUNDS: usize = 16;
 
 /// Divides the edges of a surface that are near the faces of a cell which begin at the axis, or near the hub's, and are bent when
 /// they are straightened, until each passes every face at one point. Model units; the surface is not yet straightened.
 pub fn divide(surface: &mut Template, graph: &Graph, cell: &Cell) -> usize {
     let faces: Vec<&Face> = cell.faces.iter().filter(|f| !f.is_across()).collect();
     let before = surface.vertices.len();
-    for _ in 0..ROUNDS {
+    // An edge that is halved as often as a number has digits has no length left.
+    for _ in 0..f64::MANTISSA_DIGITS {
         let mut middle: FxHashMap<[u32; 2], u32> = FxHashMap::default();
         let mut looked: FxHashMap<[u32; 2], ()> = FxHashMap::default();
         for t in &surface.triangles {

@@ -1,5 +1,6 @@
 //! Points within a section, so that its triangles follow the seam.
 
+use super::seam::STRAIGHT;
 use crate::cell::{Cell, Class, Part};
 use crate::error::CutError;
 use crate::section::{Known, Piece, Section};
@@ -9,18 +10,8 @@ use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use tmesh::{Frame, Triangle};
 
-/// How far the middle of an edge within a section may be from the seam, in parts of the edge's length: triangles
-/// meet at half a radian at most, just less than the 30 degrees from which on an edge is a feature for the stages that follow.
-const BULGE: f64 = 1.0 / 16.0;
-
-/// Largest circumradius over shortest side of a triangle that is not flat against its neighbours, as elements have by default.
-const RATIO: f64 = 1.4;
-
-/// Rounds of points: each at least halves what is too long.
-const ROUNDS: usize = 64;
-
 /// Adds points to a section until its triangles follow the seam: the middles of edges that are away from it, then
-/// the circumcentres of narrow triangles beside edges that are not flat. Returns the points, which no face of the
+/// points that take out triangles whose circumradius is above `ratio` times the shortest side. Returns the points, which no face of the
 /// surface has.
 ///
 /// # Errors
@@ -29,7 +20,7 @@ pub fn follow(
     surface: &mut Surface,
     cell: &Cell,
     part: Part,
-    frame: &Frame,
+    (frame, ratio): (&Frame, f64),
 ) -> Result<Vec<u32>, CutError> {
     // Wedge and hub are closed apart.
     let is_own = |surface: &Surface, v: &u32| {
@@ -44,7 +35,7 @@ pub fn follow(
     let mut is_rounded = false;
     // What turns the axis over takes its points elsewhere.
     let may_divide_axis = cell.joins.iter().all(|join| !join.step.flipped());
-    for _ in 0..ROUNDS {
+    for _ in 0..f64::MANTISSA_DIGITS {
         let corners = surface.corners.iter().copied();
         let piece = Piece {
             surface,
@@ -60,7 +51,7 @@ pub fn follow(
         }
         if new.is_empty() && !is_rounded && look.is_bent() {
             is_rounded = true;
-            new = look.rounded().unwrap_or_default();
+            new = look.rounded(ratio).unwrap_or_default();
         }
         if new.is_empty() {
             break;
@@ -148,7 +139,7 @@ impl<'a> Look<'a> {
         }
         let mut away: Vec<(f64, [u32; 2])> = bulges
             .iter()
-            .filter(|(_, bulge)| **bulge > BULGE)
+            .filter(|(_, bulge)| **bulge > STRAIGHT)
             .map(|(&[v, w], _)| (self.at[&v].distance(self.at[&w]), [v, w]))
             .collect();
         away.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -196,7 +187,7 @@ impl<'a> Look<'a> {
     }
 
     /// Points that take narrow triangles out.
-    fn rounded(&self) -> Result<Vec<DVec2>, CdtError> {
+    fn rounded(&self, ratio: f64) -> Result<Vec<DVec2>, CdtError> {
         let points = &self.section.points;
         let number = |v: u32| points.binary_search(&v).map_or(0, |i| i as u32);
         let mut uses: FxHashMap<[u32; 2], u32> = FxHashMap::default();
@@ -209,7 +200,7 @@ impl<'a> Look<'a> {
         let mut rim: Vec<[u32; 2]> = rim.map(|(ends, _)| ends.map(number)).collect();
         rim.sort_unstable();
         let places: Vec<[f64; 2]> = points.iter().map(|v| self.at[v].to_array()).collect();
-        let new = Cdt::new(&places, &rim)?.refining(RATIO).into_iter();
+        let new = Cdt::new(&places, &rim)?.refining(ratio).into_iter();
         let may_be = |q: &DVec2| self.is_inside(*q) && !self.is_at_rim(*q);
         Ok(new.map(DVec2::from).filter(may_be).collect())
     }

@@ -1,6 +1,7 @@
 //! The angle of a seam over distance from the axis and height.
 
 use glam::DVec3;
+use std::f64::consts::FRAC_PI_6;
 
 /// The angle of a seam, as a function of the distance from the axis and the height: bilinear between knots,
 /// constant beyond them.
@@ -14,17 +15,14 @@ pub struct Graph {
     angles: Vec<f64>,
 }
 
-/// Places along an edge at which it is looked at.
-const SAMPLES: usize = 8;
+/// How far the middle of an arc that turns by 30 degrees, from which on an edge is a feature, is from its chord, in
+/// parts of the chord: an angle over eight where it is small. What is bent less may be taken as straight.
+pub const STRAIGHT: f64 = FRAC_PI_6 / 8.0;
 
-/// Places along an edge, from 0 to 1 without these.
+/// The middles of the quarters of a way from 0 to 1: what bends once is seen in any of them, and twice in two.
 pub fn samples() -> impl Iterator<Item = f64> {
-    (0..SAMPLES).map(|i| (i as f64 + 0.5) / SAMPLES as f64)
+    (0..4).map(|quarter| 0.25 * (f64::from(quarter) + 0.5))
 }
-
-/// How often each interval between knots is halved where a graph is rounded: an eighth of a crease is left at each new knot,
-/// less than what edges of triangles are allowed to be off.
-const SUBDIVISIONS: usize = 3;
 
 /// Twice as many intervals, on a cubic spline; the ends stay.
 fn finer(values: &[f64]) -> Vec<f64> {
@@ -105,11 +103,11 @@ impl Graph {
         turn(p, self.angle(p.x.hypot(p.y), p.z))
     }
 
-    /// The graph without creases: a spline whose control points are the knots, with new knots often enough that it may be
-    /// taken as linear between them (J. Lane, R. Riesenfeld, "A theoretical development for the computer generation and
+    /// The graph without creases: a spline whose control points are the knots, with new knots at all quarters between, where
+    /// a quarter of a crease is left each time (J. Lane, R. Riesenfeld, "A theoretical development for the computer generation and
     /// display of piecewise polynomial surfaces", 1980).
     pub fn rounded(mut self) -> Self {
-        for _ in 0..SUBDIVISIONS {
+        for _halving in [1, 2] {
             let count = self.heights.len();
             let rows = self.angles.chunks(count).map(finer);
             let rows: Vec<Vec<f64>> = rows.collect();
