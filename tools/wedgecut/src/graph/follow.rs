@@ -60,8 +60,8 @@ pub fn follow(
             let (p, class) = cell.classify(part.at(&cell.faces, q));
             let inside = Class::INSIDE.with(part.face, 0);
             // The wall of the hub has been divided where it meets the seam.
-            let border = cell.hub().map(|hub| inside.with(hub, 0));
-            let is_own = [Some(inside), border].contains(&Some(class));
+            let border = cell.hub().map_or(inside, |hub| inside.with(hub, 0));
+            let is_own = [inside, border].iter().any(|c| c.bound() == class.bound());
             if is_own || class.is_axis() && may_divide_axis {
                 let v = surface.add(p, class);
                 surface.corners.push(v);
