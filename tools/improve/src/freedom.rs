@@ -80,11 +80,18 @@ impl Freedoms {
                 gluing.vertices_here().for_each(|v| freedoms.fix(v));
                 continue;
             }
+            // Only a master face that is flat lies in the plane that convention has it in.
+            let plane = FixedSet::of_master(gluing.step);
+            let is_on = |v: u32| {
+                let p = template.vertices[v as usize];
+                plane.nearest(p).distance(p) <= flats.straight
+            };
+            let plane = gluing.vertices_there().all(is_on).then_some(plane);
             for &[here, there] in &gluing.vertex_pairs {
                 if here == there {
                     freedoms.keep_on(here, FixedSet::of(gluing.step));
                 } else {
-                    freedoms.pair(there, here, gluing.step);
+                    freedoms.pair(there, here, gluing.step, plane);
                 }
             }
         }
@@ -123,9 +130,11 @@ impl Freedoms {
         }
     }
 
-    /// Has a vertex and its image move as one, if both may move alike and neither has another partner.
-    fn pair(&mut self, master: u32, image: u32, step: Isometry) {
-        self.exact.entry(master).or_default().vertical = Some(FixedSet::of_master(step));
+    /// Has a vertex and its image move as one, if both may move alike and neither has another partner; the first within
+    /// the plane of its face, if that is given.
+    fn pair(&mut self, master: u32, image: u32, step: Isometry, plane: Option<FixedSet>) {
+        let vertical = &mut self.exact.entry(master).or_default().vertical;
+        *vertical = plane.or(*vertical);
         let once = self.image_of.insert(master, (image, step)).is_none()
             && self.master_of.insert(image, master).is_none();
         if !(once && alike(&self.of_vertex, master, image, step)) {

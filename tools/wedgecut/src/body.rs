@@ -1,11 +1,13 @@
 //! The body to be cut, and what is known of it whatever is cut.
 
 use crate::error::CutError;
-use crate::params::Params;
+use crate::graph::Graph;
+use crate::params::{Params, Seam};
 use estimate::edge_of_volume;
 use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use tmesh::{Document, Frame, OUTSIDE, Symmetry, Template, Triangle};
 
 /// The body to be cut.
@@ -22,6 +24,8 @@ pub struct Body<'a> {
     pub tolerance: Tolerance,
     /// The frame with z along the axis and x along the symmetry's reference.
     pub frame: Frame,
+    /// The seam asked for, where it is no plane, over heights of that frame.
+    pub graph: Option<Arc<Graph>>,
 }
 
 impl<'a> Body<'a> {
@@ -48,7 +52,13 @@ impl<'a> Body<'a> {
         let tolerance = Tolerance::new(extent, precision, symmetry.residual)
             .with_snap(params.snap)
             .with_detail(params.clean);
+        // A table has heights along the axis from the origin of the input.
+        let graph = match &params.seam {
+            Seam::Graph(graph) => Some(Arc::new((**graph).clone().raised(-frame.origin.dot(axis)))),
+            Seam::Plane | Seam::Auto => None,
+        };
         Ok(Self {
+            graph,
             document,
             surface,
             symmetry,

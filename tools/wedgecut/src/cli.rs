@@ -1,14 +1,18 @@
 //! The command line of `wedgecut`.
 
-use crate::params::{Domain, Hub, Params};
-use crate::{cut, names};
+use crate::params::{Domain, Hub, Params, Seam};
+use crate::{cut, graph, names};
 use kit::{Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs};
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 const EXAMPLES: &str = "Examples:
   symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
   symdetect gear.stl | wedgecut --order 4 --to vtk -o wedge.vtk
   symdetect via.stl | wedgecut --max-volume 0.01 | tetwedge -o via.tmesh
-  symdetect fan.stl | wedgecut --domain rotation --start-angle 15 | tetwedge | rotassemble > fan.vtk";
+  symdetect fan.stl | wedgecut --domain rotation --start-angle 15 | tetwedge | rotassemble > fan.vtk
+  symdetect fan.stl | wedgecut --seam between-blades.txt | tetwedge | rotassemble > fan.vtk";
 
 /// Cut one wedge out of a symmetric body.
 ///
@@ -40,6 +44,14 @@ pub struct Cli {
     #[arg(long, value_name = "DEG|auto", default_value = "auto", value_parser = angle)]
     #[arg(allow_hyphen_values = true)]
     start_angle: Angle,
+
+    /// Surface in which the sides of a rotation wedge lie: `plane`, a half plane; `auto`, one that passes between the
+    /// blades where that costs fewer elements; or a file that gives its angle as a table. Each line has a distance from the
+    /// axis, a height along it from the origin (model units) and an angle from the reference direction (degrees; axis
+    /// and direction as symdetect reports them), linear between them; each distance comes with each height.
+    /// --start-angle turns it
+    #[arg(long, value_name = "plane|auto|FILE", default_value = "plane")]
+    seam: PathBuf,
 
     /// Column around the axis that is meshed apart from the wedge, against small angles on the axis:
     /// `auto` to have one where it pays, `none`, or the radius of the circle inscribed in its
@@ -130,6 +142,19 @@ fn relative(text: &str) -> Result<f64, String> {
     }
 }
 
+/// The seam asked for; a table is read.
+fn seam(asked: &Path) -> Result<Seam, Failure> {
+    match asked.to_str() {
+        Some("plane") => return Ok(Seam::Plane),
+        Some("auto") => return Ok(Seam::Auto),
+        _ => {}
+    }
+    let bad = |what: &dyn Display| Failure::Usage(format!("--seam {}: {what}", asked.display()));
+    let text = std::fs::read_to_string(asked).map_err(|error| bad(&error))?;
+    let graph = graph::read(&text).map_err(|error| bad(&error))?;
+    Ok(Seam::Graph(Arc::new(graph)))
+}
+
 impl Command for Cli {
     fn common(&self) -> &CommonArgs {
         &self.common
@@ -137,6 +162,7 @@ impl Command for Cli {
 
     fn run(self, session: &Session) -> Result<(), Failure> {
         let params = Params {
+            seam: seam(&self.seam)?,
             domain: self.domain,
             order: self.order.0,
             start_angle: self.start_angle.0.map(f64::to_radians),

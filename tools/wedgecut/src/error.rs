@@ -106,6 +106,18 @@ pub enum CutError {
         /// Where.
         near: DVec3,
     },
+    /// A seam that is no plane crosses the surface, though none of its points is beyond.
+    #[error(
+        "the seam, between its points, crosses the surface or another cut face near ({:.6}, {:.6}, {:.6})",
+        .near.x, .near.y, .near.z
+    )]
+    SeamCrosses {
+        /// Where.
+        near: DVec3,
+    },
+    /// A seam that the group cannot have.
+    #[error("--seam FILE does not fit: {0}")]
+    NoSeam(&'static str),
     /// The wedge's surface does not close.
     #[error(
         "the cut surface does not close at {count} edges, the first near ({:.6}, {:.6}, {:.6})",
@@ -165,12 +177,25 @@ pub enum CutError {
 }
 
 impl CutError {
+    /// The same at another place.
+    pub fn moved(mut self, to: impl Fn(DVec3) -> DVec3) -> Self {
+        match &mut self {
+            Self::BadSection { near, .. }
+            | Self::SectionsDiffer { near, .. }
+            | Self::SectionsJoinedDifferently { near, .. }
+            | Self::NotClosed { near, .. } => *near = to(*near),
+            _ => {}
+        }
+        self
+    }
+
     /// Whether the body's shape where it was cut is the reason, so that another cut may do.
     pub fn is_of_the_shape(&self) -> bool {
         match self {
             Self::BadSection { .. }
             | Self::SectionsDiffer { .. }
             | Self::SectionsJoinedDifferently { .. }
+            | Self::SeamCrosses { .. }
             | Self::NotClosed { .. }
             | Self::VolumeDiffers { .. }
             | Self::RegionVolumeDiffers { .. }
@@ -182,6 +207,7 @@ impl CutError {
             | Self::NoMirror(_)
             | Self::NotAMirrorPlane { .. }
             | Self::BadPlace { .. }
+            | Self::NoSeam(_)
             | Self::BadAxis(..) => false,
         }
     }
@@ -193,7 +219,9 @@ impl From<CutError> for Failure {
             CutError::NotADivisor { .. } | CutError::NoMirror(_) => {
                 Self::Impossible(error.to_string())
             }
-            CutError::NotAMirrorPlane { .. } => Self::Usage(error.to_string()),
+            CutError::NotAMirrorPlane { .. } | CutError::NoSeam(_) => {
+                Self::Usage(error.to_string())
+            }
             CutError::NoSymmetry | CutError::NotASurface(_) | CutError::BadAxis(..) => {
                 Self::Input(error.to_string())
             }

@@ -16,6 +16,7 @@ mod cli;
 mod clip;
 mod cutting;
 mod error;
+mod graph;
 mod names;
 mod params;
 mod seam;
@@ -27,7 +28,8 @@ mod wedge;
 
 pub use cli::Cli;
 pub use error::CutError;
-pub use params::{Domain, Hub, Params};
+pub use graph::Graph;
+pub use params::{Domain, Hub, Params, Seam};
 
 use body::Body;
 use tmesh::{Document, Symmetry};

@@ -1,5 +1,8 @@
 //! What to cut.
 
+use crate::graph::Graph;
+use std::sync::Arc;
+
 /// Which walls the wedge gets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Domain {
@@ -25,6 +28,18 @@ pub enum Hub {
     Radius(f64),
 }
 
+/// Which surface the sides of a rotation wedge lie in.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Seam {
+    /// A half plane.
+    #[default]
+    Plane,
+    /// A half plane, or what passes between the blades where that is better.
+    Auto,
+    /// The graph of an angle from the reference direction.
+    Graph(Arc<Graph>),
+}
+
 /// What to cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Params {
@@ -38,6 +53,8 @@ pub struct Params {
     /// about the axis; `None` derives it from the precision of the input and the residual of the
     /// symmetry.
     pub snap: Option<f64>,
+    /// The seam.
+    pub seam: Seam,
     /// The hub.
     pub hub: Hub,
     /// Whether a mirror plane across the axis halves the wedge where it pays; false for never.

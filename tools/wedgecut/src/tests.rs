@@ -13,6 +13,7 @@ const DEFAULT: Params = Params {
     domain: Domain::Auto,
     order: None,
     start_angle: None,
+    seam: crate::Seam::Plane,
     snap: None,
     clean: 1e-6,
     threads: 1,

@@ -28,12 +28,7 @@ impl Harm {
     }
 }
 
-/// The harm of the half plane at `angle` (radians) that begins at the axis, which is z. Sliced: the sum, over
-/// the segments in which it meets the triangles, of how far the inverse sine of the angle between them is
-/// above one, times the segment's length in elements, and of the logarithm of how much shorter than
-/// element and triangle the segment is. Near: the same for corners and sides of triangles beside the plane.
-/// `size` is that of elements beside a triangle, model units; points within `tolerance` of the plane are in it, and
-/// what is shorter will be collapsed.
+/// The harm of the half plane at `angle` (radians) that begins at the axis, which is z; see [`harm_of`].
 pub fn harm(
     vertices: &[DVec3],
     triangles: &[Triangle],
@@ -44,6 +39,36 @@ pub fn harm(
     let (sin, cos) = (libm::sin(angle), libm::cos(angle));
     let normal = DVec3::new(-sin, cos, 0.0);
     let outward = DVec3::new(cos, sin, 0.0);
+    let cut = Surface {
+        heights: vertices.iter().map(|p| p.dot(normal)).collect(),
+        normal: |p: DVec3| (p.dot(outward) > 0.0).then_some(normal),
+        tolerance,
+    };
+    harm_of(vertices, triangles, cut, size)
+}
+
+/// A surface that cuts a body.
+pub struct Surface<N> {
+    /// How far each vertex is from it, model units, of either sign.
+    pub heights: Vec<f64>,
+    /// Its unit normal near a point; `None` where it does not reach.
+    pub normal: N,
+    /// Points within this are in it, and what is shorter will be collapsed, model units.
+    pub tolerance: f64,
+}
+
+/// The harm of a surface. Sliced: the sum, over
+/// the segments in which it meets the triangles, of how far the inverse sine of the angle between them is
+/// above one, times the segment's length in elements, and of the logarithm of how much shorter than
+/// element and triangle the segment is. Near: the same for corners and sides of triangles beside the surface.
+/// `size` is that of elements beside a triangle, model units.
+pub fn harm_of(
+    vertices: &[DVec3],
+    triangles: &[Triangle],
+    cut: Surface<impl Fn(DVec3) -> Option<DVec3>>,
+    size: impl Fn(&Triangle) -> f64,
+) -> Harm {
+    let tolerance = cut.tolerance;
     let snapped = |height: f64| {
         if height.abs() <= tolerance {
             0.0
@@ -51,7 +76,7 @@ pub fn harm(
             height
         }
     };
-    let heights: Vec<f64> = vertices.iter().map(|p| snapped(p.dot(normal))).collect();
+    let heights: Vec<f64> = cut.heights.into_iter().map(snapped).collect();
     let mut harm = Harm::default();
     for triangle in triangles {
         let height = triangle.vertices.map(|v| heights[v as usize]);
@@ -67,9 +92,9 @@ pub fn harm(
         let (Some(p), Some(q)) = (points.next(), points.next()) else {
             continue;
         };
-        if (p + q).dot(outward) <= 0.0 {
+        let Some(normal) = (cut.normal)(p.midpoint(q)) else {
             continue;
-        }
+        };
         let size = size(triangle);
         let length = p.distance(q);
         if length <= tolerance {

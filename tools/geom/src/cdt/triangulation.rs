@@ -4,7 +4,8 @@ use crate::points::weld::Welder;
 use crate::rounding::power_of_two;
 use spade::handles::FixedVertexHandle;
 use spade::{
-    ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation,
+    AngleLimit, ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation,
+    RefinementParameters, Triangulation,
 };
 use thiserror::Error;
 
@@ -37,6 +38,13 @@ struct Site {
     place: Point2<f64>,
     /// Index of the point; spade numbers sites in an order of its own.
     index: u32,
+}
+
+impl From<Point2<f64>> for Site {
+    /// A new point, which has no index.
+    fn from(place: Point2<f64>) -> Self {
+        Self { place, index: NONE }
+    }
 }
 
 impl HasPosition for Site {
@@ -125,6 +133,21 @@ impl Cdt {
             cdt.is_segment.push(sides.map(|e| e.is_constraint_edge()));
         }
         cdt
+    }
+
+    /// Points that would take triangles whose circumradius is above `ratio` times the shortest side out of the whole convex
+    /// hull, as far as segments that stay as they are allow (J. Ruppert, "A Delaunay refinement algorithm for quality
+    /// 2-dimensional mesh generation", 1995).
+    pub fn refining(mut self, ratio: f64) -> Vec<[f64; 2]> {
+        let before = self.inner.num_vertices();
+        let limit = AngleLimit::from_radius_to_shortest_edge_ratio(ratio);
+        let parameters = RefinementParameters::new()
+            .with_angle_limit(limit)
+            .keep_constraint_edges();
+        self.inner.refine(parameters);
+        let new = self.inner.vertices().skip(before);
+        new.map(|v| [v.position().x, v.position().y].map(|x| x / self.scale))
+            .collect()
     }
 
     /// Whether two points are joined by a segment or a part of one.

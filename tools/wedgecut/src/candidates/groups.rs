@@ -5,8 +5,9 @@ use crate::body::Body;
 use crate::cell::{has_room_for_hub, may_have_hub};
 use crate::cutting::Candidate;
 use crate::error::CutError;
+use crate::graph::Parity;
 use crate::names;
-use crate::params::{Domain, Hub};
+use crate::params::{Domain, Hub, Seam};
 use glam::DVec3;
 use tmesh::{Group, Kind};
 
@@ -41,6 +42,11 @@ impl Groups {
             Domain::Mirror if found.has_vertical_mirrors() => true,
             Domain::Mirror => return Err(CutError::NoMirror(found.symbol())),
         };
+        if let (Seam::Graph(_), true) = (&params.seam, mirrors) {
+            return Err(CutError::NoSeam(
+                "a wedge between mirror planes has no seam; add --domain rotation",
+            ));
+        }
         if let (Hub::Radius(radius), Some(order)) = (params.hub, params.order) {
             check_hub(radius, order)?;
         }
@@ -48,6 +54,7 @@ impl Groups {
             plain: if mirrors { Kind::Cv } else { Kind::C },
             over: over(found.kind, mirrors, params.domain)
                 .filter(|kind| *kind != Kind::D || Places::has_half_turn(body))
+                .filter(|kind| keeps_seam(body, *kind))
                 .filter(|_| keeps_names(body)),
             orders: Vec::new(),
             found,
@@ -114,6 +121,18 @@ fn over(found: Kind, mirrors: bool, domain: Domain) -> Option<Kind> {
         (Kind::Dh | Kind::Ch, false) => Some(Kind::Ch),
         (Kind::S | Kind::D, false) if domain == Domain::Auto => Some(found),
         _ => None,
+    }
+}
+
+/// Whether what turns the axis over takes the seam that was asked for onto itself or its image.
+fn keeps_seam(body: &Body<'_>, kind: Kind) -> bool {
+    let Some(graph) = &body.graph else {
+        return true;
+    };
+    match kind {
+        Kind::D => graph.parity() == Parity::Odd && body.params.start_angle.is_none(),
+        Kind::S => graph.parity() == Parity::Even,
+        _ => true,
     }
 }
 

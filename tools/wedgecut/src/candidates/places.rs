@@ -5,12 +5,15 @@ use crate::body::Body;
 use crate::cell::angle;
 use crate::cutting::Place;
 use crate::error::CutError;
+use crate::graph::{Graph, between};
+use crate::params::Seam;
 use estimate::CostModel;
 use estimate::harm::sliced::Harm;
 use estimate::harm::{halved, sliced};
 use geom::number::number;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 use tmesh::{Frame, Group, Isometry, Kind};
 
 /// Harm from which walls on the axes of half turns, which nobody asked for, are given up, since they cannot be elsewhere;
@@ -39,9 +42,29 @@ impl Places {
         match group.kind {
             _ if group.is_trivial() => Self::fixed(body, 0, 0.0),
             Kind::Cv | Kind::Dh | Kind::Dd => Self::of_mirrors(body, group),
-            Kind::D => Self::of_half_turns(body, group),
-            Kind::C | Kind::Ch | Kind::S => Self::of_seams(body, group),
+            Kind::D => match &body.graph {
+                Some(graph) => Self::of_graph(body, graph),
+                None => Self::of_half_turns(body, group),
+            },
+            Kind::C | Kind::Ch | Kind::S => match &body.graph {
+                Some(graph) => Self::of_graph(body, graph),
+                None => Self::of_seams(body, group),
+            },
         }
+    }
+
+    /// The seam that was asked for.
+    fn of_graph(body: &Body<'_>, graph: &Arc<Graph>) -> Result<Self, CutError> {
+        let place = Place {
+            frame: turned(body, body.params.start_angle.unwrap_or(0.0))?,
+            start: Isometry::IDENTITY,
+            harm: 0.0,
+            graph: Some(Arc::clone(graph)),
+        };
+        Ok(Self {
+            list: vec![place],
+            warning: None,
+        })
     }
 
     /// The one place that is `steps` half steps of the group found from the reference.
@@ -55,6 +78,7 @@ impl Places {
             frame: turned(body, angle)?,
             start: Isometry::rotation(steps, 2 * found),
             harm,
+            graph: None,
         };
         Ok(Self {
             list: vec![place],
@@ -180,6 +204,10 @@ impl Places {
             warning = is_harmful(angle, given, list[0])?;
             list = vec![(angle, given)];
         }
+        let graph = match (&body.params.seam, body.params.start_angle) {
+            (Seam::Auto, None) if group.kind != Kind::S => Self::between(body, opening, list[0].1),
+            _ => None,
+        };
         // Turns of the rotation have as many faces as it has sides.
         let sides = if group.kind == Kind::S { 2.0 } else { 1.0 };
         let place = |(angle, harm): (f64, Harm)| {
@@ -187,14 +215,43 @@ impl Places {
                 frame: turned(body, angle)?,
                 start: Isometry::IDENTITY,
                 harm: sides * harm.sliced,
+                graph: None,
             })
         };
+        let planes: Vec<Place> = list
+            .into_iter()
+            .map(place)
+            .collect::<Result<_, CutError>>()?;
         Ok(Self {
-            list: list
-                .into_iter()
-                .map(place)
-                .collect::<Result<_, CutError>>()?,
+            list: graph.into_iter().chain(planes).collect(),
             warning,
+        })
+    }
+
+    /// The seam between the blades, where it harms less than a plane does.
+    fn between(body: &Body<'_>, opening: f64, plane: Harm) -> Option<Place> {
+        let elements = |harm: Harm| (CostModel::CALIBRATED.sliced * harm.total()).round();
+        if elements(plane) == 0.0 {
+            return None;
+        }
+        let vertices = body.canonical();
+        let harm_of = |graph: &Graph| harm_of_graph(body, &vertices, graph);
+        // The first of those that differ by less than an element, which of the graphs has the fewest knots.
+        let least = |graphs: &mut dyn Iterator<Item = Graph>| {
+            let all = graphs.map(|graph| (harm_of(&graph), graph));
+            all.min_by(|a, b| elements(a.0).total_cmp(&elements(b.0)))
+        };
+        let graphs = between(&vertices, &body.surface.triangles, opening, PLACES);
+        let (_, graph) = least(&mut graphs.into_iter())?;
+        // Turned a little, it passes fewer points closely.
+        let part = opening / (PLACES * PLACES) as f64;
+        let turns = [0, 1, -1, 2, -2, 3, -3, 4, -4].map(|k| f64::from(k) * part);
+        let (harm, graph) = least(&mut turns.into_iter().map(|by| graph.clone().turned(by)))?;
+        (elements(harm) < elements(plane)).then(|| Place {
+            frame: body.frame,
+            start: Isometry::IDENTITY,
+            harm: harm.sliced,
+            graph: Some(Arc::new(graph)),
         })
     }
 }
@@ -215,6 +272,17 @@ fn slicing(body: &Body<'_>) -> impl Fn(f64) -> Harm {
     let size = body.element_size();
     let plane = body.tolerance.on_plane().max(body.tolerance.detail());
     move |angle| sliced::harm(&vertices, &body.surface.triangles, angle, plane, &size)
+}
+
+/// The harm of a graph.
+fn harm_of_graph(body: &Body<'_>, vertices: &[DVec3], graph: &Graph) -> Harm {
+    let step = f64::EPSILON.cbrt() * body.tolerance.extent().size();
+    let cut = sliced::Surface {
+        heights: vertices.iter().map(|p| graph.straighten(*p).y).collect(),
+        normal: |p: DVec3| graph.normal(p, step),
+        tolerance: body.tolerance.on_plane().max(body.tolerance.detail()),
+    };
+    sliced::harm_of(vertices, &body.surface.triangles, cut, body.element_size())
 }
 
 /// Says that the place of a seam, as an angle (radians) and the harm there, is a bad one, if there is a much

@@ -7,7 +7,8 @@ use super::refusals::Refusals;
 use crate::body::Body;
 use crate::cutting::{Candidate, Cut, cut};
 use crate::error::CutError;
-use tmesh::Group;
+use crate::params::Seam;
+use tmesh::{Group, Template};
 
 /// What was found.
 pub struct Found {
@@ -98,13 +99,42 @@ fn first_of(
         if refusals.has(candidate) {
             continue;
         }
+        // A seam that nobody asked for comes first, and has to be better than a plane.
+        let mut between = None;
         for place in places.list {
+            let is_found = place.graph.is_some() && body.params.seam == Seam::Auto;
             match cut(body, candidate, place) {
-                Ok(cut) => return Ok(Some((cut, places.warning))),
+                Ok(cut) if is_found => between = Some(cut),
+                Ok(cut) => return Ok(Some((better(body, between, cut), places.warning))),
                 Err(error) if error.is_of_the_shape() => refusals.add(candidate, error),
                 Err(error) => return Err(error),
             }
         }
+        if let Some(cut) = between {
+            return Ok(Some((cut, places.warning)));
+        }
     }
     Ok(None)
+}
+
+/// Of a wedge along a seam between the blades, if there is one, and one between planes the one whose surface costs fewer
+/// elements; planes if both cost the same.
+fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
+    let Some(between) = between else {
+        return planes;
+    };
+    let cost = |cut: &Cut| {
+        let needles = |t: &Template| estimate::needles(t, body.element_size());
+        cut.templates.iter().map(needles).sum::<f64>()
+    };
+    let [along, plane] = [&between, &planes].map(cost);
+    let (mut chosen, what) = match along < plane {
+        true => (between, "taken"),
+        false => (planes, "not taken"),
+    };
+    chosen.notes.push(format!(
+        "a seam between the blades is {what}: narrow faces of its wedge cost {along:.0} elements of the estimate, {plane:.0} \
+         between planes"
+    ));
+    chosen
 }

@@ -6,7 +6,9 @@
 use super::class::{Class, sign};
 use super::face::{Face, Role, Shape};
 use super::join::Join;
+use crate::graph::Graph;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// The faces that bound a wedge, and how they are joined.
 #[derive(Clone, Debug)]
@@ -19,6 +21,8 @@ pub struct Cell {
     tolerance: f64,
     /// The same of the axis.
     axis: f64,
+    /// By what the points have been straightened, where the seam is no plane.
+    graph: Option<Arc<Graph>>,
 }
 
 impl Cell {
@@ -30,7 +34,57 @@ impl Cell {
             joins,
             tolerance,
             axis: axis.max(tolerance),
+            graph: None,
         }
+    }
+
+    /// The same for points that have been straightened by a graph.
+    pub fn straightened(self, graph: Option<Arc<Graph>>) -> Self {
+        Self { graph, ..self }
+    }
+
+    /// Whether points have been straightened.
+    pub fn is_straightened(&self) -> bool {
+        self.graph.is_some()
+    }
+
+    /// The point at a share of the way from one point of the body to another.
+    pub fn between(&self, p: DVec3, q: DVec3, at: f64) -> DVec3 {
+        match &self.graph {
+            None => p + (q - p) * at,
+            Some(graph) => graph.straighten(graph.bend(p).lerp(graph.bend(q), at)),
+        }
+    }
+
+    /// How far the middle of two points of a cutting face, as `there` gives it, is from that of the line between
+    /// them once both are bent back, in parts of the line's length.
+    pub fn bulge(&self, [p, q]: [DVec3; 2], middle: DVec3) -> f64 {
+        let Some(graph) = &self.graph else { return 0.0 };
+        let [p, q, middle] = [p, q, middle].map(|p| graph.bend(p));
+        middle.distance(p.midpoint(q)) / p.distance(q)
+    }
+
+    /// Where on a way, from 0 to 1, it passes a crease of the seam.
+    pub fn crease(&self, at: impl Fn(f64) -> DVec3) -> Option<f64> {
+        self.graph.as_ref()?.crease(at)
+    }
+
+    /// Where on the way between two points of opposite classes a face is crossed, given their distances from it.
+    fn root(&self, face: usize, [p, q]: [DVec3; 2], [dp, dq]: [f64; 2]) -> f64 {
+        let straight = dp / (dp - dq);
+        if self.graph.is_none() {
+            return straight;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = 0.5 * (low + high);
+            let d = self.faces[face].distance(self.between(p, q, middle));
+            match (d > 0.0) == (dp > 0.0) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        0.5 * (low + high)
     }
 
     /// The faces that satisfy a condition, by index.
@@ -191,7 +245,7 @@ impl Cell {
         };
         let (p, q) = if ordered(p.0, q.0) { (p, q) } else { (q, p) };
         let (dp, dq) = (self.distance(face, p.0, p.1), self.distance(face, q.0, q.1));
-        let x = p.0 + (q.0 - p.0) * (dp / (dp - dq));
+        let x = self.between(p.0, q.0, self.root(face, [p.0, q.0], [dp, dq]));
         self.on_face(face, x, [p.1, q.1], done)
     }
 

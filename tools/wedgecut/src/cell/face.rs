@@ -95,6 +95,11 @@ impl Face {
         matches!(self.shape, Shape::Radial { .. })
     }
 
+    /// Whether it lies across the axis.
+    pub fn is_across(&self) -> bool {
+        self.shape == Shape::Across
+    }
+
     /// Signed distance of a point, positive within the cell, model units.
     pub fn distance(&self, p: DVec3) -> f64 {
         let n = self.inward;

@@ -97,6 +97,10 @@ impl<'a> Cutter<'a> {
         part: &[Triangle],
         shared: &Shared,
     ) -> Option<Vec<Triangle>> {
+        // What lies in one plane does not once it is bent back.
+        if self.cell.is_straightened() {
+            return None;
+        }
         let normal = part
             .iter()
             .map(|f| {

@@ -1,5 +1,7 @@
 //! What can be cut, and where.
 
+use crate::graph::Graph;
+use std::sync::Arc;
 use tmesh::{Frame, Group, Isometry};
 
 /// What can be cut: the wedge of a subgroup of the group found.
@@ -12,7 +14,7 @@ pub struct Candidate {
 }
 
 /// Where the first side of a wedge lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// The canonical frame: z along the axis, x in the first side.
     pub frame: Frame,
@@ -21,4 +23,6 @@ pub struct Place {
     /// How much the cut faces of each turn of the rotation harm the faces they slice, see
     /// [`estimate::harm::sliced`]; zero for mirror planes, whose section the body has anyway.
     pub harm: f64,
+    /// The seam, where it is no plane.
+    pub graph: Option<Arc<Graph>>,
 }

@@ -8,6 +8,7 @@ use crate::cell::{Cell, Join, Part, Role, Shape, hub_order, of_group};
 use crate::clean::{collapse_at_sides, collapse_short_edges};
 use crate::clip::{clip, divide_at_hub};
 use crate::error::CutError;
+use crate::graph::{Graph, divide, follow, restore};
 use crate::seam::{Matched, Matching, match_sections};
 use crate::section::{Known, Piece, Section};
 use crate::surface::{Plane, Surface, slide, snap_heights_and_columns};
@@ -51,7 +52,8 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
     let regions = |element| regions_in(body.symmetry, place.start, element);
     let copies = Copies::new(group, hub.is_some(), regions);
     let wedges = group.size() as usize;
-    let cell = of_group(group, tolerance.on_plane(), tolerance.on_axis(), hub);
+    let cell = of_group(group, tolerance.on_plane(), tolerance.on_axis(), hub)
+        .straightened(place.graph.clone());
     let mut notes = vec![format!(
         "{} wedge of order {} ({wedges} copies), points within {:.1e} of a cut plane and {:.1e} of the axis moved onto \
          it, heights and columns within {:.1e} made equal (largest movement {snapped:.1e})",
@@ -67,9 +69,25 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         tolerance,
         frame: &place.frame,
         regions: &regions,
+        // No triangle has less than one over the square root of three.
+        ratio: body.document.wishes.radius_edge().max(1.0),
     };
     cutter.slide(&mut surface, &mut notes);
-    let (templates, moved) = cutter.cut(surface, &mut notes)?;
+    if let Some(graph) = &place.graph {
+        notes.push(straighten(&mut surface, graph, &cell));
+    }
+    // Errors of a straightened body have their places there.
+    let bent = |error: CutError| match &place.graph {
+        Some(graph) => error.moved(|p| {
+            let p = graph.bend(place.frame.to_canonical(p));
+            place.frame.to_world(p)
+        }),
+        None => error,
+    };
+    let (mut templates, moved) = cutter.cut(surface, &mut notes).map_err(bent)?;
+    if let Some(graph) = &place.graph {
+        restore(&mut templates, graph, &place.frame)?;
+    }
     if let Some(radius) = hub {
         notes.push(format!(
             "hub of inscribed radius {radius} and order {} ({} copies), a template of its own",
@@ -93,6 +111,19 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         moved,
         notes,
     })
+}
+
+/// Straightens a surface by the graph of the seam; says so.
+fn straighten(surface: &mut Template, graph: &Graph, cell: &Cell) -> String {
+    let added = divide(surface, graph, cell);
+    for p in &mut surface.vertices {
+        *p = graph.straighten(*p);
+    }
+    let [least, largest] = graph.range().map(f64::to_degrees);
+    format!(
+        "the seam follows angles of {least:.1} to {largest:.1} degrees at {} knots; {added} points where edges bend",
+        graph.knots()
+    )
 }
 
 /// What the sides of a wedge are, in a word.
@@ -119,6 +150,8 @@ struct Cutter<'a> {
     tolerance: &'a Tolerance,
     frame: &'a Frame,
     regions: &'a dyn Fn(Isometry) -> RegionMap,
+    /// Circumradius over shortest side asked of elements.
+    ratio: f64,
 }
 
 impl Cutter<'_> {
@@ -186,7 +219,10 @@ impl Cutter<'_> {
         }
         divide_at_hub(&mut surface, cell);
         surface.add_corners(cell);
-        let matched = self.match_sections(&mut surface, notes)?;
+        let mut matched = self.match_sections(&mut surface, notes)?;
+        if cell.is_straightened() {
+            self.follow(&mut surface, &mut matched, notes)?;
+        }
         let moved = matched
             .iter()
             .flatten()
@@ -283,6 +319,39 @@ impl Cutter<'_> {
             all.push(Some(matched));
         }
         Ok(all)
+    }
+
+    /// Gives sections points so that what closes them follows the seam.
+    fn follow(
+        &self,
+        surface: &mut Surface,
+        matched: &mut [Option<Matched>],
+        notes: &mut Vec<String>,
+    ) -> Result<(), CutError> {
+        let mut added = 0;
+        let hub = self.cell.hub();
+        for (join, matched) in self.cell.joins.iter().zip(matched) {
+            let Some(matched) = matched else { continue };
+            let of_hub = hub.map(|_| join.there.of_hub());
+            for part in [Some(join.there), of_hub].into_iter().flatten() {
+                let points = follow(surface, self.cell, part, (self.frame, self.ratio))?;
+                added += points.len();
+                matched.add(surface, join, &points);
+            }
+        }
+        if let Some(face) = hub {
+            added += follow(
+                surface,
+                self.cell,
+                Part::whole(face),
+                (self.frame, self.ratio),
+            )?
+            .len();
+        }
+        notes.push(format!(
+            "{added} points within the cut faces, which follow the seam"
+        ));
+        Ok(())
     }
 
     /// The faces on one side of the hub's plane, with the corners there.

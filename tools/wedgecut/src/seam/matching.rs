@@ -30,6 +30,22 @@ impl Matched {
         let i = self.pairs.binary_search_by_key(&v, |p| p[0]).ok()?;
         Some(self.pairs[i][1])
     }
+
+    /// Adds the images of points there that no face of the surface has.
+    pub fn add(&mut self, surface: &mut Surface, join: &Join, points: &[u32]) {
+        for &v in points {
+            let (p, class) = surface.at(v);
+            if class.is_axis() {
+                self.pairs.push([v, v]);
+                continue;
+            }
+            let class = class.with(join.there.face, 1).with(join.here.face, 0);
+            let w = surface.add(join.step.apply(p), class);
+            surface.corners.push(w);
+            self.pairs.push([v, w]);
+        }
+        self.pairs.sort_unstable();
+    }
 }
 
 /// What two sections are to be made images of each other by.

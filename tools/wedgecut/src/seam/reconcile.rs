@@ -54,7 +54,7 @@ pub fn insert(
         let ends = section.edges[insertion.edge].ends;
         let [a, b] = ends.map(|v| surface.points[v as usize]);
         let classes = ends.map(|v| surface.classes[v as usize]);
-        let (p, class) = cell.on_edge(a + (b - a) * insertion.at, classes);
+        let (p, class) = cell.on_edge(cell.between(a, b, insertion.at), classes);
         new[i] = surface.add(p, class);
         section.points.push(new[i]);
         chains.entry(ends).or_default().push(new[i]);

@@ -1,0 +1,221 @@
+//! Points within a section, so that its triangles follow the seam.
+
+use super::seam::STRAIGHT;
+use crate::cell::{Cell, Class, Part};
+use crate::error::CutError;
+use crate::section::{Known, Piece, Section};
+use crate::surface::Surface;
+use geom::cdt::{Cdt, CdtError};
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
+use tmesh::{Frame, Triangle};
+
+/// Adds points to a section until its triangles follow the seam: the middles of edges that are away from it, then
+/// points that take out triangles whose circumradius is above `ratio` times the shortest side. Returns the points, which no face of the
+/// surface has.
+///
+/// # Errors
+/// A section that is not a clean figure.
+pub fn follow(
+    surface: &mut Surface,
+    cell: &Cell,
+    part: Part,
+    (frame, ratio): (&Frame, f64),
+) -> Result<Vec<u32>, CutError> {
+    // Wedge and hub are closed apart.
+    let is_own = |surface: &Surface, v: &u32| {
+        let side = cell.hub().map_or(0, |h| surface.classes[*v as usize].of(h));
+        if part.of_hub { side <= 0 } else { side >= 0 }
+    };
+    let faces = surface.faces.iter().copied();
+    let faces: Vec<Triangle> = faces
+        .filter(|f| f.vertices.iter().all(|v| is_own(surface, v)))
+        .collect();
+    let mut added = Vec::new();
+    let mut is_rounded = false;
+    // What turns the axis over takes its points elsewhere.
+    let may_divide_axis = cell.joins.iter().all(|join| !join.step.flipped());
+    for _ in 0..f64::MANTISSA_DIGITS {
+        let corners = surface.corners.iter().copied();
+        let piece = Piece {
+            surface,
+            faces: &faces,
+            corners: corners.filter(|v| is_own(surface, v)).collect(),
+        };
+        let section = Section::new(&piece, cell, part);
+        let cap = section.cap(&piece, cell, frame, &Known::default())?;
+        let look = Look::new(surface, cell, &section, &cap);
+        let mut new = look.middles();
+        if new.is_empty() && may_divide_axis && look.is_bent() {
+            new = look.borders();
+        }
+        if new.is_empty() && !is_rounded && look.is_bent() {
+            is_rounded = true;
+            new = look.rounded(ratio).unwrap_or_default();
+        }
+        if new.is_empty() {
+            break;
+        }
+        for q in new {
+            let (p, class) = cell.classify(part.at(&cell.faces, q));
+            let inside = Class::INSIDE.with(part.face, 0);
+            // The wall of the hub has been divided where it meets the seam.
+            let border = cell.hub().map_or(inside, |hub| inside.with(hub, 0));
+            let is_own = [inside, border].iter().any(|c| c.bound() == class.bound());
+            if is_own || class.is_axis() && may_divide_axis {
+                let v = surface.add(p, class);
+                surface.corners.push(v);
+                added.push(v);
+            }
+        }
+    }
+    Ok(added)
+}
+
+/// A triangulated section.
+struct Look<'a> {
+    surface: &'a Surface,
+    cell: &'a Cell,
+    section: &'a Section,
+    cap: &'a [Triangle],
+    at: FxHashMap<u32, DVec2>,
+}
+
+impl<'a> Look<'a> {
+    fn new(
+        surface: &'a Surface,
+        cell: &'a Cell,
+        section: &'a Section,
+        cap: &'a [Triangle],
+    ) -> Self {
+        let place = |&v: &u32| (v, section.place(surface, cell, v));
+        Self {
+            surface,
+            cell,
+            section,
+            cap,
+            at: section.points.iter().map(place).collect(),
+        }
+    }
+
+    fn is_rim(&self, ends: [u32; 2]) -> bool {
+        let edges = &self.section.edges;
+        edges.binary_search_by_key(&ends, |e| e.ends).is_ok()
+    }
+
+    /// How far the middle of an edge is from the seam, in parts of its length.
+    fn bulge(&self, ends: [u32; 2]) -> f64 {
+        let [p, q] = ends.map(|v| self.surface.points[v as usize]);
+        let [a, b] = ends.map(|v| self.at[&v]);
+        let middle: DVec3 = self.section.part.at(&self.cell.faces, a.midpoint(b));
+        self.cell.bulge([p, q], middle)
+    }
+
+    /// Where an edge within the section is to be divided: at a crease of the seam, else in the middle.
+    fn middle(&self, ends: [u32; 2]) -> DVec2 {
+        let [a, b] = ends.map(|v| self.at[&v]);
+        let at = |s: f64| self.section.part.at(&self.cell.faces, a.lerp(b, s));
+        a.lerp(b, self.cell.crease(at).unwrap_or(0.5))
+    }
+
+    /// Whether any edge inside is off the seam by more than rounding makes of it.
+    fn is_bent(&self) -> bool {
+        let inner = self.cap.iter().flat_map(edges).filter(|e| !self.is_rim(*e));
+        inner
+            .into_iter()
+            .any(|e| self.bulge(e) > f64::EPSILON.sqrt())
+    }
+
+    /// The middles of edges that are away from the seam, as coordinates of the part.
+    fn middles(&self) -> Vec<DVec2> {
+        let mut bulges: FxHashMap<[u32; 2], f64> = FxHashMap::default();
+        for ends in self.cap.iter().flat_map(edges) {
+            bulges
+                .entry(ends)
+                .or_insert_with(|| match self.is_rim(ends) {
+                    true => 0.0,
+                    false => self.bulge(ends),
+                });
+        }
+        let mut away: Vec<(f64, [u32; 2])> = bulges
+            .iter()
+            .filter(|(_, bulge)| **bulge > STRAIGHT)
+            .map(|(&[v, w], _)| (self.at[&v].distance(self.at[&w]), [v, w]))
+            .collect();
+        away.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        // The longest first; what is near to one of them is divided by it, and looked at in the next round.
+        let mut found: Vec<DVec2> = Vec::new();
+        for (length, [v, w]) in away {
+            let middle = self.middle([v, w]);
+            if found.iter().all(|q| q.distance(middle) >= length) {
+                found.push(middle);
+            }
+        }
+        found
+    }
+
+    /// The middles of edges along the axis and the hub in whose circle a triangle of the section ends. Nothing else holds
+    /// these edges.
+    fn borders(&self) -> Vec<DVec2> {
+        let mut uses: FxHashMap<[u32; 2], Vec<&Triangle>> = FxHashMap::default();
+        for t in self.cap {
+            for ends in edges(t) {
+                uses.entry(ends).or_default().push(t);
+            }
+        }
+        let open = uses
+            .iter()
+            .filter(|(ends, uses)| uses.len() == 1 && !self.is_rim(**ends));
+        let mut found: Vec<([u32; 2], DVec2)> = open
+            .filter_map(|(ends, uses)| {
+                let apex = uses[0].vertices.into_iter().find(|v| !ends.contains(v))?;
+                let [a, b] = ends.map(|v| self.at[&v]);
+                let q = self.at[&apex];
+                ((a - q).dot(b - q) < 0.0).then_some((*ends, a.midpoint(b)))
+            })
+            .collect();
+        found.sort_unstable_by_key(|(ends, _)| *ends);
+        found.into_iter().map(|(_, q)| q).collect()
+    }
+
+    /// Whether a point is in the circle over an edge where the section ends: a triangle there would be a narrow one.
+    fn is_at_rim(&self, q: DVec2) -> bool {
+        self.section.edges.iter().any(|e| {
+            let [a, b] = e.ends.map(|v| self.at[&v]);
+            (a - q).dot(b - q) <= 0.0
+        })
+    }
+
+    /// Points that take narrow triangles out.
+    fn rounded(&self, ratio: f64) -> Result<Vec<DVec2>, CdtError> {
+        let points = &self.section.points;
+        let number = |v: u32| points.binary_search(&v).map_or(0, |i| i as u32);
+        let mut uses: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+        for ends in self.cap.iter().flat_map(edges) {
+            *uses.entry(ends).or_default() += 1;
+        }
+        let rim = uses
+            .iter()
+            .filter(|(ends, count)| **count == 1 || self.is_rim(**ends));
+        let mut rim: Vec<[u32; 2]> = rim.map(|(ends, _)| ends.map(number)).collect();
+        rim.sort_unstable();
+        let places: Vec<[f64; 2]> = points.iter().map(|v| self.at[v].to_array()).collect();
+        let new = Cdt::new(&places, &rim)?.refining(ratio).into_iter();
+        let may_be = |q: &DVec2| self.is_inside(*q) && !self.is_at_rim(*q);
+        Ok(new.map(DVec2::from).filter(may_be).collect())
+    }
+
+    fn is_inside(&self, q: DVec2) -> bool {
+        self.cap.iter().any(|t| {
+            let [a, b, c] = t.vertices.map(|v| self.at[&v]);
+            let side = |a: DVec2, b: DVec2| (b - a).perp_dot(q - a);
+            let sides = [side(a, b), side(b, c), side(c, a)];
+            sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
+        })
+    }
+}
+
+fn edges(t: &Triangle) -> [[u32; 2]; 3] {
+    let [a, b, c] = t.vertices;
+    [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)])
+}
