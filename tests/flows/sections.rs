@@ -146,3 +146,28 @@ fn sections_that_differ_in_topology_are_refused() {
     let cut = run("wedgecut", &["--start-angle", "0"], &bytes(&document));
     cut.fails(1, &["sections", "curves against", "near ("]);
 }
+
+#[test]
+fn a_seam_that_is_moved_by_more_than_the_tolerance_is_told() {
+    let said = |body: &Body| {
+        let found = run("symdetect", &["-q"], &encode(body, EXACT_STL)).success();
+        let cut = run("wedgecut", &["--domain", "rotation"], &found);
+        let text = cut.stderr.clone();
+        cut.success();
+        text
+    };
+    let coarse = said(&screw(3, 60, 2, 0.0));
+    let told = "seam made the image of its other side: points moved by ";
+    let relative = |text: &str| -> f64 {
+        let after = text.split(" at most, ").nth(1).expect("a share");
+        after
+            .split(' ')
+            .next()
+            .and_then(|t| t.parse().ok())
+            .expect("a number")
+    };
+    assert!(coarse.contains(told), "{coarse}");
+    assert!(relative(&coarse) > 1e-3, "{coarse}");
+    let fine = said(&screw(3, 400, 2, 0.0));
+    assert!(!fine.contains(told), "{fine}");
+}

@@ -376,6 +376,33 @@ fn what_breaks_an_order_is_named_with_its_place() {
     assert!(found.nearly.is_none());
 }
 
+/// The centre of mass was taken for a point of the axis, which it is not where much is missing.
+#[test]
+fn a_large_part_that_is_missing_does_not_hide_the_order() {
+    let mut random = Random(3);
+    let body = |missing: bool| {
+        let lobed = |a: f64, r: f64, z: f64| {
+            let is_gone = missing && !(0.2..=TAU - 0.2).contains(&a);
+            let lobe = if is_gone {
+                0.0
+            } else {
+                (8.0 * a).cos().max(0.0)
+            };
+            (r * (1.0 + 0.4 * lobe), z)
+        };
+        bodies::profile(160, &[(0.6, 0.0), (0.6, 0.3)], lobed)
+    };
+    assert_eq!(find(&body(false)).order, 8);
+    let placed = bodies::place(&body(true), &mut random, 1.0, 0.0);
+    let params = Params {
+        allow_asymmetric: true,
+        ..Params::default()
+    };
+    let found = detect(&placed, None, &params, &mut |_| ()).expect("passed on");
+    let nearly = found.nearly.expect("something nearly holds");
+    assert_eq!(nearly.order, Some(8), "{nearly}");
+}
+
 #[test]
 fn polyhedra_and_their_axes() {
     let cube = find(&bodies::cubes([1, 1, 1], |_| 7));

@@ -3,7 +3,7 @@
 use crate::budget::{FIT, NEXT_BEST, QUICK};
 use crate::group::Found;
 use crate::nearly::Nearly;
-use crate::rotation::{OUTLIERS, Query, TELLING_TURNS, golden, powers};
+use crate::rotation::{Fit, LOOSE_RANGE, OUTLIERS, Query, TELLING_TURNS, golden, powers, settle};
 use crate::shape::{Random, Sample, Target};
 use crate::verify::{Bound, Operation, golden_rotations};
 use glam::DVec3;
@@ -13,9 +13,9 @@ use tmesh::{Axis, Frame, Isometry};
 const POWERS: u32 = 2 * TELLING_TURNS as u32;
 
 /// Samples that most of some turns take off the surface.
-struct Lost<'a> {
-    samples: Vec<&'a Sample>,
-    /// How many were looked at.
+struct Lost {
+    count: usize,
+    /// How many were looked at, the first ones.
     of: usize,
 }
 
@@ -43,8 +43,25 @@ impl Query<'_> {
                 .filter_map(|d| Frame::from_axis(self.centre, *d, d.any_orthogonal_vector()))
                 .collect(),
         };
-        let about = frames.iter().map(|f| self.nearly_about(f, multiples));
+        let centred = frames.iter().filter_map(|f| self.centred(f));
+        let about =
+            (frames.iter().copied().chain(centred)).map(|f| self.nearly_about(&f, multiples));
         Nearly::best(about.flatten().collect())
+    }
+
+    /// A frame moved to where any turn takes most of the surface to itself, its rims and bores, if that is farther off than
+    /// candidates are: what is missing shifts the centre of mass.
+    fn centred(&self, start: &Frame) -> Option<Frame> {
+        let radius = self.shape.radius(start);
+        let fit = Fit {
+            operations: &golden(),
+            samples: FIT,
+            reach: LOOSE_RANGE[1] * radius,
+            bound: Bound::plain(self.limits.tolerance * radius),
+        };
+        let frame = settle(self.shape, *start, &fit);
+        let shift = frame.to_canonical(start.origin).truncate().length();
+        (shift > self.limits.loose * radius).then_some(frame)
     }
 
     /// What nearly holds about an axis.
@@ -71,13 +88,13 @@ impl Query<'_> {
     }
 
     /// Those of the first samples that tell one turn about a frame's axis from another.
-    fn telling(&self, frame: &Frame, bound: Bound, count: usize) -> Lost<'_> {
+    fn telling(&self, frame: &Frame, bound: Bound, count: usize) -> Lost {
         let turns = golden_rotations(frame, TELLING_TURNS, Target::Any);
         let samples = &self.shape.samples.mixed;
         let samples = &samples[..count.min(samples.len())];
         let is_lost = |sample: &&Sample| self.is_lost(sample, &turns, bound);
         Lost {
-            samples: samples.iter().filter(is_lost).collect(),
+            count: samples.iter().filter(is_lost).count(),
             of: samples.len(),
         }
     }
@@ -97,19 +114,19 @@ impl Query<'_> {
         frame: &Frame,
         order: Option<u32>,
         bound: Bound,
-        telling: &Lost<'_>,
+        telling: &Lost,
     ) -> Option<Nearly> {
         let shape = self.shape;
         let few = (OUTLIERS * telling.of as f64) as usize;
         let most = match order {
-            Some(_) => few.min(telling.samples.len() / 2),
+            Some(_) => few.min(telling.count / 2),
             None => few,
         };
         let turns = match order {
             Some(order) => some_turns(frame, order),
             None => golden_rotations(frame, POWERS as usize, Target::Any),
         };
-        let lost = telling.samples.iter().copied();
+        let lost = self.shape.samples.mixed[..telling.of].iter();
         let lost = lost.filter(|sample| self.is_lost(sample, &turns, bound));
         let lost: Vec<&Sample> = lost.take(most + 1).collect();
         if lost.len() > most {

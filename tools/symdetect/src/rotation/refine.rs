@@ -82,6 +82,22 @@ pub fn refine(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
     best
 }
 
+/// Moves and turns the frame to what most of the surface is mapped onto itself about, however much of it is not: of what
+/// is within the reach of the fit, and then of half of that, and so on down to its bound, so that what belongs elsewhere
+/// drops out (graduated non-convexity, Blake and Zisserman 1987).
+pub fn settle(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
+    let mut frame = start;
+    let mut reach = fit.reach;
+    while reach > fit.bound.limit {
+        let Some(step) = gauss_newton(shape, &frame, fit, reach) else {
+            break;
+        };
+        frame = step.frame;
+        reach *= 0.5;
+    }
+    frame
+}
+
 struct Step {
     frame: Frame,
     mean_square: f64,
