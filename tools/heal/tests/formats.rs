@@ -349,6 +349,18 @@ fn poly_nested_boxes() {
             .collect();
         assert_eq!(limits, [None, Some(0.25)]);
         assert!(imported.notices.is_empty());
+        // A hole stays one, whatever region points are in it.
+        let both =
+            format!("{body}1\n1 1.5 1.5 1.5\n3\n1 0.5 0.5 0.5 3\n2 3 3 3 0\n3 4.5 4.5 4.5 9\n");
+        let imported = good(both.as_bytes(), Poly);
+        assert_eq!(regions(&imported), [(0, "0", 8.0), (3, "3", 152.0)]);
+        let [said] = &imported.notices[..] else {
+            panic!("{:?}", imported.notices)
+        };
+        assert!(
+            said.contains("region point 3") && said.contains("stays empty"),
+            "{said}"
+        );
         // Without the hole, the space between is a region of its own, 1 being free.
         let imported = good(format!("{body}0\n{seeds}").as_bytes(), Poly);
         let all = [(0, "0", 8.0), (1, "region1", 56.0), (3, "3", 152.0)];
@@ -361,11 +373,40 @@ fn poly_nested_boxes() {
         let fault = |rest: &str| refused(format!("{body}{rest}").as_bytes(), Poly);
         let two = fault("0\n2\n1 3 3 3 1\n2 3.5 3 3 2\n");
         assert!(two.contains("attributes 1 and 2"), "{two}");
-        assert!(fault("1\n1 3.5 3 3\n1\n1 3 3 3 1\n").contains("same cell as hole point 1"));
         assert!(fault("0\n1\n1 9 3 3 1\n").contains("lies outside"));
         assert!(fault("0\n1\n1 6 3 2.5 1\n").contains("lies on a facet"));
         assert!(fault("0\n1\n1 3 3 x 1\n").contains("'x' is not a number"));
     }
+}
+
+/// Electrodes and sources were lost without a word.
+#[test]
+fn poly_nodes_and_segments_of_no_facet_are_told() {
+    let corners = poly_nodes(1, &[([0.0; 3], [4.0; 3])]);
+    let box_nodes = corners.split_once('\n').expect("a head").1;
+    let body = |facets: usize, more: &str| {
+        let nodes = "9 1 1 1\n10 2 1 1\n11 3 1 1\n12 1 2 3\n13 4 2 2\n";
+        format!(
+            "13 3 0 0\n{box_nodes}{nodes}{facets} 1\n{}{more}",
+            poly_box(1)
+        )
+    };
+    // Nodes 9, 10 and 11 are on two segments, 13 is a point of a segment that ends in the surface.
+    let told = good(
+        body(8, "2 0 5\n2 9 10\n2 10 11\n1 0 5\n2 11 13\n").as_bytes(),
+        Poly,
+    )
+    .notices;
+    assert_eq!(
+        told,
+        [
+            "1 node of no facet with an area, the first at (1, 2, 3): not in the mesh",
+            "3 segments of no facet with an area, the first from (1, 1, 1) to (2, 1, 1): not in the mesh"
+        ]
+    );
+    let told = good(body(6, "").as_bytes(), Poly).notices;
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].starts_with("5 nodes of no facet"), "{told:?}");
 }
 
 #[test]

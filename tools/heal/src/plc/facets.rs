@@ -1,5 +1,6 @@
 //! Facets, triangulated so that they fit together along common segments.
 
+use super::loose;
 use super::segments::split_segments;
 use crate::HealError;
 use crate::document::tolerance;
@@ -38,19 +39,22 @@ pub fn triangulate_facets(plc: &Plc, notices: &mut Vec<String>) -> Result<Facets
         triangles: Vec::new(),
         facet_of: Vec::new(),
     };
+    let parts = |s: &[u32; 2]| match pieces.get(s) {
+        Some(chain) => chain.windows(2).map(|w| [w[0], w[1]]).collect(),
+        None => vec![*s],
+    };
+    let segments: Vec<Vec<[u32; 2]>> = segments
+        .iter()
+        .map(|s| s.iter().flat_map(parts).collect())
+        .collect();
     let mut seen = FxHashSet::default();
     let mut flat = 0;
     let mut repeated = 0;
     for (f, facet) in plc.facets.iter().enumerate() {
-        let split: Vec<[u32; 2]> = segments[f]
-            .iter()
-            .flat_map(|s| match pieces.get(s) {
-                Some(chain) => chain.windows(2).map(|w| [w[0], w[1]]).collect(),
-                None => vec![*s],
-            })
-            .collect();
-        let triangles = triangulate_facet(&surface.points, f, facet, &split, &id)?;
-        flat += usize::from(triangles.is_empty());
+        let triangles = triangulate_facet(&surface.points, f, facet, &segments[f], &id)?;
+        // A facet of single nodes and segments is not meant to have an area.
+        let is_face = facet.polygons.iter().any(|p| p.len() > 2);
+        flat += usize::from(triangles.is_empty() && is_face);
         for t in triangles {
             let mut key = t;
             key.sort_unstable();
@@ -74,6 +78,15 @@ pub fn triangulate_facets(plc: &Plc, notices: &mut Vec<String>) -> Result<Facets
             "that two facets have in common",
         ));
     }
+    let segments = segments
+        .into_iter()
+        .flatten()
+        .map(|[a, b]| [a.min(b), a.max(b)]);
+    notices.extend(loose::notices(
+        &surface.points,
+        segments,
+        &surface.triangles,
+    ));
     Ok(surface)
 }
 

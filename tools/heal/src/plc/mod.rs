@@ -2,6 +2,7 @@
 
 mod build;
 mod facets;
+mod loose;
 mod regions;
 mod segments;
 

@@ -49,8 +49,21 @@ pub fn regions(
                 leak()
             )));
         }
-        check_agreement(plc, &ids, content[cell as usize], i)?;
-        content[cell as usize] = Content::Region(i);
+        match content[cell as usize] {
+            // As TetGen has it.
+            Content::Hole(h) => {
+                notices.push(format!(
+                    "region point {} at {} is in the hole of hole point {} at {}: that stays empty",
+                    i + 1,
+                    place(seed.point),
+                    h + 1,
+                    place(plc.holes[h])
+                ));
+                continue;
+            }
+            Content::Region(j) if ids[j] != ids[i] => return Err(contradiction(plc, [j, i])),
+            Content::Region(_) | Content::Unknown => content[cell as usize] = Content::Region(i),
+        }
         let region = regions
             .entry(ids[i])
             .or_insert_with(|| region(ids[i], seed.attribute.clone()));
@@ -109,28 +122,18 @@ fn locate(cells: &Cells<'_>, point: DVec3, what: impl Fn() -> String) -> Result<
     }
 }
 
-/// Whether region point `i` agrees with what is known of its cell.
-fn check_agreement(plc: &Plc, ids: &[u32], known: Content, i: usize) -> Result<(), HealError> {
-    let seed = &plc.regions[i];
-    let at = place(seed.point);
-    match known {
-        Content::Hole(h) => Err(HealError::BadSurface(format!(
-            "region point {} at {at} lies in the same cell as hole point {} at {}",
-            i + 1,
-            h + 1,
-            place(plc.holes[h])
-        ))),
-        Content::Region(j) if ids[j] != ids[i] => Err(HealError::BadSurface(format!(
-            "region points {} at {} and {} at {at} lie in the same cell, but have the attributes \
-             {} and {}",
-            j + 1,
-            place(plc.regions[j].point),
-            i + 1,
-            plc.regions[j].attribute,
-            seed.attribute
-        ))),
-        _ => Ok(()),
-    }
+/// Two region points of one cell that have different attributes.
+fn contradiction(plc: &Plc, seeds: [usize; 2]) -> HealError {
+    let [first, second] = seeds.map(|i| &plc.regions[i]);
+    HealError::BadSurface(format!(
+        "region points {} at {} and {} at {} lie in the same cell, but have the attributes {} and {}",
+        seeds[0] + 1,
+        place(first.point),
+        seeds[1] + 1,
+        place(second.point),
+        first.attribute,
+        second.attribute
+    ))
 }
 
 /// Region id of each seed: its attribute where that is a whole number, else a free id; the same for
