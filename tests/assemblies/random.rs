@@ -1,7 +1,8 @@
 //! Random assemblies for which something was mended; the soak test has many more.
 
 use bodies::assembly::assembly;
-use support::{encode, run};
+use std::collections::BTreeSet;
+use support::{encode, pipe, read, run};
 
 /// What symdetect says of the assembly of a seed.
 fn said(seed: u64) -> String {
@@ -38,4 +39,26 @@ fn a_pin_in_plates_is_read_alike_in_every_run() {
     for _ in 0..7 {
         assert!(first == read(), "another run wrote other bytes");
     }
+}
+
+#[test]
+fn posts_without_symmetry_are_meshed_along_their_faces() {
+    // A body without symmetry was meshed as it was placed: planes that rounding has bent made the mesher abort.
+    let posts = assembly(329);
+    let input = encode(&posts.body, posts.encoding);
+    let symmetric = run("symdetect", &["--allow-asymmetric"], &input).success();
+    let cut = run("wedgecut", &[], &symmetric).success();
+    let wedge = &read(&cut).templates[0];
+    let levels: BTreeSet<i64> = (wedge.vertices.iter())
+        .map(|p| (p.z * 1e9).round() as i64)
+        .collect();
+    assert!(
+        levels.len() < 20,
+        "faces lie across the axis: {} levels of {} points",
+        levels.len(),
+        wedge.vertices.len()
+    );
+    let last = pipe(&[&["tetwedge"], &["rotassemble", "--to", "tmesh"]], &cut).pop();
+    let mesh = last.expect("a stage").success();
+    run("meshqual", &["--check"], &mesh).success();
 }
