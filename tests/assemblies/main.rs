@@ -2,6 +2,7 @@
 
 mod air;
 mod exchange;
+mod heat;
 mod inputs;
 mod motor;
 mod random;
