@@ -33,7 +33,8 @@ fn three_polygons_of_one_circle_become_one() {
 fn a_coarse_circle_and_a_fine_one_touch_as_far_as_the_coarse_one_is_uncertain() {
     // Rings off by half of what their facets leave open: corners of the fine one touched the coarse one, but not the
     // other way round, and what was joined on one side only crossed itself.
-    for seed in [146, 279, 433] {
+    // The last one: an edge was bent to a corner of a face and passed through that face as well.
+    for seed in [146, 279, 433, 181] {
         let said = said(seed);
         assert!(!said.contains("overlap by a volume"), "{said}");
     }
