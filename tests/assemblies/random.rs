@@ -73,3 +73,15 @@ fn posts_without_symmetry_are_meshed_along_their_faces() {
     let mesh = last.expect("a stage").success();
     run("meshqual", &["--check"], &mesh).success();
 }
+
+#[test]
+fn a_seam_whose_faces_would_cross_is_not_cut() {
+    // Layers thinner than the body is off its symmetry: making the sides of the seam images of each other folded them.
+    let rings = assembly(197);
+    let input = encode(&rings.body, rings.encoding);
+    let symmetric = run("symdetect", &["--allow-asymmetric"], &input).success();
+    let place = ["--domain", "rotation", "--start-angle", "2.451"];
+    let arguments = [&place[..], &["--horizontal-mirror", "off"]].concat();
+    let cut = run("wedgecut", &arguments, &symmetric).success();
+    run("periodic-surf", &[], &cut).success();
+}
