@@ -2,6 +2,7 @@
 
 mod air;
 mod exchange;
+mod gaps;
 mod heat;
 mod inputs;
 mod motor;

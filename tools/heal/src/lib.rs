@@ -23,7 +23,7 @@ mod soup;
 mod welded;
 mod words;
 
-pub use assembly::{Naming, Part, assemble, read_part};
+pub use assembly::{Gap, Naming, Part, assemble, gaps, read_part};
 pub use contacts::{Changed, Claimed, Contacts, Joined, Overlap};
 pub use document::{Imported, check_scale};
 pub use error::{HealError, OddEdges};

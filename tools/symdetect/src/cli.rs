@@ -4,14 +4,14 @@ use crate::detect::detect;
 use crate::enclosure::{self, Enclosure, Impossible};
 use crate::error::Error;
 use crate::params::Params;
-use crate::report::{Defects, Detection, FailureReport, Report, svg};
+use crate::report::{Defects, Detection, FailureReport, Report, ReportGap, svg};
 use crate::threads;
 use glam::DVec3;
-use heal::{Contacts, Overlap, Repairing};
-use kit::{Command, CommonArgs, Failure, InputFile, Output, Session, ThreadArgs};
+use heal::{Contacts, Gap, Overlap, Repairing, gaps};
+use kit::{Command, CommonArgs, Failure, InputFile, Output, Session, ThreadArgs, number};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tmesh::{Document, MAX_TURN_DENOMINATOR};
+use tmesh::{Document, MAX_TURN_DENOMINATOR, Template};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -84,7 +84,7 @@ pub struct Cli {
     overlap: OverlapArg,
 
     /// How far apart, or into each other, faces of two solids may be that touch, model units; otherwise what the facets
-    /// of curved faces explain
+    /// of curved faces explain; the narrowest gap that stays is said, and all are in the report (`gaps`)
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     contact_gap: Option<f64>,
 
@@ -237,13 +237,43 @@ impl From<Impossible> for Failure {
 }
 
 impl Cli {
+    /// Whether what is not needed to find the symmetry is looked for.
+    fn looks_around(&self, template: &Template) -> bool {
+        self.report.is_some() || template.triangles.len() <= ALWAYS_CHECKED
+    }
+
     /// Defects of the surface, where they are looked for.
     fn defects(&self, document: &Document) -> Option<Defects> {
         let [template] = document.templates.as_slice() else {
             return None;
         };
-        let looked_for = self.report.is_some() || template.triangles.len() <= ALWAYS_CHECKED;
-        looked_for.then(|| Defects::find(template))
+        self.looks_around(template).then(|| Defects::find(template))
+    }
+
+    /// Gaps between solids, where they are looked for, told to the user.
+    fn gaps(&self, document: &Document, session: &Session) -> Vec<Gap> {
+        let found = match document.templates.as_slice() {
+            [template] if self.looks_around(template) => gaps(document),
+            _ => Vec::new(),
+        };
+        if let Some(first) = found.first() {
+            let ReportGap {
+                regions: [one, other],
+                width,
+                near,
+            } = ReportGap::of(first, document);
+            let pairs = match found.len() {
+                1 => String::new(),
+                n => format!(", the narrowest of those between {n} pairs of solids"),
+            };
+            session.note(&format!(
+                "between '{one}' and '{other}' a gap of {} stays near {}{pairs}; --contact-gap LENGTH closes gaps up to \
+                 a length",
+                number(width),
+                kit::point(near),
+            ));
+        }
+        found
     }
 
     /// Defects of the surface, told to the user, and its symmetry; both at the same time where threads allow.
@@ -315,6 +345,7 @@ impl Command for Cli {
             self.report_failure(failure, &defects.unwrap_or_default(), session);
         })?;
         let (defects, found) = self.examine(&document, &params, session);
+        let gaps = self.gaps(&document, session);
         let mut found = found.map_err(|error| {
             let failure = Failure::from(error);
             self.report_failure(&failure, &defects, session);
@@ -351,7 +382,7 @@ impl Command for Cli {
         if let Some(path) = &self.report {
             write_text(
                 path,
-                &json(&Report::new(&document, &found, &defects, session))?,
+                &json(&Report::new(&document, &found, (&defects, &gaps), session))?,
             )?;
         }
         if let Some((path, picture)) = picture {

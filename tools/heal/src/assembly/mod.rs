@@ -2,11 +2,13 @@
 //! which solid is on either side of a triangle. What holds for solids of one file holds for those of several.
 
 mod assemble;
+mod gaps;
 mod names;
 mod part;
 mod read;
 mod surface_of;
 
 pub use assemble::assemble;
+pub use gaps::{Gap, gaps};
 pub use part::{Naming, Part};
 pub use read::read_part;

@@ -18,6 +18,7 @@ mod settle;
 
 pub use curves::Curves;
 pub use faces::{Complex, Faces, Incidence};
+pub use near::{crossing, is_over};
 pub use overlay::overlay;
 pub use relate::{Reach, is_related};
 pub use settle::{Settled, settle};

@@ -52,7 +52,7 @@ pub fn is_beside(p: &[DVec3; 3], t: &[DVec3; 3], within: f64) -> bool {
 }
 
 /// Whether a point lies over a triangle along its normal.
-fn is_over(p: DVec3, t: &[DVec3; 3], normal: DVec3) -> bool {
+pub fn is_over(p: DVec3, t: &[DVec3; 3], normal: DVec3) -> bool {
     (0..3).all(|i| (t[(i + 1) % 3] - t[i]).cross(p - t[i]).dot(normal) > 0.0)
 }
 

@@ -3,7 +3,7 @@
 use crate::nearly::Nearly;
 use crate::report::defects::Defects;
 use crate::report::detection::{Detection, OrderResidual};
-use heal::Repair;
+use heal::{Gap, Repair};
 use kit::{InputFile, Session};
 use serde::Serialize;
 use tmesh::{Axis, Document, Group, Isometry, OtherAxis, RejectedOrder, Symmetry};
@@ -56,6 +56,9 @@ pub struct Report<'a> {
     /// What was done to make one body of solids that touch or overlap.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joined: Option<ReportJoined<'a>>,
+    /// Gaps between solids, the narrowest first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gaps: Vec<ReportGap<'a>>,
     /// Remarks, a sentence each.
     pub notes: &'a [String],
 }
@@ -154,7 +157,7 @@ impl<'a> Report<'a> {
     pub fn new(
         document: &'a Document,
         found: &'a Detection,
-        defects: &'a Defects,
+        (defects, gaps): (&'a Defects, &[Gap]),
         session: &'a Session,
     ) -> Self {
         let symmetry = &found.symmetry;
@@ -188,7 +191,34 @@ impl<'a> Report<'a> {
             input: session.notices(),
             repairs: session.repairs().iter().map(ReportRepair::of).collect(),
             joined: session.joined().map(ReportJoined::of),
+            gaps: gaps.iter().map(|g| ReportGap::of(g, document)).collect(),
             notes: &found.notes,
+        }
+    }
+}
+
+/// A gap between two solids.
+#[derive(Debug, Serialize)]
+pub struct ReportGap<'a> {
+    /// The names of both.
+    pub regions: [&'a str; 2],
+    /// How far apart they are where they are nearest, model units.
+    pub width: f64,
+    /// The middle between them there.
+    pub near: [f64; 3],
+}
+
+impl<'a> ReportGap<'a> {
+    /// A gap between regions of a document.
+    pub fn of(gap: &Gap, document: &'a Document) -> Self {
+        let name = |id: u32| {
+            let region = document.regions.iter().find(|r| r.id == id);
+            region.map_or("", |r| r.name.as_str())
+        };
+        Self {
+            regions: gap.regions.map(name),
+            width: gap.width,
+            near: gap.near.to_array(),
         }
     }
 }

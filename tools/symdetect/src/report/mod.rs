@@ -14,5 +14,5 @@ mod svg;
 
 pub use defects::{Defects, Places};
 pub use detection::{Detection, OrderResidual};
-pub use json::{FailureReport, Report};
+pub use json::{FailureReport, Report, ReportGap};
 pub use svg::svg;
