@@ -115,6 +115,18 @@ pub enum CutError {
         /// Where.
         near: DVec3,
     },
+    /// Faces that have points of a seam cross, though sections are clean.
+    #[error(
+        "faces cross at the seam near ({:.6}, {:.6}, {:.6}), whose points were moved by up to {moved:.3e} to make its \
+         sides images of each other; parts of the body are nearer to each other than it is symmetric",
+        .near.x, .near.y, .near.z
+    )]
+    MovedFacesCross {
+        /// Where.
+        near: DVec3,
+        /// Largest distance that a point was moved, model units.
+        moved: f64,
+    },
     /// A seam that the group cannot have.
     #[error("--seam FILE does not fit: {0}")]
     NoSeam(&'static str),
@@ -196,6 +208,7 @@ impl CutError {
             | Self::SectionsDiffer { .. }
             | Self::SectionsJoinedDifferently { .. }
             | Self::SeamCrosses { .. }
+            | Self::MovedFacesCross { .. }
             | Self::NotClosed { .. }
             | Self::VolumeDiffers { .. }
             | Self::RegionVolumeDiffers { .. }

@@ -223,7 +223,8 @@ impl Curves {
         self.patches[t as usize].sagitta + self.uncertain(t)
     }
 
-    /// Where on the facet `t` a corner of another solid's facet `of` lies, if it touches the surface behind `t`.
+    /// Where on the facet `t` a corner of another solid's facet `of` lies, if it touches the surface behind `t`: that is as
+    /// uncertain as the coarser one of both, so that corners of either touch the other one.
     pub fn spot(
         &self,
         (of, corner): (u32, usize),
@@ -237,12 +238,12 @@ impl Curves {
         let height = patch.height(p);
         let beside = own.continues(patch);
         let looks = beside || own.faces(patch);
-        if self.reach(t) <= equal || !looks || height.abs() > self.reach(t) + equal {
+        let within = self.uncertain(t).max(self.uncertain(of)).max(equal);
+        if self.reach(t) <= equal || !looks || height.abs() > patch.sagitta + within {
             return None;
         }
         let flat = p - patch.normal * height;
-        let within = self.uncertain(t).max(equal);
-        let at = spot(flat, &patch.corners, within)?;
+        let at = spot(flat, &patch.corners, self.uncertain(t).max(equal))?;
         if (height - patch.over(flat)).abs() > within {
             return None;
         }

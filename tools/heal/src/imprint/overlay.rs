@@ -71,6 +71,7 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, gap: Option<f64
             found: &found,
             ids: &ids,
             within: within.max(found.largest),
+            bent: within.max(overlay.largest),
         };
         is_new = round.run(&mut complex);
     }
@@ -107,6 +108,8 @@ struct Round<'a> {
     ids: &'a [u32],
     /// How far apart things are that are related.
     within: f64,
+    /// How far off their planes faces have been bent, by this round and those before.
+    bent: f64,
 }
 
 type Sides = Vec<[u32; 2]>;
@@ -279,7 +282,7 @@ impl Round<'_> {
                     let middle = 0.5 * s.map(|v| complex.points[v as usize]).iter().sum::<DVec3>();
                     s.iter().all(|v| common.binary_search(v).is_ok())
                         && !sides.contains(s)
-                        && tree.nearest(middle, 2.0 * self.within).is_some()
+                        && tree.nearest(middle, 2.0 * self.bent).is_some()
                 });
                 segments.entry(own).or_default().extend(across);
             }

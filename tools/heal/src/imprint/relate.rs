@@ -151,6 +151,8 @@ struct Finder<'a> {
     crossed: FxHashMap<[u32; 2], u32>,
     /// Points made where an edge passes through a face.
     pierced: FxHashSet<[u32; 2]>,
+    /// Vertices of faces that edges of curved faces pass through.
+    vertices_of: FxHashMap<u32, FxHashSet<u32>>,
     set_on_edge: FxHashSet<[u32; 2]>,
     set_inside: FxHashSet<[u32; 2]>,
     /// Vertices that are moved to another one.
@@ -175,6 +177,7 @@ impl<'a> Finder<'a> {
             reach,
             crossed: FxHashMap::default(),
             pierced: FxHashSet::default(),
+            vertices_of: FxHashMap::default(),
             set_on_edge: FxHashSet::default(),
             set_inside: FxHashSet::default(),
             moved: Vec::new(),
@@ -421,7 +424,10 @@ impl<'a> Finder<'a> {
                 return false;
             }
         }
-        if self.reach.curves.is_some() && self.vertex_near(e, place, self.reach.of(s)).is_some() {
+        let near = self.reach.of(s);
+        if self.reach.curves.is_some()
+            && (self.vertex_near(e, place, near).is_some() || self.is_bent_to(e, face))
+        {
             return false;
         }
         let new = self.add(place);
@@ -429,6 +435,19 @@ impl<'a> Finder<'a> {
         self.on_edge(e, along, new);
         self.inside(t, new);
         true
+    }
+
+    /// Whether an edge is bent to a vertex of a flat face: there it passes through the face, and nowhere else.
+    fn is_bent_to(&mut self, e: u32, face: u32) -> bool {
+        let Some(on) = self.found.on_edge.get(&e) else {
+            return false;
+        };
+        let vertices = self.vertices_of.entry(face).or_insert_with(|| {
+            let triangles = self.faces.triangles[face as usize].iter();
+            let all = triangles.flat_map(|&t| self.complex.triangles[t as usize]);
+            all.collect()
+        });
+        on.iter().any(|(_, v)| vertices.contains(v))
     }
 
     /// The vertex on an edge that is nearest to a place of it, within a distance: the edge will be bent to that.

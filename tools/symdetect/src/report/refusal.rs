@@ -7,6 +7,7 @@ use crate::nearly::Nearly;
 use crate::report::detection::Detection;
 use crate::rotation::{Canonical, FIRST_DIRECTIONS, LOOSE_RANGE, Query, powers};
 use crate::verify::{Bound, Depth, Deviation, Operation};
+use geom::tree::alignment;
 use glam::DVec3;
 use tmesh::{Axis, Frame, Group, Isometry, RejectedOrder, Search, Symmetry};
 
@@ -121,8 +122,7 @@ impl Query<'_> {
         nearly: Option<Nearly>,
         reason: String,
     ) -> Detection {
-        let direction = self.params.axis.unwrap_or(DVec3::Z);
-        let frame = self.frame_along(direction).unwrap_or(Frame::IDENTITY);
+        let frame = self.frame_along_faces();
         let rejected = closest.filter(|c| c.order > 1).map(|c| RejectedOrder {
             order: c.order,
             residual: c.residual,
@@ -134,7 +134,7 @@ impl Query<'_> {
                     point: self.shape.to_world(self.centre).to_array(),
                     direction: frame.rotation.z_axis.to_array(),
                 },
-                reference: reference(&frame, Group::TRIVIAL).to_array(),
+                reference: frame.rotation.x_axis.to_array(),
                 residual: 0.0,
                 tolerance: self.params.tolerance,
                 axisymmetric: false,
@@ -151,6 +151,24 @@ impl Query<'_> {
             nearly,
             asymmetric: Some(reason),
         }
+    }
+
+    /// A frame along the axis asked for. Where none is, any frame serves, and it lies along the faces: a mesher gets
+    /// slivers between faces in planes that rounding has bent, and planes across coordinate axes have exact coordinates.
+    fn frame_along_faces(&self) -> Frame {
+        let shape = self.shape;
+        let along = |z: DVec3, x: DVec3| Frame::from_axis(self.centre, z, x);
+        let faces = match self.params.axis {
+            Some(_) => None,
+            None => alignment(shape.triangles.len(), |t| shape.corners(t as u32)),
+        };
+        let faces = faces.and_then(|rows| along(rows.row(2), rows.row(0)));
+        faces.unwrap_or_else(|| {
+            let direction = self.params.axis.unwrap_or(DVec3::Z);
+            let frame = self.frame_along(direction).unwrap_or(Frame::IDENTITY);
+            let x = reference(&frame, Group::TRIVIAL);
+            along(frame.rotation.z_axis, x).unwrap_or(frame)
+        })
     }
 
     /// A frame with its axis along a direction through the centre.

@@ -9,7 +9,7 @@ use crate::clean::{collapse_at_sides, collapse_short_edges};
 use crate::clip::{clip, divide_at_hub};
 use crate::error::CutError;
 use crate::graph::{Graph, divide, follow, restore};
-use crate::seam::{Matched, Matching, match_sections};
+use crate::seam::{Matched, Matching, check_moved, match_sections};
 use crate::section::{Known, Piece, Section};
 use crate::surface::{Plane, Surface, slide, snap_heights_and_columns};
 use crate::wedge::{Caps, Inner, Parts, assemble, unite, whole};
@@ -83,8 +83,9 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         None => error,
     };
     let (mut templates, moved) = cutter.cut(surface, &mut notes).map_err(bent)?;
-    if let Some(graph) = &place.graph {
-        restore(&mut templates, graph, &place.frame)?;
+    match &place.graph {
+        Some(graph) => restore(&mut templates, graph, &place.frame)?,
+        None => check_moved(&templates, moved, (tolerance.equal(), &place.frame))?,
     }
     if let Some(radius) = hub {
         notes.push(format!(
