@@ -4,8 +4,7 @@ use crate::points::weld::Welder;
 use crate::rounding::power_of_two;
 use spade::handles::FixedVertexHandle;
 use spade::{
-    AngleLimit, ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation,
-    RefinementParameters, Triangulation,
+    ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation,
 };
 use thiserror::Error;
 
@@ -133,21 +132,6 @@ impl Cdt {
             cdt.is_segment.push(sides.map(|e| e.is_constraint_edge()));
         }
         cdt
-    }
-
-    /// Points that would take triangles whose circumradius is above `ratio` times the shortest side out of the whole convex
-    /// hull, as far as segments that stay as they are allow (J. Ruppert, "A Delaunay refinement algorithm for quality
-    /// 2-dimensional mesh generation", 1995).
-    pub fn refining(mut self, ratio: f64) -> Vec<[f64; 2]> {
-        let before = self.inner.num_vertices();
-        let limit = AngleLimit::from_radius_to_shortest_edge_ratio(ratio);
-        let parameters = RefinementParameters::new()
-            .with_angle_limit(limit)
-            .keep_constraint_edges();
-        self.inner.refine(parameters);
-        let new = self.inner.vertices().skip(before);
-        new.map(|v| [v.position().x, v.position().y].map(|x| x / self.scale))
-            .collect()
     }
 
     /// Whether two points are joined by a segment or a part of one.

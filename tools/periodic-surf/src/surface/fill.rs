@@ -3,8 +3,9 @@
 use super::features::NONE;
 use super::maker::Maker;
 use super::pairing::facing;
-use super::pieces::{Frame, Patch};
+use super::pieces::Frame;
 use crate::SurfaceError;
+use geom::cdt::Patch;
 use glam::{DVec2, DVec3};
 use mesher::face_key;
 use rustc_hash::FxHashMap;

@@ -5,7 +5,7 @@ use crate::body::Body;
 use crate::cell::angle;
 use crate::cutting::Place;
 use crate::error::CutError;
-use crate::graph::{Graph, between};
+use crate::graph::{Graph, Rails, between};
 use crate::params::Seam;
 use estimate::CostModel;
 use estimate::harm::sliced::Harm;
@@ -242,11 +242,17 @@ impl Places {
             all.min_by(|a, b| elements(a.0).total_cmp(&elements(b.0)))
         };
         let graphs = between(&vertices, &body.surface.triangles, opening, PLACES);
+        // Along edges it cuts no faces; half of the way to a blade there may be some.
+        let rails = Rails::new(&vertices, &body.surface.triangles, body.tolerance.equal());
+        let bend = |graph: &Graph| rails.bend(graph, [opening, 0.25 * opening]);
+        let bent = least(&mut graphs.iter().filter_map(bend));
         let (_, graph) = least(&mut graphs.into_iter())?;
         // Turned a little, it passes fewer points closely.
         let part = opening / (PLACES * PLACES) as f64;
         let turns = [0, 1, -1, 2, -2, 3, -3, 4, -4].map(|k| f64::from(k) * part);
-        let (harm, graph) = least(&mut turns.into_iter().map(|by| graph.clone().turned(by)))?;
+        let turned = least(&mut turns.into_iter().map(|by| graph.clone().turned(by)));
+        let (harm, graph) = ([turned, bent].into_iter().flatten())
+            .min_by(|a, b| elements(a.0).total_cmp(&elements(b.0)))?;
         (elements(harm) < elements(plane)).then(|| Place {
             frame: body.frame,
             start: Isometry::IDENTITY,

@@ -8,6 +8,7 @@ use crate::body::Body;
 use crate::cutting::{Candidate, Cut, cut};
 use crate::error::CutError;
 use crate::params::Seam;
+use estimate::CostModel;
 use tmesh::{Group, Template};
 
 /// What was found.
@@ -125,7 +126,8 @@ fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
     };
     let cost = |cut: &Cut| {
         let needles = |t: &Template| estimate::needles(t, body.element_size());
-        cut.templates.iter().map(needles).sum::<f64>()
+        let narrow: f64 = cut.templates.iter().map(needles).sum();
+        narrow + CostModel::CALIBRATED.sliced * cut.place.harm
     };
     let [along, plane] = [&between, &planes].map(cost);
     let (mut chosen, what) = match along < plane {
@@ -133,8 +135,8 @@ fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
         false => (planes, "not taken"),
     };
     chosen.notes.push(format!(
-        "a seam between the blades is {what}: narrow faces of its wedge cost {along:.0} elements of the estimate, {plane:.0} \
-         between planes"
+        "a seam between the blades is {what}: narrow faces of its wedge and what it slices cost {along:.0} elements of the \
+         estimate, {plane:.0} between planes"
     ));
     chosen
 }

@@ -69,8 +69,6 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         tolerance,
         frame: &place.frame,
         regions: &regions,
-        // No triangle has less than one over the square root of three.
-        ratio: body.document.wishes.radius_edge().max(1.0),
     };
     cutter.slide(&mut surface, &mut notes);
     if let Some(graph) = &place.graph {
@@ -151,8 +149,6 @@ struct Cutter<'a> {
     tolerance: &'a Tolerance,
     frame: &'a Frame,
     regions: &'a dyn Fn(Isometry) -> RegionMap,
-    /// Circumradius over shortest side asked of elements.
-    ratio: f64,
 }
 
 impl Cutter<'_> {
@@ -335,19 +331,13 @@ impl Cutter<'_> {
             let Some(matched) = matched else { continue };
             let of_hub = hub.map(|_| join.there.of_hub());
             for part in [Some(join.there), of_hub].into_iter().flatten() {
-                let points = follow(surface, self.cell, part, (self.frame, self.ratio))?;
+                let points = follow(surface, self.cell, part, self.frame)?;
                 added += points.len();
                 matched.add(surface, join, &points);
             }
         }
         if let Some(face) = hub {
-            added += follow(
-                surface,
-                self.cell,
-                Part::whole(face),
-                (self.frame, self.ratio),
-            )?
-            .len();
+            added += follow(surface, self.cell, Part::whole(face), self.frame)?.len();
         }
         notes.push(format!(
             "{added} points within the cut faces, which follow the seam"

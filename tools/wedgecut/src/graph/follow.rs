@@ -5,14 +5,13 @@ use crate::cell::{Cell, Class, Part};
 use crate::error::CutError;
 use crate::section::{Known, Piece, Section};
 use crate::surface::Surface;
-use geom::cdt::{Cdt, CdtError};
+use geom::cdt::{Broken, Patch, narrow};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use tmesh::{Frame, Triangle};
 
 /// Adds points to a section until its triangles follow the seam: the middles of edges that are away from it, then
-/// points that take out triangles whose circumradius is above `ratio` times the shortest side. Returns the points, which no face of the
-/// surface has.
+/// points that take narrow triangles out. Returns the points, which no face of the surface has.
 ///
 /// # Errors
 /// A section that is not a clean figure.
@@ -20,7 +19,7 @@ pub fn follow(
     surface: &mut Surface,
     cell: &Cell,
     part: Part,
-    (frame, ratio): (&Frame, f64),
+    frame: &Frame,
 ) -> Result<Vec<u32>, CutError> {
     // Wedge and hub are closed apart.
     let is_own = |surface: &Surface, v: &u32| {
@@ -51,7 +50,7 @@ pub fn follow(
         }
         if new.is_empty() && !is_rounded && look.is_bent() {
             is_rounded = true;
-            new = look.rounded(ratio).unwrap_or_default();
+            new = look.rounded().unwrap_or_default();
         }
         if new.is_empty() {
             break;
@@ -74,7 +73,6 @@ pub fn follow(
 
 /// A triangulated section.
 struct Look<'a> {
-    surface: &'a Surface,
     cell: &'a Cell,
     section: &'a Section,
     cap: &'a [Triangle],
@@ -82,15 +80,9 @@ struct Look<'a> {
 }
 
 impl<'a> Look<'a> {
-    fn new(
-        surface: &'a Surface,
-        cell: &'a Cell,
-        section: &'a Section,
-        cap: &'a [Triangle],
-    ) -> Self {
+    fn new(surface: &Surface, cell: &'a Cell, section: &'a Section, cap: &'a [Triangle]) -> Self {
         let place = |&v: &u32| (v, section.place(surface, cell, v));
         Self {
-            surface,
             cell,
             section,
             cap,
@@ -105,10 +97,9 @@ impl<'a> Look<'a> {
 
     /// How far the middle of an edge is from the seam, in parts of its length.
     fn bulge(&self, ends: [u32; 2]) -> f64 {
-        let [p, q] = ends.map(|v| self.surface.points[v as usize]);
         let [a, b] = ends.map(|v| self.at[&v]);
-        let middle: DVec3 = self.section.part.at(&self.cell.faces, a.midpoint(b));
-        self.cell.bulge([p, q], middle)
+        let at = |q: DVec2| -> DVec3 { self.section.part.at(&self.cell.faces, q) };
+        self.cell.bulge([at(a), at(b)], at(a.midpoint(b)))
     }
 
     /// Where an edge within the section is to be divided: at a crease of the seam, else in the middle.
@@ -154,9 +145,13 @@ impl<'a> Look<'a> {
         found
     }
 
-    /// The middles of edges along the axis and the hub in whose circle a triangle of the section ends. Nothing else holds
-    /// these edges.
+    /// The middles of edges along the axis and the hub, which nothing else holds, in whose circle the section has the circumcentre of
+    /// a narrow triangle or a corner of one beside them (J. Ruppert, "A Delaunay refinement algorithm for quality 2-dimensional mesh
+    /// generation", 1995).
     fn borders(&self) -> Vec<DVec2> {
+        let corners = |t: &Triangle| t.vertices.map(|v| self.at[&v]);
+        let centres = self.cap.iter().filter_map(|t| Some(narrow(corners(t))?.1));
+        let centres: Vec<DVec2> = centres.filter(|q| self.is_inside(*q)).collect();
         let mut uses: FxHashMap<[u32; 2], Vec<&Triangle>> = FxHashMap::default();
         for t in self.cap {
             for ends in edges(t) {
@@ -168,41 +163,15 @@ impl<'a> Look<'a> {
             .filter(|(ends, uses)| uses.len() == 1 && !self.is_rim(**ends));
         let mut found: Vec<([u32; 2], DVec2)> = open
             .filter_map(|(ends, uses)| {
-                let apex = uses[0].vertices.into_iter().find(|v| !ends.contains(v))?;
+                let apex = uses[0].vertices.iter().find(|v| !ends.contains(v))?;
                 let [a, b] = ends.map(|v| self.at[&v]);
-                let q = self.at[&apex];
-                ((a - q).dot(b - q) < 0.0).then_some((*ends, a.midpoint(b)))
+                let in_circle = |q: &DVec2| (a - *q).dot(b - *q) < 0.0;
+                let is_crowded = in_circle(&self.at[apex]) || centres.iter().any(in_circle);
+                is_crowded.then_some((*ends, a.midpoint(b)))
             })
             .collect();
         found.sort_unstable_by_key(|(ends, _)| *ends);
         found.into_iter().map(|(_, q)| q).collect()
-    }
-
-    /// Whether a point is in the circle over an edge where the section ends: a triangle there would be a narrow one.
-    fn is_at_rim(&self, q: DVec2) -> bool {
-        self.section.edges.iter().any(|e| {
-            let [a, b] = e.ends.map(|v| self.at[&v]);
-            (a - q).dot(b - q) <= 0.0
-        })
-    }
-
-    /// Points that take narrow triangles out.
-    fn rounded(&self, ratio: f64) -> Result<Vec<DVec2>, CdtError> {
-        let points = &self.section.points;
-        let number = |v: u32| points.binary_search(&v).map_or(0, |i| i as u32);
-        let mut uses: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-        for ends in self.cap.iter().flat_map(edges) {
-            *uses.entry(ends).or_default() += 1;
-        }
-        let rim = uses
-            .iter()
-            .filter(|(ends, count)| **count == 1 || self.is_rim(**ends));
-        let mut rim: Vec<[u32; 2]> = rim.map(|(ends, _)| ends.map(number)).collect();
-        rim.sort_unstable();
-        let places: Vec<[f64; 2]> = points.iter().map(|v| self.at[v].to_array()).collect();
-        let new = Cdt::new(&places, &rim)?.refining(ratio).into_iter();
-        let may_be = |q: &DVec2| self.is_inside(*q) && !self.is_at_rim(*q);
-        Ok(new.map(DVec2::from).filter(may_be).collect())
     }
 
     fn is_inside(&self, q: DVec2) -> bool {
@@ -212,6 +181,53 @@ impl<'a> Look<'a> {
             let sides = [side(a, b), side(b, c), side(c, a)];
             sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)
         })
+    }
+
+    /// Points that take narrow triangles out; none of them is in the circle over an edge where the section ends.
+    fn rounded(&self) -> Result<Vec<DVec2>, Broken> {
+        let points = &self.section.points;
+        let number = |v: u32| points.binary_search(&v).map_or(0, |i| i as u32);
+        let mut uses: FxHashMap<[u32; 2], u32> = FxHashMap::default();
+        for ends in self.cap.iter().flat_map(edges) {
+            *uses.entry(ends).or_default() += 1;
+        }
+        let is_end = |[v, w]: [u32; 2]| {
+            let ends = [v.min(w), v.max(w)];
+            uses[&ends] == 1 || self.is_rim(ends)
+        };
+        let mut outline: Vec<[u32; 2]> = (self.cap.iter())
+            .flat_map(|t| {
+                let [a, b, c] = t.vertices;
+                let [p, q, r] = t.vertices.map(|v| self.at[&v]);
+                match (q - p).perp_dot(r - p) > 0.0 {
+                    true => [[a, b], [b, c], [c, a]],
+                    false => [[b, a], [c, b], [a, c]],
+                }
+            })
+            .filter(|ends| is_end(*ends))
+            .map(|ends| ends.map(number))
+            .collect();
+        outline.sort_unstable();
+        let places: Vec<DVec2> = points.iter().map(|v| self.at[v]).collect();
+        let size = places.iter().fold(0.0_f64, |m, q| m.max(q.length()));
+        let mut patch = Patch {
+            fixed: places.len(),
+            points: places,
+            outline,
+            rounding: f64::EPSILON.sqrt() * size,
+        };
+        let triangles = patch.triangulate()?;
+        let inner = triangles
+            .into_iter()
+            .flatten()
+            .filter(|i| *i as usize >= patch.fixed);
+        let mut inner: Vec<u32> = inner.collect();
+        inner.sort_unstable();
+        inner.dedup();
+        Ok(inner
+            .into_iter()
+            .map(|i| patch.points[i as usize])
+            .collect())
     }
 }
 

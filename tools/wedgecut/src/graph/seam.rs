@@ -135,6 +135,26 @@ impl Graph {
         self
     }
 
+    /// The same graph, at each of some heights (model units, increasing) turned by an angle (radians), and between them by what
+    /// lies between; `None` where none are given.
+    pub fn shifted(&self, by: &[(f64, f64)]) -> Option<Self> {
+        let (known, angles): (Vec<f64>, Vec<f64>) = by.iter().copied().unzip();
+        let turn = |z: f64| match locate(&known, z) {
+            (i, 0.0) => angles[i],
+            (i, t) => angles[i] + (angles[i + 1] - angles[i]) * t,
+        };
+        let mut heights: Vec<f64> = self.heights.iter().chain(&known).copied().collect();
+        heights.sort_unstable_by(f64::total_cmp);
+        heights.dedup();
+        let at = |&r: &f64| heights.iter().map(move |&z| (r, z)).collect::<Vec<_>>();
+        let places = self.radii.iter().flat_map(at);
+        (!known.is_empty()).then(|| Self {
+            radii: self.radii.clone(),
+            angles: places.map(|(r, z)| self.angle(r, z) + turn(z)).collect(),
+            heights: heights.clone(),
+        })
+    }
+
     /// The unit normal of the seam at the distance and height of a point, in the direction of increasing angles; `None`
     /// where the point is on the other side of the axis. `step`: a length over which the graph hardly changes.
     pub fn normal(&self, p: DVec3, step: f64) -> Option<DVec3> {

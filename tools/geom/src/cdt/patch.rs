@@ -1,6 +1,6 @@
 //! Triangulation of one flat facet, and its refinement with the outline kept.
 
-use geom::cdt::{Borders, Cdt, CdtError, NONE, Segment};
+use super::{Borders, Cdt, CdtError, NONE, Segment};
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -208,24 +208,14 @@ impl Patch {
 
     /// Circumcentres to insert, worst triangles first, far from each other, each with its triangle.
     fn centres(&self, mesh: &Mesh, hopeless: &FxHashSet<[u32; 3]>) -> Vec<([u32; 3], DVec2)> {
-        let limit = 0.5 / libm::sin(MIN_ANGLE.to_radians());
         let mut bad = Vec::new();
         for mut key in mesh.triangles() {
-            let [a, b, c] = key.map(|v| self.points[v as usize]);
-            let (u, v) = (b - a, c - a);
-            let shortest = u
-                .length_squared()
-                .min(v.length_squared())
-                .min((c - b).length_squared());
-            let twice = 2.0 * u.perp_dot(v);
-            let offset = DVec2::new(
-                v.y * u.length_squared() - u.y * v.length_squared(),
-                u.x * v.length_squared() - v.x * u.length_squared(),
-            ) / twice;
-            let ratio = (offset.length_squared() / shortest).sqrt();
+            let found = narrow(key.map(|v| self.points[v as usize]));
             key.sort_unstable();
-            if ratio > limit && ratio.is_finite() && !hopeless.contains(&key) {
-                bad.push((ratio, key, a + offset));
+            if let Some((ratio, centre)) = found
+                && !hopeless.contains(&key)
+            {
+                bad.push((ratio, key, centre));
             }
         }
         bad.sort_by(|x, y| y.0.total_cmp(&x.0).then(x.1.cmp(&y.1)));
@@ -246,6 +236,23 @@ impl Patch {
         }
         added
     }
+}
+
+/// Circumradius over shortest side, and circumcentre, of a triangle that a patch improves where its outline allows it.
+pub fn narrow([a, b, c]: [DVec2; 3]) -> Option<(f64, DVec2)> {
+    let limit = 0.5 / libm::sin(MIN_ANGLE.to_radians());
+    let (u, v) = (b - a, c - a);
+    let shortest = u
+        .length_squared()
+        .min(v.length_squared())
+        .min((c - b).length_squared());
+    let twice = 2.0 * u.perp_dot(v);
+    let offset = DVec2::new(
+        v.y * u.length_squared() - u.y * v.length_squared(),
+        u.x * v.length_squared() - v.x * u.length_squared(),
+    ) / twice;
+    let ratio = (offset.length_squared() / shortest).sqrt();
+    (ratio > limit && ratio.is_finite()).then(|| (ratio, a + offset))
 }
 
 /// Where a triangulation of these points fails.
