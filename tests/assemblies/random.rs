@@ -85,3 +85,24 @@ fn a_seam_whose_faces_would_cross_is_not_cut() {
     let cut = run("wedgecut", &arguments, &symmetric).success();
     run("periodic-surf", &[], &cut).success();
 }
+
+#[test]
+fn walls_along_the_frame_of_a_whole_body_are_flat_to_the_bit() {
+    // Only planes across the axis were made so: the mesher gave up on a plate beside a pin along another direction.
+    let pin = assembly(959);
+    let input = encode(&pin.body, pin.encoding);
+    let symmetric = run("symdetect", &["--allow-asymmetric"], &input).success();
+    let arguments = ["--order", "1", "--domain", "rotation"];
+    let cut = run("wedgecut", &arguments, &symmetric).success();
+    let last = pipe(
+        &[
+            &["periodic-surf"],
+            &["tetwedge"],
+            &["rotassemble", "--to", "tmesh"],
+        ],
+        &cut,
+    )
+    .pop();
+    let mesh = last.expect("a stage").success();
+    run("meshqual", &["--check"], &mesh).success();
+}

@@ -44,9 +44,10 @@ pub fn draw(drawing: &mut Drawing, dice: &mut Dice) {
         drawing.slab(&inside, &outside, [0.0, height]);
         drawing.regions[piece].volume = drawing.body.volume(piece);
         let sagitta = radius * (1.0 - (half / within as f64).cos());
-        let slack = 2.0 * half * radius * height * (sagitta + hub.sagitta());
-        drawing.regions[piece].slack += slack;
-        drawing.regions[solid].slack += slack;
+        let slack = 2.0 * half * radius * (sagitta + hub.sagitta());
+        drawing.regions[piece].slack += slack * height;
+        // A facet of the hub that is bent to the piece slopes from there to the ends of the hub.
+        drawing.regions[solid].slack += slack * (sides[1] - sides[0]);
     }
     if alike {
         drawing.order = pieces;

@@ -7,7 +7,8 @@ use crate::rotation::{Canonical, OUTLIERS, Query, Rotation};
 use crate::shape::{Motion, Permutation, Target};
 use crate::tolerance::SINGLE;
 use crate::verify::{Check, Depth, Deviation, Verified};
-use glam::DVec3;
+use geom::tree::alignment;
+use glam::{DMat3, DVec3};
 use tmesh::{Frame, Group, Isometry, Kind};
 
 impl Query<'_> {
@@ -87,12 +88,15 @@ impl Query<'_> {
     }
 
     /// Finds the mirror plane whose normal is near `normal`, and the radius about the axis in it. The
-    /// frame's y direction is the plane's normal; its axis is the coordinate axis that lies best in the
-    /// plane, turned into it.
+    /// frame's y direction is the plane's normal; its axis is that of the directions along faces, or of the coordinate
+    /// axes, that lies best in the plane, turned into it.
     fn mirror_plane(&self, normal: DVec3) -> Option<(Beside, f64)> {
         let (shape, limits) = (self.shape, self.limits);
+        let faces = alignment(shape.triangles.len(), |t| shape.corners(t as u32));
+        let to_world = faces.map_or(DMat3::IDENTITY, |rows| rows.transpose());
         let frame_of = |origin: DVec3, normal: DVec3| {
-            let hint = self.params.axis.unwrap_or_else(|| in_plane_axis(normal));
+            let along = [DVec3::Z, DVec3::X, DVec3::Y].map(|axis| to_world * axis);
+            let hint = (self.params.axis).unwrap_or_else(|| in_plane_axis(normal, along));
             let z = (hint - normal * hint.dot(normal)).try_normalize()?;
             Frame::from_axis(origin, z, normal.cross(z))
         };
@@ -139,10 +143,10 @@ impl Query<'_> {
     }
 }
 
-/// The coordinate axis that lies best in the plane with the given normal; z before x before y.
-fn in_plane_axis(normal: DVec3) -> DVec3 {
-    let mut best = DVec3::Z;
-    for axis in [DVec3::X, DVec3::Y] {
+/// The one of three axes that lies best in the plane with the given normal; earlier ones before later ones.
+fn in_plane_axis(normal: DVec3, [first, second, third]: [DVec3; 3]) -> DVec3 {
+    let mut best = first;
+    for axis in [second, third] {
         if normal.dot(axis).abs() < normal.dot(best).abs() - SINGLE {
             best = axis;
         }

@@ -11,7 +11,7 @@ use crate::error::CutError;
 use crate::graph::{Graph, divide, follow, restore};
 use crate::seam::{Matched, Matching, check_moved, match_sections};
 use crate::section::{Known, Piece, Section};
-use crate::surface::{Plane, Surface, slide, snap_heights_and_columns};
+use crate::surface::{Plane, Surface, slide, snap_heights_and_columns, snap_walls};
 use crate::wedge::{Caps, Inner, Parts, assemble, unite, whole};
 use geom::tolerance::Tolerance;
 use glam::DVec3;
@@ -48,12 +48,18 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         *p = place.frame.to_canonical(*p);
     }
     let whole = Whole::new(&surface);
-    let snapped = snap_heights_and_columns(&mut surface.vertices, tolerance.equal());
     let regions = |element| regions_in(body.symmetry, place.start, element);
     let copies = Copies::new(group, hub.is_some(), regions);
     let wedges = group.size() as usize;
     let cell = of_group(group, tolerance.on_plane(), tolerance.on_axis(), hub)
         .straightened(place.graph.clone());
+    let equal = tolerance.equal();
+    // The frame of a body that is not cut lies along its faces.
+    let walls = match cell.faces.is_empty() {
+        true => snap_walls(&mut surface.vertices, equal),
+        false => 0.0,
+    };
+    let snapped = snap_heights_and_columns(&mut surface.vertices, equal).max(walls);
     let mut notes = vec![format!(
         "{} wedge of order {} ({wedges} copies), points within {:.1e} of a cut plane and {:.1e} of the axis moved onto \
          it, heights and columns within {:.1e} made equal (largest movement {snapped:.1e})",

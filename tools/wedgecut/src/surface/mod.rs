@@ -9,4 +9,4 @@ mod snap;
 pub use coincident::join_coincident;
 pub use points::Surface;
 pub use slide::{Plane, slide};
-pub use snap::snap_heights_and_columns;
+pub use snap::{snap_heights_and_columns, snap_walls};

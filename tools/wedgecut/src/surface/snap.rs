@@ -15,41 +15,52 @@ use rustc_hash::FxHashMap;
 /// from others (as on finely meshed curved faces) are left alone.
 pub fn snap_heights_and_columns(points: &mut [DVec3], reach: f64) -> f64 {
     let before = points.to_vec();
-    snap_heights(points, reach);
+    snap_levels(points, 2, reach);
     snap_columns(points, reach);
-    points
-        .iter()
-        .zip(&before)
+    largest_movement(points, &before)
+}
+
+/// Makes nearly equal x equal, and nearly equal y, where walls along the axis may be that lie along the frame. Returns the
+/// largest movement.
+pub fn snap_walls(points: &mut [DVec3], reach: f64) -> f64 {
+    let before = points.to_vec();
+    snap_levels(points, 0, reach);
+    snap_levels(points, 1, reach);
+    largest_movement(points, &before)
+}
+
+fn largest_movement(points: &[DVec3], before: &[DVec3]) -> f64 {
+    (points.iter().zip(before))
         .map(|(p, q)| p.distance(*q))
         .fold(0.0, f64::max)
 }
 
-fn snap_heights(points: &mut [DVec3], reach: f64) {
+/// Makes coordinates along an axis equal.
+fn snap_levels(points: &mut [DVec3], axis: usize, reach: f64) {
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    let level = |points: &[DVec3], v: u32| points[v as usize][axis];
     order.sort_unstable_by(|&i, &j| {
-        points[i as usize]
-            .z
-            .total_cmp(&points[j as usize].z)
+        level(points, i)
+            .total_cmp(&level(points, j))
             .then(i.cmp(&j))
     });
     let mut start = 0;
     for i in 1..=order.len() {
-        let apart = i == order.len() || {
-            points[order[i] as usize].z - points[order[i - 1] as usize].z > reach
-        };
+        let apart =
+            i == order.len() || level(points, order[i]) - level(points, order[i - 1]) > reach;
         if !apart {
             continue;
         }
         let group = &order[start..i];
         start = i;
         let (low, high) = (
-            points[group[0] as usize].z,
-            points[group[group.len() - 1] as usize].z,
+            level(points, group[0]),
+            level(points, group[group.len() - 1]),
         );
         if group.len() > 1 && high - low <= reach && high > low {
-            let offset: f64 = group.iter().map(|&v| points[v as usize].z - low).sum();
+            let offset: f64 = group.iter().map(|&v| level(points, v) - low).sum();
             let mean = low + offset / group.len() as f64;
-            group.iter().for_each(|&v| points[v as usize].z = mean);
+            group.iter().for_each(|&v| points[v as usize][axis] = mean);
         }
     }
 }
