@@ -55,6 +55,16 @@ pub enum Deviation {
     Within(f64),
 }
 
+impl Deviation {
+    /// How far surfaces may move, model units: of a body that is `drift` off its symmetry at most, of this radius.
+    pub fn length(self, drift: f64, radius: f64) -> f64 {
+        match self {
+            Self::Auto => drift,
+            Self::Within(relative) => relative * radius,
+        }
+    }
+}
+
 /// A size of elements.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

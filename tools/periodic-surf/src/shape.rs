@@ -7,14 +7,18 @@ use glam::DVec3;
 use mesher::{Log, Params, Progress};
 use remesh::Sizes;
 use std::f64::consts::TAU;
-use tmesh::{Deviation, Document, Wishes};
+use tmesh::{Document, Wishes};
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
 /// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for.
 pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> Vec<String> {
     let tolerance = tolerance(document);
     let mut facts = Vec::new();
-    let deviation = deviation(document, &tolerance);
+    let radius = tolerance.extent().radius;
+    let deviation = document
+        .wishes
+        .deviation()
+        .length(tolerance.drift(), radius);
     if !params.quality || deviation <= tolerance.equal() {
         return facts;
     }
@@ -56,14 +60,6 @@ fn sizes(wishes: &Wishes) -> Sizes {
         turn_is_asked: segments.is_some(),
         length: wishes.edge_length(),
         growth: wishes.gradation() - 1.0,
-    }
-}
-
-/// How far surfaces may move, model units.
-fn deviation(document: &Document, tolerance: &Tolerance) -> f64 {
-    match document.wishes.deviation() {
-        Deviation::Auto => tolerance.drift(),
-        Deviation::Within(relative) => relative * tolerance.extent().radius,
     }
 }
 

@@ -7,6 +7,7 @@ use crate::rotation::{Fit, LOOSE_RANGE, OUTLIERS, Query, TELLING_TURNS, golden, 
 use crate::shape::{Random, Sample, Target};
 use crate::verify::{Bound, Operation, golden_rotations};
 use glam::DVec3;
+use std::f64::consts::PI;
 use tmesh::{Axis, Frame, Isometry};
 
 /// Powers of a rotation that a place is tried under: each other place of an orbit of this many more is tried.
@@ -67,7 +68,9 @@ impl Query<'_> {
     /// What nearly holds about an axis.
     fn nearly_about(&self, start: &Frame, multiples: u32) -> Option<Nearly> {
         let bound = self.limits.loosely(self.shape.radius(start));
-        let search = self.search(multiples.max(2)..=self.params.max_order);
+        // A turn by half a step of a higher order moves nothing by more than the bound: such orders are not told from any rotation.
+        let told = (PI / self.limits.loose) as u32;
+        let search = self.search(multiples.max(2)..=self.params.max_order.min(told));
         let mut orders = search.scan(start, bound, 0.5, multiples);
         orders.retain(|n| *n > multiples);
         orders.truncate(NEXT_BEST);

@@ -124,9 +124,17 @@ fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
     let Some(between) = between else {
         return planes;
     };
+    // What is remeshed costs nothing, however narrow it is drawn.
+    let tolerance = &body.tolerance;
+    let wishes = &body.document.wishes;
+    let deviation = wishes
+        .deviation()
+        .length(tolerance.drift(), tolerance.extent().radius);
+    let is_kept = deviation <= tolerance.equal();
     let cost = |cut: &Cut| {
         let needles = |t: &Template| estimate::needles(t, body.element_size());
-        let narrow: f64 = cut.templates.iter().map(needles).sum();
+        let narrow = cut.templates.iter().map(needles).filter(|_| is_kept);
+        let narrow: f64 = narrow.sum();
         narrow + CostModel::CALIBRATED.sliced * cut.place.harm
     };
     let [along, plane] = [&between, &planes].map(cost);
