@@ -1,6 +1,7 @@
 //! Assemblies: bodies of several solids, from several files, whose symmetry exchanges solids, in air.
 
 mod air;
+mod crossing;
 mod exchange;
 mod gaps;
 mod heat;
