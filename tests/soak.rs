@@ -23,21 +23,27 @@ const MENDED: [u64; 12] = [
 
 #[test]
 fn random_bodies_are_meshed_and_checked() {
-    all_are_meshed(Kind::Solids, (1..=24).chain(MENDED));
+    all_are_meshed(Kind::Solids, false, (1..=24).chain(MENDED));
 }
 
 #[test]
 fn random_assemblies_are_meshed_and_checked() {
-    all_are_meshed(Kind::Assemblies, 1..=24);
+    all_are_meshed(Kind::Assemblies, false, 1..=24);
 }
 
-fn all_are_meshed(kind: Kind, seeds: impl Iterator<Item = u64>) {
+#[test]
+fn surfaces_stay_within_the_deviation_asked_for() {
+    all_are_meshed(Kind::Solids, true, 1..=16);
+}
+
+fn all_are_meshed(kind: Kind, surfaces: bool, seeds: impl Iterator<Item = u64>) {
     let tools = Path::new(env!("CARGO_BIN_EXE_symdetect")).parent();
     let laboratory = Laboratory {
         binaries: tools.expect("a folder").to_owned(),
         limit: Duration::from_secs(300),
         twice: 8,
         kind,
+        surfaces,
     };
     let mut failed = Vec::new();
     for seed in seeds {

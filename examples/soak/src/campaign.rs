@@ -40,6 +40,10 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Kind::Solids)]
     kind: Kind,
 
+    /// Ask for a deviation and sizes of the surface, drawn by the seed, and hold the distance of solids against it
+    #[arg(long)]
+    surfaces: bool,
+
     /// Run every so manieth pipe twice and compare the bytes, 0 for none
     #[arg(long, default_value_t = 10)]
     twice: u64,
@@ -61,6 +65,7 @@ pub fn run(options: &Options) -> io::Result<bool> {
         limit: Duration::from_secs(options.limit),
         twice: options.twice,
         kind: options.kind,
+        surfaces: options.surfaces,
     };
     let next = AtomicU64::new(0);
     let worker = || -> io::Result<()> {

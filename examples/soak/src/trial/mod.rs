@@ -3,6 +3,7 @@
 mod commands;
 mod pipe;
 mod subject;
+mod surface;
 mod verdict;
 
 pub use subject::{Kind, Subject};
@@ -12,6 +13,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use surface::Asked;
 
 /// Where trials run.
 pub struct Laboratory {
@@ -23,6 +25,8 @@ pub struct Laboratory {
     pub twice: u64,
     /// What goes through the pipe.
     pub kind: Kind,
+    /// Whether a deviation and sizes of surfaces are asked for, which the seed draws.
+    pub surfaces: bool,
 }
 
 /// A trial that has ended.
@@ -49,6 +53,12 @@ impl Laboratory {
     pub fn trial(&self, seed: u64, folder: &Path) -> io::Result<Trial> {
         let subject = Subject::of(self.kind, seed);
         let mut stages = commands::stages(&subject, seed);
+        let is_sized = stages.iter().flatten().any(|word| word == "--max-volume");
+        let asked = self.surfaces.then(|| Asked::of(&subject, seed, is_sized));
+        let cut = stages.iter_mut().find(|stage| stage[0] == "wedgecut");
+        for (stage, asked) in cut.into_iter().zip(&asked) {
+            stage.extend(asked.options.iter().cloned());
+        }
         // TetGen comes to no end on some bodies, as on the whole body alone: tools are asked to say so.
         let patience = format!("{:.0}", (PATIENCE * self.limit.as_secs_f64()).max(1.0));
         for stage in &mut stages {
@@ -72,7 +82,15 @@ impl Laboratory {
             script(seed, &subject.description, &stages, &check),
         )?;
         let begun = Instant::now();
-        let (verdict, tetrahedra) = self.verdict(seed, &subject, &stages, check, folder)?;
+        let (mut verdict, tetrahedra) =
+            self.verdict(seed, (&subject, asked.as_ref()), &stages, check, folder)?;
+        if verdict == Verdict::Meshed
+            && let (Kind::Solids, Some(asked)) = (self.kind, &asked)
+        {
+            let report = report(folder, "symmetry.json")?;
+            let distance = surface::distance(&subject, &folder.join("mesh.tmesh"))?;
+            verdict = verdict::of_distance(&report, asked.deviation, distance);
+        }
         Ok(Trial {
             verdict,
             time: begun.elapsed(),
@@ -84,7 +102,7 @@ impl Laboratory {
     fn verdict(
         &self,
         seed: u64,
-        subject: &Subject,
+        (subject, asked): (&Subject, Option<&Asked>),
         stages: &[commands::Stage],
         check: commands::Stage,
         folder: &Path,
@@ -104,12 +122,11 @@ impl Laboratory {
             };
             return Ok((Verdict::Failed(text), 0));
         }
-        let report = |name: &str| -> io::Result<serde_json::Value> {
-            Ok(serde_json::from_slice(&std::fs::read(folder.join(name))?)?)
-        };
-        let quality = report("quality.json")?;
+        let quality = report(folder, "quality.json")?;
         let tetrahedra = quality["tetrahedra"].as_u64().unwrap_or(0);
-        let verdict = verdict::of_reports(subject, &report("symmetry.json")?, &quality);
+        let moved = asked.map_or(0.0, |asked| asked.deviation);
+        let symmetry = report(folder, "symmetry.json")?;
+        let verdict = verdict::of_reports(subject, &symmetry, &quality, moved);
         if verdict == Verdict::Meshed && self.twice > 0 && seed.is_multiple_of(self.twice) {
             run(stages, "body", "again.tmesh")?;
             let [first, second] =
@@ -121,6 +138,10 @@ impl Laboratory {
         }
         Ok((verdict, tetrahedra))
     }
+}
+
+fn report(folder: &Path, name: &str) -> io::Result<serde_json::Value> {
+    Ok(serde_json::from_slice(&std::fs::read(folder.join(name))?)?)
 }
 
 fn path(folder: &Path, name: &str) -> String {

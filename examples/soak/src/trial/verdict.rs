@@ -47,16 +47,34 @@ pub fn of_stages(subject: &Subject, ended: &[Ended]) -> Option<Verdict> {
     })
 }
 
-/// Compares what symdetect and meshqual report with what is known.
-pub fn of_reports(subject: &Subject, symmetry: &Value, quality: &Value) -> Verdict {
+/// Compares what symdetect and meshqual report with what is known. `deviation`: how far the surface may have moved, relative to
+/// the radius about the axis.
+pub fn of_reports(subject: &Subject, symmetry: &Value, quality: &Value, deviation: f64) -> Verdict {
     let problems = [
         order(subject, symmetry),
-        volumes(subject, symmetry, quality),
+        volumes(subject, symmetry, quality, deviation),
     ];
     match problems.into_iter().flatten().next() {
         Some(problem) => Verdict::Failed(problem),
         None => Verdict::Meshed,
     }
+}
+
+/// Judges the distance between the surfaces of body and mesh, and the radius about the axis: the first is no more than the
+/// deviation that was asked for, and what rounding and the symmetry explain.
+pub fn of_distance(symmetry: &Value, deviation: f64, [distance, radius]: [f64; 2]) -> Verdict {
+    let most = (exactness(symmetry) + deviation) * radius;
+    if distance <= most {
+        return Verdict::Meshed;
+    }
+    Verdict::Failed(format!(
+        "distance: the surface is off by {distance:.3e}, at most {most:.3e} was asked for"
+    ))
+}
+
+/// What rounding, cleaning and the symmetry explain, relative to the radius.
+fn exactness(symmetry: &Value) -> f64 {
+    VOLUME + 2.0 * symmetry["residual"].as_f64().unwrap_or(f64::INFINITY)
 }
 
 fn order(subject: &Subject, symmetry: &Value) -> Option<String> {
@@ -81,7 +99,7 @@ fn order(subject: &Subject, symmetry: &Value) -> Option<String> {
     None
 }
 
-fn volumes(subject: &Subject, symmetry: &Value, quality: &Value) -> Option<String> {
+fn volumes(subject: &Subject, symmetry: &Value, quality: &Value, deviation: f64) -> Option<String> {
     let Some(regions) = quality["regions"].as_array() else {
         return Some("meshqual: the report has no regions".to_owned());
     };
@@ -93,8 +111,7 @@ fn volumes(subject: &Subject, symmetry: &Value, quality: &Value) -> Option<Strin
             body.materials.len()
         ));
     }
-    let residual = symmetry["residual"].as_f64().unwrap_or(f64::INFINITY);
-    let slack = (VOLUME + 2.0 * residual) * body.boundary_area() * subject.radius;
+    let slack = exactness(symmetry) * body.boundary_area() * subject.radius;
     for (index, material) in body.materials.iter().enumerate() {
         let named = regions.iter().find(|r| r["name"] == material.name.as_str());
         // Binary STL has no names.
@@ -106,7 +123,8 @@ fn volumes(subject: &Subject, symmetry: &Value, quality: &Value) -> Option<Strin
             volume: known,
             slack: facets,
         } = subject.regions[index];
-        let slack = slack + facets;
+        let moved = deviation * subject.radius * area(subject, index);
+        let slack = slack + facets + moved;
         if (found - known).abs() > slack {
             return Some(format!(
                 "volume: {} has {found:e}, not {known:e} (slack {slack:.1e})",
@@ -115,4 +133,13 @@ fn volumes(subject: &Subject, symmetry: &Value, quality: &Value) -> Option<Strin
         }
     }
     None
+}
+
+/// Area of all that bounds a material.
+fn area(subject: &Subject, material: usize) -> f64 {
+    let triangles = subject.body.solid(material).map(|t| {
+        let [a, b, c] = t.map(|v| subject.body.vertices[v as usize]);
+        geom::measure::triangle_area(a, b, c)
+    });
+    triangles.sum()
 }
