@@ -53,7 +53,7 @@ fn crossing([one, other]: &[Body; 2]) -> Body {
     let first = both.vertices.len() as u32;
     both.vertices.extend(&other.vertices);
     for face in &other.faces {
-        let mut face = face.clone();
+        let mut face = *face;
         face.vertices = face.vertices.map(|v| v + first);
         both.faces.push(face);
     }

@@ -44,7 +44,9 @@ fn stack(drawing: &mut Drawing, dice: &mut Dice) {
         drawing.regions[plate].volume = drawing.body.volume(plate);
         let slack = TAU * radius * (bore.sagitta() + pin.sagitta());
         drawing.regions[plate].slack += slack;
-        drawing.regions[solid].slack += slack;
+        // Facets of the pin that are bent to a plate slope from there to the ends of the pin.
+        let long = (levels[1] - levels[0]) / count as f64;
+        drawing.regions[solid].slack += slack * long.max(1.0);
     }
     drawing.features.push(format!("pin in {count} plates"));
 }
