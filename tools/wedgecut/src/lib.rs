@@ -8,6 +8,7 @@
 //! images ([`seam`]); the sections closed by caps that carry the region interfaces ([`section`]); what is cut off in
 //! front of the hub's wall united to a template of its own ([`wedge`]).
 
+mod along;
 mod body;
 mod candidates;
 mod cell;

@@ -3,12 +3,13 @@
 use super::candidate::{Candidate, Place};
 use super::copies::{Copies, regions_in};
 use super::volumes::Whole;
+use crate::along::{divide, follow, restore};
 use crate::body::Body;
 use crate::cell::{Cell, Join, Part, Role, Shape, hub_order, of_group};
 use crate::clean::{collapse_at_sides, collapse_short_edges};
 use crate::clip::{clip, divide_at_hub};
 use crate::error::CutError;
-use crate::graph::{Graph, divide, follow, restore};
+use crate::graph::Graph;
 use crate::seam::{Matched, Matching, check_moved, match_sections};
 use crate::section::{Known, Piece, Section};
 use crate::surface::{Plane, Surface, slide, snap_heights_and_columns, snap_walls};

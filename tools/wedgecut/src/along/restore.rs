@@ -1,7 +1,7 @@
 //! Bending a wedge back.
 
-use super::seam::Graph;
 use crate::error::CutError;
+use crate::graph::Graph;
 use geom::contacts::contacts;
 use tmesh::{Frame, Template};
 

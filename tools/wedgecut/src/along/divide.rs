@@ -1,7 +1,7 @@
 //! Dividing edges that bend where the seam passes them.
 
-use super::seam::{Graph, STRAIGHT, samples};
 use crate::cell::{Cell, Face};
+use crate::graph::{Graph, STRAIGHT, samples};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Template, Triangle};

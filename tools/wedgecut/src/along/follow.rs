@@ -1,8 +1,8 @@
 //! Points within a section, so that its triangles follow the seam.
 
-use super::seam::STRAIGHT;
 use crate::cell::{Cell, Class, Part};
 use crate::error::CutError;
+use crate::graph::STRAIGHT;
 use crate::section::{Known, Piece, Section};
 use crate::surface::Surface;
 use geom::cdt::{Broken, Patch, narrow};
