@@ -90,10 +90,10 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         None => error,
     };
     let (mut templates, moved) = cutter.cut(surface, &mut notes).map_err(bent)?;
-    match &place.graph {
-        Some(graph) => restore(&mut templates, graph, &place.frame)?,
-        None => check_moved(&templates, moved, (tolerance.equal(), &place.frame))?,
+    if let Some(graph) = &place.graph {
+        restore(&mut templates, graph, &place.frame)?;
     }
+    check_moved(&templates, moved, (tolerance.equal(), &place.frame))?;
     if let Some(radius) = hub {
         notes.push(format!(
             "hub of inscribed radius {radius} and order {} ({} copies), a template of its own",
