@@ -99,6 +99,14 @@ impl Bounds {
         points.into_iter().fold(Self::EMPTY, |b, &p| b.with(p))
     }
 
+    /// The box of all that is no farther than a distance along any axis.
+    pub fn grown(self, by: f64) -> Self {
+        Self {
+            low: self.low - DVec3::splat(by),
+            high: self.high + DVec3::splat(by),
+        }
+    }
+
     fn union(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),

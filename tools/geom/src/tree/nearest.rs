@@ -16,6 +16,8 @@ pub struct Tree {
     /// Corners in the order of the leaves, in the placement.
     corners: Vec<[DVec3; 3]>,
     placement: Placement,
+    /// What boxes were grown by at most, in the placement.
+    growth: f64,
 }
 
 /// Answer to a nearest-triangle query.
@@ -33,6 +35,15 @@ impl Tree {
     /// Builds the tree over fewer than 2^31 triangles given by their corners; degenerate ones
     /// are welcome, coordinates must be finite. Time n log n.
     pub fn new(triangles: impl IntoIterator<Item = [DVec3; 3]>) -> Self {
+        Self::grown(triangles, |_| 0.0)
+    }
+
+    /// The same over triangles that stand for what may be as far from each of them as `growth` says: within a distance of a
+    /// point are those whose boxes, grown by that, come as near.
+    pub fn grown(
+        triangles: impl IntoIterator<Item = [DVec3; 3]>,
+        growth: impl Fn(u32) -> f64,
+    ) -> Self {
         let mut triangles: Vec<[DVec3; 3]> = triangles.into_iter().collect();
         let mut placement = Placement::of(Bounds::of(triangles.iter().flatten()));
         for p in triangles.iter_mut().flatten() {
@@ -44,12 +55,18 @@ impl Tree {
                 *p = turn * *p;
             }
         }
-        let items = (0..).zip(&triangles);
-        let boxes = Boxes::new(items.map(|(i, t)| Item::new(Bounds::of(t), i)).collect());
+        let mut largest = 0.0_f64;
+        let item = |(i, t)| {
+            let growth = growth(i) / placement.unit;
+            largest = largest.max(growth);
+            Item::new(Bounds::of(t).grown(growth), i)
+        };
+        let boxes = Boxes::new((0..).zip(&triangles).map(item).collect());
         Self {
             corners: boxes.index.iter().map(|&i| triangles[i as usize]).collect(),
             boxes,
             placement,
+            growth: largest,
         }
     }
 
@@ -100,8 +117,10 @@ impl Tree {
         let largest = f64::from(single.abs().max_element().max(2.0));
         let margin = rounded_up(rounding::single(5) * largest);
         let within = within / unit;
-        let mut best = within * within;
-        let mut bound = squares_up_to(best);
+        let most = within + self.growth;
+        let mut best = most * most;
+        let within = squares_up_to(within * within);
+        let mut bound = within;
         let mut found: Option<(u32, DVec3)> = None;
         let enough = enough / unit;
         let enough = enough * enough;
@@ -119,7 +138,7 @@ impl Tree {
                 let d = (p - q).length_squared();
                 if d < best && wanted(self.boxes.index[i]) {
                     best = d;
-                    bound = squares_up_to(best);
+                    bound = within.min(squares_up_to(best));
                     found = Some((i as u32, q));
                     if best <= enough {
                         break;

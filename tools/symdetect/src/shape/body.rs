@@ -7,10 +7,11 @@ use crate::shape::motion::Target;
 use crate::shape::regions::Permutation;
 use crate::shape::samples::Samples;
 use crate::shape::smooth::{SMOOTH, SmoothSurface};
+use crate::shape::trees::Trees;
 use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
 use geom::measure::double_area_vector;
-use geom::tree::{Nearest, Tree};
+use geom::tree::Nearest;
 use glam::DVec3;
 use std::sync::OnceLock;
 use tmesh::{Frame, Template};
@@ -37,17 +38,15 @@ pub struct Shape {
     pub samples: Samples,
     /// Whether operations may exchange regions of one shape.
     pub may_exchange: bool,
-    all: Tree,
-    by_class: Vec<ClassSurface>,
-    smooth: OnceLock<SmoothSurface>,
+    drawn: Trees,
+    behind: OnceLock<Behind>,
     faces: OnceLock<Option<Faces>>,
 }
 
-/// The triangles of one class.
-struct ClassSurface {
-    tree: Tree,
-    /// Index of each of them in the whole surface.
-    triangles: Vec<u32>,
+/// The shape behind the facets, and trees that find what it may be on.
+struct Behind {
+    smooth: SmoothSurface,
+    trees: Trees,
 }
 
 /// Triangles up to which flat faces are looked for. Finding them takes some 0.3 microseconds a triangle and a test of
@@ -80,11 +79,10 @@ impl Shape {
         };
         let normals = triangles.iter().map(normal).collect();
         let corners = |t: u32| triangles[t as usize].map(|v| vertices[v as usize]);
-        let sample = || {
-            let samples = Samples::new(&vertices, &triangles, &interfaces);
-            (samples, Tree::new((0..triangles.len() as u32).map(corners)))
-        };
-        let (by_class, (samples, all)) = both(|| sort_out(&interfaces, corners), sample);
+        let (drawn, samples) = both(
+            || Trees::new(&interfaces, corners, |_| 0.0),
+            || Samples::new(&vertices, &triangles, &interfaces),
+        );
         Some(Self {
             origin: placed.origin,
             scale: placed.scale,
@@ -92,9 +90,8 @@ impl Shape {
             moments: placed.moments,
             samples,
             may_exchange: true,
-            all,
-            by_class,
-            smooth: OnceLock::new(),
+            drawn,
+            behind: OnceLock::new(),
             faces: OnceLock::new(),
             vertices,
             triangles,
@@ -149,45 +146,45 @@ impl Shape {
         within: f64,
         enough: f64,
     ) -> Option<Nearest> {
-        match target {
-            Target::Classes(map) if !self.by_class.is_empty() => {
-                let class = map[self.interfaces.class[triangle as usize] as usize];
-                let surface = self.by_class.get(class as usize)?;
-                let mut hit = surface.tree.near_enough(image, within, enough)?;
-                hit.triangle = surface.triangles[hit.triangle as usize];
-                Some(hit)
-            }
-            _ => self.all.near_enough(image, within, enough),
-        }
+        let part = self.drawn.part(&self.interfaces, triangle, target)?;
+        part.answer(part.tree.near_enough(image, within, enough))
     }
 
-    /// The nearest point, if nearer than `within`, of those facets that the image of a sample of a triangle may be on
-    /// and whose normal is about that of the image.
-    pub fn nearest_alike(
+    /// The nearest point of those facets that the image of a sample may be on, whose shape may be within `limit` of what
+    /// the sample's facet hides, and whose normal is about that of the image where one is given.
+    pub fn nearest_behind(
         &self,
-        (image, normal): (DVec3, DVec3),
+        (image, normal): (DVec3, Option<DVec3>),
         triangle: u32,
         target: &Target,
-        within: f64,
+        limit: f64,
     ) -> Option<Nearest> {
-        let alike = |t: u32| self.normals[t as usize].dot(normal).abs() >= SMOOTH;
-        match target {
-            Target::Classes(map) if !self.by_class.is_empty() => {
-                let class = map[self.interfaces.class[triangle as usize] as usize];
-                let surface = self.by_class.get(class as usize)?;
-                let alike = |t: u32| alike(surface.triangles[t as usize]);
-                let mut hit = surface.tree.nearest_of(image, within, alike)?;
-                hit.triangle = surface.triangles[hit.triangle as usize];
-                Some(hit)
-            }
-            _ => self.all.nearest_of(image, within, alike),
-        }
+        let behind = self.behind();
+        let part = behind.trees.part(&self.interfaces, triangle, target)?;
+        let within = limit + behind.smooth.most(triangle);
+        part.answer(match normal {
+            None => part.tree.nearest(image, within),
+            Some(normal) => (part.tree).nearest_of(image, within, |t| {
+                self.normals[part.triangle(t) as usize].dot(normal).abs() >= SMOOTH
+            }),
+        })
+    }
+
+    fn behind(&self) -> &Behind {
+        self.behind.get_or_init(|| {
+            let smooth = SmoothSurface::new(&self.vertices, &self.triangles, &self.normals);
+            let trees = Trees::new(
+                &self.interfaces,
+                |t| self.corners(t),
+                |t| smooth.most(t),
+            );
+            Behind { smooth, trees }
+        })
     }
 
     /// The smooth shape that the facets stand for.
     pub fn smooth(&self) -> &SmoothSurface {
-        let make = || SmoothSurface::new(&self.vertices, &self.triangles, &self.normals);
-        self.smooth.get_or_init(make)
+        &self.behind().smooth
     }
 
     /// Corners of a triangle.
@@ -311,22 +308,6 @@ impl Placed {
             largest: low.abs().max(high.abs()).max_element(),
         })
     }
-}
-
-/// The triangles of each class, where there are several.
-fn sort_out(interfaces: &Interfaces, corners: impl Fn(u32) -> [DVec3; 3]) -> Vec<ClassSurface> {
-    let count = interfaces.classes.len();
-    let mut members = vec![Vec::new(); if count > 1 { count } else { 0 }];
-    for (t, &c) in interfaces.class.iter().enumerate() {
-        if let Some(members) = members.get_mut(c as usize) {
-            members.push(t as u32);
-        }
-    }
-    let surface = |members: Vec<u32>| ClassSurface {
-        tree: Tree::new(members.iter().map(|&t| corners(t))),
-        triangles: members,
-    };
-    members.into_iter().map(surface).collect()
 }
 
 #[cfg(test)]

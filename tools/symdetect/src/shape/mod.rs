@@ -11,6 +11,7 @@ mod regions;
 mod samples;
 mod smooth;
 mod table;
+mod trees;
 
 pub use body::Shape;
 pub use directional::DirectionalMoment;

@@ -52,7 +52,7 @@ impl Shape {
         let image = motion.apply(sample.point);
         let normal = motion.linear * self.normals[sample.triangle as usize];
         let (triangle, target) = (sample.triangle, &operation.target);
-        let alike = self.nearest_alike((image, normal), triangle, target, self.most(bound));
+        let alike = self.nearest_behind((image, Some(normal)), triangle, target, limit);
         if alike.is_some_and(|hit| explained(&hit)) {
             return true;
         }

@@ -17,13 +17,19 @@ impl Shape {
     fn test(&self, sample: &Sample, operation: &Operation, bound: Bound) -> (f64, bool) {
         let image = operation.motion.apply(sample.point);
         let enough = ARITHMETIC.min(0.1 * bound.limit);
-        let find =
-            |within| self.near_enough((image, sample.triangle), &operation.target, within, enough);
+        let (triangle, target) = (sample.triangle, &operation.target);
+        let find = |within| self.near_enough((image, triangle), target, within, enough);
+        // A little beyond the limit, so that what is found within it is found exactly.
+        if let Some(n) = find(1.01 * bound.limit)
+            && n.distance <= bound.limit
+        {
+            return (n.distance, true);
+        }
         let most = self.most(bound);
-        // A little beyond the bound, so that what is found within it is found exactly.
-        if let Some(n) = find(1.01 * most) {
-            let passes = n.distance <= bound.limit
-                || bound.facets && self.facets_explain(sample, operation, &n, bound);
+        if bound.facets
+            && let Some(n) = self.nearest_behind((image, None), triangle, target, bound.limit)
+        {
+            let passes = self.facets_explain(sample, operation, &n, bound);
             return (n.distance, passes);
         }
         // Where many triangles are about equally far, an open search would visit them all.
@@ -40,12 +46,14 @@ impl Shape {
     /// Whether the image of a sample is on the surface.
     pub fn lands(&self, operation: &Operation, sample: &Sample, bound: Bound) -> bool {
         let image = operation.motion.apply(sample.point);
-        let target = &operation.target;
-        let hit = self.nearest(image, sample.triangle, target, self.most(bound));
-        hit.is_some_and(|hit| {
-            hit.distance <= bound.limit
-                || bound.facets && self.facets_explain(sample, operation, &hit, bound)
-        })
+        let (triangle, target) = (sample.triangle, &operation.target);
+        let limit = bound.limit;
+        let is_near = || self.near_enough((image, triangle), target, limit, limit).is_some();
+        let is_behind = || {
+            let hit = self.nearest_behind((image, None), triangle, target, limit);
+            hit.is_some_and(|hit| self.facets_explain(sample, operation, &hit, bound))
+        };
+        is_near() || bound.facets && is_behind()
     }
 
     /// Runs tests 0 to `count - 1`; `job` names sample and operation of each. Returns the largest

@@ -63,6 +63,11 @@ impl SmoothSurface {
         self.largest
     }
 
+    /// The most that a facet hides.
+    pub fn most(&self, triangle: u32) -> f64 {
+        self.heights[triangle as usize].most()
+    }
+
     /// The shape above a point of a triangle with these corners.
     pub fn above(&self, triangle: u32, corners: [DVec3; 3], point: DVec3) -> Height {
         let heights = &self.heights[triangle as usize];
