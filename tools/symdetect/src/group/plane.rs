@@ -127,10 +127,15 @@ impl Query<'_> {
     fn can_be_adjusted(&self, motion: Motion, radius: f64) -> bool {
         let (shape, limits) = (self.shape, self.limits);
         let samples = &shape.samples.mixed[..SCAN.min(shape.samples.mixed.len())];
-        let reach = limits.roughly(shape, radius);
+        let loose = limits.loosely(radius);
         let (mut off, mut far) = (0, 0);
         for sample in samples {
-            match shape.nearest(motion.apply(sample.point), 0, &Target::Any, reach) {
+            match shape.near(
+                motion.apply(sample.point),
+                sample.triangle,
+                &Target::Any,
+                loose,
+            ) {
                 Some(n) => off += usize::from(n.distance > 0.3 * limits.tolerance * radius),
                 None => far += 1,
             }

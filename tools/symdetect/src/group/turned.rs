@@ -100,17 +100,17 @@ impl Turned<'_> {
     /// Sum of the deviations of a few samples; infinite where too many are off.
     fn score(&self, angle: f64, places: &[usize]) -> f64 {
         let shape = self.query.shape;
-        let loose = self.query.limits.roughly(shape, self.rotation.radius);
+        let loose = self.query.limits.loosely(self.rotation.radius);
         let samples = places.iter().map(|&i| &shape.samples.mixed[i]);
         let allowed = (OUTLIERS * places.len() as f64) as usize;
         let turned = turn_matrix(angle / PI) * self.operation.matrix();
         let motion = Motion::new(&self.rotation.frame, turned);
         let (mut sum, mut missed) = (0.0, 0);
         for s in samples {
-            match shape.nearest(motion.apply(s.point), 0, &Target::Any, loose) {
+            match shape.near(motion.apply(s.point), s.triangle, &Target::Any, loose) {
                 Some(n) => sum += n.distance,
                 None => {
-                    sum += loose;
+                    sum += shape.most(loose);
                     missed += 1;
                     if missed > allowed {
                         return f64::INFINITY;

@@ -68,9 +68,14 @@ impl Query<'_> {
     /// What nearly holds about an axis.
     fn nearly_about(&self, start: &Frame, multiples: u32) -> Option<Nearly> {
         let bound = self.limits.loosely(self.shape.radius(start));
-        // A turn by half a step of a higher order moves nothing by more than the bound: such orders are not told from any rotation.
-        let told = (PI / self.limits.loose) as u32;
-        let search = self.search(multiples.max(2)..=self.params.max_order.min(told));
+        // What is in the way shifts second moments by about its share. A turn by half a step of an order that is too high
+        // moves nothing by more than the bound: such orders are not told from any rotation.
+        let moments = &self.shape.moments;
+        let highest = match moments.allow_high_order(start.rotation.z_axis, OUTLIERS) {
+            true => self.params.max_order.min((PI / self.limits.loose) as u32),
+            false => 2,
+        };
+        let search = self.search(multiples.max(2)..=highest);
         let mut orders = search.scan(start, bound, 0.5, multiples);
         orders.retain(|n| *n > multiples);
         orders.truncate(NEXT_BEST);

@@ -1,7 +1,8 @@
 //! The rotations about all axes that a body can have.
 
 use crate::rotation::candidates::{self, distinct};
-use crate::rotation::find::Rotation;
+use crate::rotation::find::{OrderSearch, Rotation};
+use crate::rotation::limits::OUTLIERS;
 use crate::rotation::query::Query;
 use crate::shape::DirectionalMoment;
 use glam::DVec3;
@@ -15,13 +16,13 @@ impl Query<'_> {
         if let Some(axis) = self.params.axis {
             return vec![axis];
         }
-        let principal = candidates::principal(self.shape, self.parallel);
+        let principal = candidates::principal(self.shape, self.same_candidate());
         let mut all = principal.directions;
         if principal.degenerate {
             all.extend(candidates::higher(self.shape));
             log(&format!("{} candidate directions", all.len()));
         }
-        distinct(all, self.parallel)
+        distinct(all, self.same_candidate())
     }
 
     /// Candidate directions, and the rotations found about them by a quick test.
@@ -29,8 +30,8 @@ impl Query<'_> {
         if let Some(axis) = self.params.axis {
             return (vec![axis], self.about(axis).into_iter().collect());
         }
-        let find = |d: &DVec3| self.search_about(*d).find(self.centre, *d, false);
-        let principal = candidates::principal(self.shape, self.parallel);
+        let find = |d: &DVec3| self.possible_about(*d)?.find(self.centre, *d, false);
+        let principal = candidates::principal(self.shape, self.same_candidate());
         let mut directions = principal.directions;
         // No other axis than one of an order above two can have such an order.
         let main = (self.drawn).filter(|d| d.group.order > 2 && !principal.isotropic);
@@ -53,7 +54,7 @@ impl Query<'_> {
         if principal.isotropic || (principal.degenerate && !has_high) {
             let tried = directions.len();
             directions.extend(candidates::higher(self.shape));
-            directions = distinct(directions, self.parallel);
+            directions = distinct(directions, self.same_candidate());
             directions.truncate(tried + DirectionalMoment::MOST_DIRECTIONS);
             found.extend(directions[tried..].iter().filter_map(find));
             log(&format!(
@@ -65,6 +66,22 @@ impl Query<'_> {
         found.retain(|r| self.passes_centre(&r.frame, r.frame.rotation.z_axis, r.radius));
         let found = self.highest_of_each_axis(found);
         (directions, found)
+    }
+
+    /// Sine of the angle up to which two directions are one candidate: it is adjusted, from as far off.
+    fn same_candidate(&self) -> f64 {
+        self.parallel.max(self.limits.loose)
+    }
+
+    /// A search for the orders about a direction that second moments do not rule out, if any.
+    fn possible_about(&self, direction: DVec3) -> Option<OrderSearch<'_>> {
+        let mut search = self.search_about(direction);
+        // What is off about a candidate shifts second moments by about its share.
+        if !self.shape.moments.allow_high_order(direction, OUTLIERS) {
+            let (lowest, highest) = search.orders.into_inner();
+            search.orders = lowest..=highest.min(2);
+        }
+        (!search.orders.is_empty()).then_some(search)
     }
 
     /// The rotation about an axis the user gave: as given if that is as good as an adjusted one.

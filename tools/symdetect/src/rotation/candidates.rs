@@ -2,7 +2,7 @@
 
 use crate::shape::{DirectionalMoment, Shape};
 use geom::eigen;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 /// Principal moments closer than this share of their sum may belong to one eigenspace: where the body is symmetric
 /// within a thousandth only, or is drawn with facets, they are equal to within several thousandths. With more, further
@@ -22,14 +22,8 @@ pub struct Principal {
 /// Principal directions: if a body has an axis of order three or more and is not isotropic, that axis
 /// is the eigenvector of the odd eigenvalue; half-turn axes and mirror normals are eigenvectors too.
 pub fn principal(shape: &Shape, parallel: f64) -> Principal {
-    let m = &shape.moments;
-    let mut tensors: Vec<DMat3> = Vec::new();
-    if m.has_volume() {
-        tensors.push(m.volume_tensor);
-    }
-    tensors.push(m.area_tensor);
     let (mut directions, mut degenerate, mut isotropic) = (Vec::new(), true, true);
-    for tensor in tensors {
+    for tensor in shape.moments.tensors() {
         let e = eigen::symmetric(tensor.to_cols_array_2d());
         let trace: f64 = e.values.iter().sum();
         let gaps = [e.values[1] - e.values[0], e.values[2] - e.values[1]].map(|g| g / trace);

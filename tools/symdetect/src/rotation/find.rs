@@ -118,7 +118,7 @@ impl OrderSearch<'_> {
         let fit = Fit {
             operations,
             samples: FIT,
-            reach: self.limits.roughly(self.shape, radius),
+            reach: self.limits.loosely(radius).limit,
             bound: self.limits.bound(radius),
         };
         refine(self.shape, start, &fit)

@@ -1,6 +1,5 @@
 //! Tolerances of a search.
 
-use crate::shape::Shape;
 use crate::verify::Bound;
 
 /// Share of samples that may be off in a scan, while axis and centre are still rough: one in eight.
@@ -65,10 +64,5 @@ impl Limits {
             limit: self.loose * radius,
             facets: self.facets,
         }
-    }
-
-    /// The largest deviation that a candidate may have.
-    pub fn roughly(&self, shape: &Shape, radius: f64) -> f64 {
-        shape.most(self.loosely(radius))
     }
 }

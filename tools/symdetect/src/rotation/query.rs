@@ -108,7 +108,7 @@ impl<'a> Query<'a> {
         let fit = Fit {
             operations,
             samples,
-            reach: self.limits.roughly(self.shape, radius),
+            reach: self.limits.loosely(radius).limit,
             bound: self.limits.bound(radius),
         };
         refine(self.shape, start, &fit)

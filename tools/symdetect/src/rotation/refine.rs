@@ -45,7 +45,8 @@ pub struct Fit<'a> {
     pub operations: &'a [Canonical],
     /// Equations at most.
     pub samples: usize,
-    /// Distance from the surface beyond which images are left out.
+    /// Distance from the surface, or where facets hide something from what they may stand for, beyond which images are left
+    /// out.
     pub reach: f64,
     /// What deviations are allowed: places where the shape is known less well than that count less.
     pub bound: Bound,
@@ -120,7 +121,11 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         let (motion, target) = (&motions[which], &operations[which].target);
         let y = motion.apply(sample.point);
         let turned = motion.linear * shape.normals[sample.triangle as usize];
-        let Some(hit) = shape.nearest(y, sample.triangle, target, reach) else {
+        let within = Bound {
+            limit: reach,
+            ..fit.bound
+        };
+        let Some(hit) = shape.near(y, sample.triangle, target, within) else {
             if !fit.bound.facets {
                 sum += reach * reach;
                 count += 1.0;

@@ -72,7 +72,7 @@ impl Shape {
         let off = |i: &usize| {
             let distance = |turn: &Operation| {
                 let image = turn.motion.apply(samples[*i].point);
-                let hit = self.nearest(image, samples[*i].triangle, &turn.target, most);
+                let hit = self.near(image, samples[*i].triangle, &turn.target, bound);
                 hit.map_or(most, |hit| hit.distance)
             };
             // Of numbers that are not negative, the bits are in the order of the numbers.

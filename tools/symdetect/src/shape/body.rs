@@ -173,11 +173,7 @@ impl Shape {
     fn behind(&self) -> &Behind {
         self.behind.get_or_init(|| {
             let smooth = SmoothSurface::new(&self.vertices, &self.triangles, &self.normals);
-            let trees = Trees::new(
-                &self.interfaces,
-                |t| self.corners(t),
-                |t| smooth.most(t),
-            );
+            let trees = Trees::new(&self.interfaces, |t| self.corners(t), |t| smooth.most(t));
             Behind { smooth, trees }
         })
     }

@@ -44,6 +44,28 @@ impl Moments {
     }
 }
 
+impl Moments {
+    /// Whether second moments allow for a rotation of an order above two about an axis, up to a share of their trace: it
+    /// leaves those across the axis equal, and those with the axis zero.
+    pub fn allow_high_order(&self, axis: DVec3, share: f64) -> bool {
+        let (x, y) = axis.any_orthonormal_pair();
+        let allows = |tensor: DMat3| {
+            let (u, v) = (tensor * x, tensor * y);
+            let across = 2.0 * DVec3::new(0.5 * (u.dot(x) - v.dot(y)), u.dot(y), 0.0).length();
+            let with_axis = DVec3::new(u.dot(axis), v.dot(axis), 0.0).length();
+            let trace = tensor.x_axis.x + tensor.y_axis.y + tensor.z_axis.z;
+            across.max(with_axis) <= share * trace
+        };
+        self.tensors().into_iter().all(allows)
+    }
+
+    /// The second moments: of the volume, if there is any, and of the surface.
+    pub fn tensors(&self) -> impl IntoIterator<Item = DMat3> {
+        let volume = self.has_volume().then_some(self.volume_tensor);
+        volume.into_iter().chain([self.area_tensor])
+    }
+}
+
 /// Sums over simplices of their measure (area or volume) and its first and second moments.
 struct Sums {
     mass: f64,

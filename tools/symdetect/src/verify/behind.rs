@@ -1,6 +1,6 @@
 //! Whether deviations are explained by facets: comparison of the shapes behind them.
 
-use crate::shape::{Border, Motion, Sample, Shape};
+use crate::shape::{Border, Motion, Sample, Shape, Target};
 use crate::verify::deviation::Bound;
 use crate::verify::operation::Operation;
 use geom::tree::Nearest;
@@ -28,6 +28,20 @@ impl Shape {
         match bound.facets {
             true => bound.limit + 2.0 * self.smooth().largest(),
             false => bound.limit,
+        }
+    }
+
+    /// The nearest point of the surface to an image, if a bound may allow for its distance.
+    pub fn near(
+        &self,
+        image: DVec3,
+        triangle: u32,
+        target: &Target,
+        bound: Bound,
+    ) -> Option<Nearest> {
+        match bound.facets {
+            true => self.nearest_behind((image, None), triangle, target, bound.limit),
+            false => self.nearest(image, triangle, target, bound.limit),
         }
     }
 

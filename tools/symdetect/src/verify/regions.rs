@@ -8,12 +8,12 @@ use rustc_hash::FxHashMap;
 impl Shape {
     /// The permutation of regions an operation makes, by votes of the triangles that images land on;
     /// `None` when the votes are no permutation or outside does not stay outside.
-    pub fn vote(&self, motion: &Motion, within: f64) -> Option<Permutation> {
+    pub fn vote(&self, motion: &Motion, bound: Bound) -> Option<Permutation> {
         let n = self.region_count();
         let mut votes: FxHashMap<[u32; 2], u32> = FxHashMap::default();
         for sample in self.samples.faces.iter().take(SURVEY.max(40 * n)) {
-            let Some(hit) = self.nearest(motion.apply(sample.point), 0, &Target::Any, within)
-            else {
+            let image = motion.apply(sample.point);
+            let Some(hit) = self.near(image, sample.triangle, &Target::Any, bound) else {
                 continue;
             };
             let (from, to) = (sample.triangle as usize, hit.triangle as usize);
@@ -55,7 +55,7 @@ impl Shape {
         if self.may_exchange
             && self.region_count() > 2
             && check(None).is_ok()
-            && let Some(permutation) = self.vote(&motion, self.most(bound))
+            && let Some(permutation) = self.vote(&motion, bound)
             && !permutation.is_identity()
             && let Ok(deviation) = check(Some(&permutation))
         {

@@ -48,7 +48,10 @@ impl Shape {
         let image = operation.motion.apply(sample.point);
         let (triangle, target) = (sample.triangle, &operation.target);
         let limit = bound.limit;
-        let is_near = || self.near_enough((image, triangle), target, limit, limit).is_some();
+        let is_near = || {
+            self.near_enough((image, triangle), target, limit, limit)
+                .is_some()
+        };
         let is_behind = || {
             let hit = self.nearest_behind((image, None), triangle, target, limit);
             hit.is_some_and(|hit| self.facets_explain(sample, operation, &hit, bound))
