@@ -11,6 +11,11 @@ use glam::DVec3;
 /// the tools ask.
 pub const SMOOTH: f64 = 0.8704;
 
+/// The same where both facets bend into others as well, so that they are drawn on curved faces: whether the edge between
+/// two such faces is sharp, or the kernel drew one face coarser than it was told, as kernels do inside of faces that are
+/// curved in two directions, cannot be told. No more than a sixth of a turn: nothing with fewer sides is drawn for round.
+pub const BENT: f64 = 0.5;
+
 /// The facets of a surface: flats of one or more triangles.
 pub struct Facets<'a> {
     /// Vertices of the surface.
@@ -95,6 +100,24 @@ impl<'a> Facets<'a> {
     pub fn folds(&self) -> Vec<Fold> {
         let smooth = (0..self.edges.len()).filter(|e| self.is_smooth(*e));
         smooth.filter_map(|e| self.fold(e)).collect()
+    }
+
+    /// The edges beside these folds that may be sharp or not: between facets of curved faces, up to [`BENT`].
+    pub fn doubtful(&self, folds: &[Fold]) -> Vec<Fold> {
+        let mut bends = vec![false; self.flats.count()];
+        for flat in folds.iter().flat_map(|f| f.flats) {
+            bends[flat as usize] = true;
+        }
+        let is_doubtful = |e: &usize| match self.edges.around(*e) {
+            [u, v] => {
+                let cosine = self.normal(u).dot(self.normal(v));
+                let bent = [u, v].iter().all(|u| bends[self.flat(u) as usize]);
+                bent && u.forward != v.forward && (BENT..SMOOTH).contains(&cosine)
+            }
+            _ => false,
+        };
+        let edges = (0..self.edges.len()).filter(is_doubtful);
+        edges.filter_map(|e| self.fold(e)).collect()
     }
 
     fn fold(&self, edge: usize) -> Option<Fold> {

@@ -13,6 +13,8 @@ pub struct Heights {
     pub corner: [f32; 3],
     /// Height above the middle of each side, over what it is at its ends.
     pub side: [f32; 3],
+    /// Both where edges are smooth that may be sharp.
+    pub bent: [[f32; 3]; 2],
     /// Height there of the other diagonal of the quadrilateral that the triangle makes with the one beyond.
     pub flipped: [f32; 3],
     /// What two estimates of the heights differ by where the corners are far away.
@@ -48,15 +50,14 @@ impl Border {
 impl Heights {
     /// Height of the shape at barycentric coordinates.
     pub fn shape(&self, b: [f64; 3]) -> f64 {
-        let corners: f64 = (0..3).map(|c| b[c] * f64::from(self.corner[c])).sum();
-        corners + bubble(self.side, b)
+        patch([self.corner, self.side], b)
     }
 
     /// The heights, least and largest, between which the shape may be at barycentric coordinates.
     pub fn range(&self, b: [f64; 3]) -> [f64; 2] {
         let mut range = [0.0_f64; 2];
         let flipped = (0..3).map(|c| bubble_of(self.flipped[c], b, c));
-        for height in flipped.chain([self.shape(b)]) {
+        for height in flipped.chain([self.shape(b), patch(self.bent, b)]) {
             range = [range[0].min(height), range[1].max(height)];
         }
         range
@@ -73,7 +74,8 @@ impl Heights {
     /// The most that the triangle hides.
     pub fn most(&self) -> f64 {
         let largest = |x: [f32; 3]| x.iter().fold(0.0_f32, |m, h| m.max(h.abs()));
-        let above = largest(self.corner) + largest(self.side);
+        let above = |[corner, side]: [[f32; 3]; 2]| largest(corner) + largest(side);
+        let above = above([self.corner, self.side]).max(above(self.bent));
         let above = above.max(largest(self.flipped)) + 2.0 * self.slack;
         let at_borders = self
             .border
@@ -81,6 +83,12 @@ impl Heights {
             .map(|b| 0.125 * b.length * b.length * b.curvature);
         at_borders.fold(above, f32::max).into()
     }
+}
+
+/// A quadratic function from its values at the corners and what it is over those in the middles of the sides.
+fn patch([corner, side]: [[f32; 3]; 2], b: [f64; 3]) -> f64 {
+    let corners: f64 = (0..3).map(|c| b[c] * f64::from(corner[c])).sum();
+    corners + bubble(side, b)
 }
 
 /// A quadratic function that is zero at the corners, from its values in the middles of the sides.

@@ -1,6 +1,6 @@
 //! How well the shape behind facets is known.
 
-use crate::shape::smooth::facets::{Facets, Fold, SMOOTH};
+use crate::shape::smooth::facets::{Facets, Fold};
 use crate::shape::smooth::heights::Heights;
 use crate::shape::table::Table;
 use glam::{DMat3, DVec3};
@@ -10,14 +10,14 @@ use std::f64::consts::SQRT_2;
 pub fn slack(
     facets: &Facets<'_>,
     around: &Table,
-    (folds, curvature): (&[Fold], &[DMat3]),
+    (folds, curvature, least): (&[Fold], &[DMat3], f64),
     heights: &mut [Heights],
 ) {
     let mut slack = vec![0.0_f64; facets.flats.count()];
     for (t, &flat) in facets.flats.of.iter().enumerate() {
         let mut known = f64::from(heights[t].slack);
         if facets.single[flat as usize] {
-            known = known.max(from_normals(facets, around, t, &heights[t]));
+            known = known.max(from_normals((facets, around, least), t, &heights[t]));
         }
         let s = &mut slack[flat as usize];
         *s = s.max(known);
@@ -35,10 +35,14 @@ pub fn slack(
 
 /// The difference between the heights above the sides of a triangle and those that the normals at its corners tell,
 /// which are means of those of the facets around.
-fn from_normals(facets: &Facets<'_>, around: &Table, t: usize, heights: &Heights) -> f64 {
+fn from_normals(
+    (facets, around, least): (&Facets<'_>, &Table, f64),
+    t: usize,
+    heights: &Heights,
+) -> f64 {
     let corners = facets.triangles[t];
     let normal = |v: u32| {
-        let smooth = |s: &&u32| facets.normals[**s as usize].dot(facets.normals[t]) >= SMOOTH;
+        let smooth = |s: &&u32| facets.normals[**s as usize].dot(facets.normals[t]) >= least;
         let weighted = |s: &u32| facets.normals[*s as usize] * angle(facets, *s as usize, v);
         let sum: DVec3 = around.of(v).iter().filter(smooth).map(weighted).sum();
         sum.normalize_or_zero()

@@ -2,7 +2,7 @@
 
 use crate::shape::smooth::curvature::curvature;
 use crate::shape::smooth::curves::follow;
-use crate::shape::smooth::facets::Facets;
+use crate::shape::smooth::facets::{BENT, Facets, Fold, SMOOTH};
 use crate::shape::smooth::heights::{Border, Heights, barycentric, flip, patches};
 use crate::shape::smooth::slack::slack;
 use crate::shape::table::Table;
@@ -45,12 +45,24 @@ impl SmoothSurface {
         let corners = triangles.iter().enumerate();
         let pairs = corners.flat_map(|(t, corners)| corners.iter().map(move |&v| (v, t as u32)));
         let around = Table::new(vertices.len(), pairs);
-        let folds = facets.folds();
-        let curvature = curvature(&facets, &folds);
-        let mut heights = patches(&facets, &curvature);
-        follow(&facets, &mut heights);
-        flip(&facets, &mut heights);
-        slack(&facets, &around, (&folds, &curvature), &mut heights);
+        let read = |folds: &[Fold], least: f64| {
+            let curvature = curvature(&facets, folds);
+            let mut heights = patches(&facets, &curvature);
+            follow(&facets, &mut heights);
+            flip(&facets, &mut heights);
+            slack(&facets, &around, (folds, &curvature, least), &mut heights);
+            heights
+        };
+        let mut folds = facets.folds();
+        let doubtful = facets.doubtful(&folds);
+        let mut heights = read(&folds, SMOOTH);
+        if !doubtful.is_empty() {
+            folds.extend(doubtful);
+            for (heights, bent) in heights.iter_mut().zip(read(&folds, BENT)) {
+                heights.bent = [bent.corner, bent.side];
+                heights.slack = heights.slack.max(bent.slack);
+            }
+        }
         Self {
             largest: heights.iter().map(Heights::most).fold(0.0, f64::max),
             heights,
