@@ -165,7 +165,13 @@ impl Shape {
         part.answer(match normal {
             None => part.tree.nearest(image, within),
             Some(normal) => (part.tree).nearest_of(image, within, |t| {
-                self.normals[part.triangle(t) as usize].dot(normal).abs() >= SMOOTH
+                let t = part.triangle(t) as usize;
+                let cosine = self.normals[t].dot(normal);
+                // Where there is material on one side only, that is where it is in the image.
+                match self.interfaces.sign(t) * self.interfaces.sign(triangle as usize) {
+                    0.0 => cosine.abs() >= SMOOTH,
+                    sign => sign * cosine >= SMOOTH,
+                }
             }),
         })
     }
