@@ -9,6 +9,7 @@
 //! | constrained Delaunay triangulation with regions | [`cdt`] |
 //! | disjoint sets, eigenvectors | [`sets`], [`eigen`] |
 //! | what counts as equal, how far rounded results are off | [`tolerance`], [`rounding`] |
+//! | what counts as smooth | [`smooth`] |
 //! | numbers and points as people read them | [`number`] |
 
 pub mod cdt;
@@ -19,6 +20,7 @@ pub mod number;
 mod points;
 pub mod rounding;
 pub mod sets;
+pub mod smooth;
 pub mod tolerance;
 pub mod tree;
 

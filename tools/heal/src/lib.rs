@@ -18,7 +18,6 @@ mod read;
 mod repair;
 mod shells;
 mod sides;
-mod smooth;
 mod soup;
 mod welded;
 mod words;

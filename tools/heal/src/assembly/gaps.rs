@@ -5,8 +5,8 @@
 //! layer of air, where elements are small.
 
 use crate::imprint::{crossing, is_over};
-use crate::smooth::SMOOTH;
 use geom::measure::double_area_vector;
+use geom::smooth::SMOOTH_COSINE;
 use geom::tree::pairs;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -105,7 +105,7 @@ impl Facet {
     /// Distances up to `precision` are none.
     fn gap(&self, other: &Self, precision: f64) -> Option<(f64, DVec3)> {
         let touch = self.vertices.iter().any(|v| other.vertices.contains(v));
-        if touch || self.normal.dot(other.normal) > -SMOOTH.cos() {
+        if touch || self.normal.dot(other.normal) > -SMOOTH_COSINE {
             return None;
         }
         let most = self.width.min(other.width);

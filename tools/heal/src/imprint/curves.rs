@@ -7,9 +7,9 @@
 
 use super::faces::Complex;
 use super::near::{Spot, spot};
-use crate::smooth::SMOOTH;
 use geom::edges::Edges;
 use geom::measure::double_area_vector;
+use geom::smooth::{SMOOTH, SMOOTH_COSINE};
 use glam::DVec3;
 
 /// The smooth surface at a facet.
@@ -39,7 +39,7 @@ pub struct Curves {
 impl Curves {
     /// The surfaces behind the facets of solids.
     pub fn new(complex: &Complex, edges: &Edges, solid: &[u32], gap: Option<f64>) -> Self {
-        let cosine = SMOOTH.cos();
+        let cosine = SMOOTH_COSINE;
         let normals: Vec<DVec3> = (0..complex.triangles.len() as u32)
             .map(|t| {
                 let [a, b, c] = complex.corners(t);
@@ -148,7 +148,7 @@ fn patch(
     let corners = complex.corners(t as u32);
     let mean = complex.triangles[t].map(|v| {
         let smooth = (around[v as usize].iter())
-            .filter(|part| part.solid == solid && part.normal.dot(normal) >= SMOOTH.cos());
+            .filter(|part| part.solid == solid && part.normal.dot(normal) >= SMOOTH_COSINE);
         smooth
             .map(|part| part.sum)
             .sum::<DVec3>()
@@ -202,12 +202,12 @@ impl Patch {
 
     /// Whether two facets look the same way.
     fn continues(&self, other: &Self) -> bool {
-        self.normal.dot(other.normal) >= SMOOTH.cos()
+        self.normal.dot(other.normal) >= SMOOTH_COSINE
     }
 
     /// Whether two facets look at each other.
     pub fn faces(&self, other: &Self) -> bool {
-        self.normal.dot(other.normal) <= -SMOOTH.cos()
+        self.normal.dot(other.normal) <= -SMOOTH_COSINE
     }
 }
 

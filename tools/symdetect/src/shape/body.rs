@@ -6,11 +6,12 @@ use crate::shape::moments::Moments;
 use crate::shape::motion::Target;
 use crate::shape::regions::Permutation;
 use crate::shape::samples::Samples;
-use crate::shape::smooth::{SMOOTH, SmoothSurface};
+use crate::shape::smooth::SmoothSurface;
 use crate::shape::trees::Trees;
 use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
 use geom::measure::double_area_vector;
+use geom::smooth::SMOOTH_COSINE;
 use geom::tree::Nearest;
 use glam::DVec3;
 use std::sync::OnceLock;
@@ -169,8 +170,8 @@ impl Shape {
                 let cosine = self.normals[t].dot(normal);
                 // Where there is material on one side only, that is where it is in the image.
                 match self.interfaces.sign(t) * self.interfaces.sign(triangle as usize) {
-                    0.0 => cosine.abs() >= SMOOTH,
-                    sign => sign * cosine >= SMOOTH,
+                    0.0 => cosine.abs() >= SMOOTH_COSINE,
+                    sign => sign * cosine >= SMOOTH_COSINE,
                 }
             }),
         })

@@ -1,9 +1,9 @@
 //! How far corners may be moved: by what the facets there can be off the shape that they stand for.
 
-use crate::smooth::SMOOTH;
 use crate::soup::surface::Surface;
 use geom::edges::Edges;
 use geom::measure::double_area_vector;
+use geom::smooth::SMOOTH;
 use geom::tolerance::Tolerance;
 use glam::DVec3;
 

@@ -1,9 +1,10 @@
 //! Curves that sharp edges are chords of.
 
-use crate::shape::smooth::facets::{Facets, SMOOTH, is_straight};
+use crate::shape::smooth::facets::{Facets, is_straight};
 use crate::shape::smooth::heights::{Border, Heights};
 use crate::shape::table::Table;
 use geom::edges::EdgeUse;
+use geom::smooth::SMOOTH_COSINE;
 use glam::DVec3;
 
 /// A sharp edge, as it was drawn: edges that only divide it are one.
@@ -122,7 +123,7 @@ impl SharpEdges<'_> {
             self.facets.vertices[end as usize] - here
         });
         let (m, n) = (a.normalize_or_zero(), b.normalize_or_zero());
-        if -m.dot(n) < SMOOTH {
+        if -m.dot(n) < SMOOTH_COSINE {
             return DVec3::ZERO;
         }
         (m + n) * (2.0 / (a.length() + b.length()))

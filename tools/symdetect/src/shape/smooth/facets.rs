@@ -4,14 +4,11 @@ use crate::shape::flat::{Flats, SAME_DIRECTION};
 use crate::shape::table::Table;
 use geom::edges::{EdgeUse, Edges, apex_of};
 use geom::measure::double_area_vector;
+use geom::smooth::SMOOTH_COSINE;
 use glam::DVec3;
 
-/// Cosine of the angle between facets of one smooth surface at most: half a radian, by which kernels turn unless told
-/// otherwise, and a degree for what rounding adds; just below the 30 degrees above which an edge is a feature wherever
-/// the tools ask.
-pub const SMOOTH: f64 = 0.8704;
-
-/// The same where both facets bend into others as well, so that they are drawn on curved faces: whether the edge between
+/// Cosine of the angle between facets of one surface at most where both bend into others, so that they are drawn on curved
+/// faces: whether the edge between
 /// two such faces is sharp, or the kernel drew one face coarser than it was told, as kernels do inside of faces that are
 /// curved in two directions, cannot be told. No more than a sixth of a turn: nothing with fewer sides is drawn for round.
 pub const BENT: f64 = 0.5;
@@ -94,7 +91,7 @@ impl<'a> Facets<'a> {
     /// Whether facets of one smooth surface meet at an edge.
     pub fn is_smooth(&self, edge: usize) -> bool {
         match self.edges.around(edge) {
-            [u, v] => u.forward != v.forward && self.normal(u).dot(self.normal(v)) >= SMOOTH,
+            [u, v] => u.forward != v.forward && self.normal(u).dot(self.normal(v)) >= SMOOTH_COSINE,
             _ => false,
         }
     }
@@ -115,7 +112,7 @@ impl<'a> Facets<'a> {
             [u, v] => {
                 let cosine = self.normal(u).dot(self.normal(v));
                 let bent = [u, v].iter().all(|u| bends[self.flat(u) as usize]);
-                bent && u.forward != v.forward && (BENT..SMOOTH).contains(&cosine)
+                bent && u.forward != v.forward && (BENT..SMOOTH_COSINE).contains(&cosine)
             }
             _ => false,
         };

@@ -17,6 +17,5 @@ mod heights;
 mod slack;
 mod surface;
 
-pub use facets::SMOOTH;
 pub use heights::Border;
 pub use surface::SmoothSurface;

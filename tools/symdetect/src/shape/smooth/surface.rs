@@ -2,10 +2,11 @@
 
 use crate::shape::smooth::curvature::curvature;
 use crate::shape::smooth::curves::follow;
-use crate::shape::smooth::facets::{BENT, Facets, Fold, SMOOTH};
+use crate::shape::smooth::facets::{BENT, Facets, Fold};
 use crate::shape::smooth::heights::{Border, Heights, barycentric, flip, patches};
 use crate::shape::smooth::slack::slack;
 use crate::shape::table::Table;
+use geom::smooth::SMOOTH_COSINE;
 use glam::DVec3;
 
 /// The smooth shape behind the facets of a surface.
@@ -57,7 +58,7 @@ impl SmoothSurface {
         };
         let mut folds = facets.folds();
         let doubtful = facets.doubtful(&folds);
-        let mut heights = read(&folds, &[], SMOOTH);
+        let mut heights = read(&folds, &[], SMOOTH_COSINE);
         if !doubtful.is_empty() {
             folds.extend(&doubtful);
             let bent = read(&folds, &doubtful, BENT);
