@@ -43,16 +43,17 @@ impl Complex {
         complex
     }
 
-    /// Makes a face of each triangle of some faces: of those that lie over themselves, as what is inside their borders cannot
-    /// be told.
-    pub fn break_up(&mut self, faces: &FxHashSet<u32>) {
+    /// Makes a face of each triangle of some faces, such as those that lie over themselves, where what is inside their
+    /// borders cannot be told. Whether there are more faces then.
+    pub fn break_up(&mut self, faces: &FxHashSet<u32>) -> bool {
+        let before = self.number_faces();
         let all = self.face.len() as u32;
         for (t, f) in (0..).zip(&mut self.face) {
             if faces.contains(f) {
                 *f = all + t;
             }
         }
-        self.number_faces();
+        self.number_faces() > before
     }
 
     /// Numbers faces in the order of their first triangles; how many there are.
