@@ -106,9 +106,13 @@ impl OrderSearch<'_> {
             return self.better(as_is, in_frame_for(&golden()));
         }
         let target = shape.target_in_place();
+        let told = shape.highest_told(&start, radius, bound);
         let candidates = self.scan(&start, bound, OUTLIERS, self.multiples);
-        let mut found =
-            (candidates.into_iter().take(NEXT_BEST)).map(|n| in_frame_for(&powers(n, &target)));
+        let mut found = (candidates
+            .into_iter()
+            .filter(|n| *n <= told)
+            .take(NEXT_BEST))
+        .map(|n| in_frame_for(&powers(n, &target)));
         let found = found.find_map(|found| found);
         self.better(as_is, found)
     }

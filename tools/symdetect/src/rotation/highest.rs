@@ -1,9 +1,8 @@
 //! The highest order about an axis that is left as it is.
 
 use crate::rotation::find::{OrderSearch, Rotation};
-use crate::shape::{Permutation, Target};
+use crate::shape::{Permutation, Sample, Target};
 use crate::verify::Deviation;
-use glam::DVec3;
 use tmesh::Frame;
 
 /// Places remembered where orders failed: several for each of the features that distinguish a part from a body of
@@ -85,13 +84,17 @@ impl OrderSearch<'_> {
             _ => self.multiples,
         };
         let mut highest: Option<Rotation> = None;
+        // Others are not told from any rotation, under which the body has been found to differ.
+        let told = self.shape.highest_told(frame, radius, bound);
         // Near a body of revolution many orders fail at the same few places.
-        let mut obstacles: Vec<DVec3> = Vec::new();
+        let mut obstacles: Vec<Sample> = Vec::new();
         for order in self.scan(frame, bound, 0.0, multiples) {
             if highest.as_ref().is_some_and(|h| 2 * order <= h.order) {
                 break;
             }
-            if (obstacles.iter()).any(|p| self.stumbles(frame, order, *p, self.shape.most(bound))) {
+            if order > told
+                || (obstacles.iter()).any(|sample| self.stumbles(frame, order, sample, bound))
+            {
                 continue;
             }
             if own.as_ref().is_some_and(|own| own.order == order) {
@@ -106,10 +109,15 @@ impl OrderSearch<'_> {
                 }
                 Err(deviation) if obstacles.len() < OBSTACLES => {
                     // Either end may be the place that has no counterpart.
-                    let image = deviation.image;
-                    let near = (self.shape).nearest(image, 0, &Target::Any, f64::INFINITY);
-                    obstacles.push(deviation.at);
-                    obstacles.extend(near.map(|n| n.point));
+                    let place = |point| {
+                        let near = self.shape.nearest(point, 0, &Target::Any, f64::INFINITY);
+                        near.map(|n| Sample {
+                            point: n.point,
+                            triangle: n.triangle,
+                        })
+                    };
+                    let ends = [deviation.at, deviation.image];
+                    obstacles.extend(ends.into_iter().filter_map(place));
                 }
                 Err(_) => {}
             }

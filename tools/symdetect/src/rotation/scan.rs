@@ -2,10 +2,9 @@
 
 use crate::budget::{REPORTED, SCAN};
 use crate::rotation::find::OrderSearch;
-use crate::shape::{Motion, Random, Sample, Shape, Target};
+use crate::shape::{Random, Sample, Shape, Target};
 use crate::threads;
 use crate::verify::{Bound, Operation, golden_rotations};
-use glam::DVec3;
 use tmesh::{Frame, Isometry};
 
 /// Turns that tell which samples are taken off the surface by most turns; and powers of an order that a place is tried
@@ -101,21 +100,16 @@ impl OrderSearch<'_> {
         passed.into_iter().map(|(_, n)| n).collect()
     }
 
-    /// Whether one of a few powers of the rotation of order `n` maps a point off the surface.
-    pub fn stumbles(&self, frame: &Frame, n: u32, point: DVec3, limit: f64) -> bool {
-        let sample = Sample { point, triangle: 0 };
+    /// Whether one of a few powers of the rotation of order `n` maps a place off the surface.
+    pub fn stumbles(&self, frame: &Frame, n: u32, place: &Sample, bound: Bound) -> bool {
         let mut random = Random(u64::from(n));
         (0..TELLING_TURNS).any(|i| {
             let k = match i {
                 0 => 1,
                 _ => 1 + random.below(n as usize - 1) as i64,
             };
-            let turn = Motion::new(frame, Isometry::rotation(k, n).matrix());
-            let image = turn.apply(sample.point);
-            (self
-                .shape
-                .nearest(image, sample.triangle, &Target::Any, limit))
-            .is_none()
+            let turn = Operation::new(frame, Isometry::rotation(k, n), Target::Any);
+            !self.shape.lands(&turn, place, bound)
         })
     }
 }

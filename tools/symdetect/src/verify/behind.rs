@@ -6,9 +6,9 @@ use crate::verify::operation::Operation;
 use geom::tree::Nearest;
 use glam::DVec3;
 
-/// Cosine of the angle to a facet's normal at which a point is above it rather than beyond its edge: that of about half
-/// the largest turn between facets of one smooth surface, `2 c^2 - 1 = 0.87`, and as much again.
-const ABOVE: f64 = 0.9;
+/// Cosine of the angle to a facet's normal up to which a point is above it rather than beyond its edge: half the largest
+/// turn between facets of one face, a sixth of a turn.
+const ABOVE: f64 = 0.866;
 
 /// An image of a place above the facet that it should be on.
 pub struct Apart {

@@ -1,9 +1,10 @@
 //! How far a body is from a body of revolution.
 
-use crate::budget::SURVEY;
+use crate::budget::{REPORTED, SURVEY};
 use crate::shape::Shape;
 use crate::verify::deviation::{Bound, Deviation};
 use crate::verify::operation::golden_rotations;
+use std::f64::consts::PI;
 use tmesh::Frame;
 
 /// Angles that a body of revolution is turned by: a Fibonacci number, after which multiples of the golden section are
@@ -21,5 +22,18 @@ impl Shape {
             (&samples[i], &operations[i % operations.len()])
         })
         .ok()
+    }
+
+    /// The highest order that is told from any rotation: half a step of it moves the rim farther than some samples are
+    /// off that a bound allows to be, under angles spread over the whole turn.
+    pub fn highest_told(&self, frame: &Frame, radius: f64, bound: Bound) -> u32 {
+        let operations = golden_rotations(frame, TURNS, self.target_in_place());
+        let samples = self.samples.mixed.iter().take(REPORTED);
+        let allowed = samples.zip(&operations).filter_map(|(sample, operation)| {
+            let (value, passes) = self.test(sample, operation, bound);
+            passes.then_some(value)
+        });
+        // Beyond any number of facets where nothing is off.
+        (PI * radius / allowed.fold(0.0, f64::max)) as u32
     }
 }

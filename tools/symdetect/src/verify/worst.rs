@@ -14,7 +14,7 @@ const SHARE: usize = 512;
 impl Shape {
     /// Deviation of one test, and whether it passes. Beyond the bound, the distance to any triangle
     /// that would do, or 1 when there is none.
-    fn test(&self, sample: &Sample, operation: &Operation, bound: Bound) -> (f64, bool) {
+    pub(super) fn test(&self, sample: &Sample, operation: &Operation, bound: Bound) -> (f64, bool) {
         let image = operation.motion.apply(sample.point);
         let enough = ARITHMETIC.min(0.1 * bound.limit);
         let (triangle, target) = (sample.triangle, &operation.target);

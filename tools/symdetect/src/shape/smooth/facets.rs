@@ -33,7 +33,10 @@ pub struct Facets<'a> {
 }
 
 /// A smooth edge between two facets.
+#[derive(Clone, Copy)]
 pub struct Fold {
+    /// The edge.
+    pub edge: u32,
     /// The edge in a triangle of either.
     pub uses: [EdgeUse; 2],
     /// The flats.
@@ -136,6 +139,7 @@ impl<'a> Facets<'a> {
         let angle = libm::atan2(m.cross(n).length(), m.dot(n));
         let convex = m.dot(self.apex(v) - a) <= 0.0;
         Some(Fold {
+            edge: edge as u32,
             uses: [*u, *v],
             flats,
             widths,

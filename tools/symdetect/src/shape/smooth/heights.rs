@@ -35,6 +35,11 @@ pub struct Border {
 }
 
 impl Border {
+    /// Height of the curve over the middle of the chord.
+    pub fn sagitta(&self) -> f32 {
+        0.125 * self.length * self.length * self.curvature
+    }
+
     /// How far a curve of some curvature may be from the chord at a part of this piece of it. A circle rises above it
     /// by `k s (L - s) / 2`; any curve that bends one way stays below the extensions of the chords next to it, which
     /// rise twice as steeply from the corners, where all of them are on the curve.
@@ -71,16 +76,26 @@ impl Heights {
         away.min(1.0)
     }
 
+    /// Adds what another reading of the edges says.
+    pub fn add(&mut self, other: &Self) {
+        self.bent = [other.corner, other.side];
+        // Either diagonal of an edge that may be sharp: of a smooth one, both readings say the same.
+        self.flipped = other.flipped;
+        self.slack = self.slack.max(other.slack);
+        for (border, other) in self.border.iter_mut().zip(other.border) {
+            if other.sagitta() > border.sagitta() {
+                *border = other;
+            }
+        }
+    }
+
     /// The most that the triangle hides.
     pub fn most(&self) -> f64 {
         let largest = |x: [f32; 3]| x.iter().fold(0.0_f32, |m, h| m.max(h.abs()));
         let above = |[corner, side]: [[f32; 3]; 2]| largest(corner) + largest(side);
         let above = above([self.corner, self.side]).max(above(self.bent));
         let above = above.max(largest(self.flipped)) + 2.0 * self.slack;
-        let at_borders = self
-            .border
-            .iter()
-            .map(|b| 0.125 * b.length * b.length * b.curvature);
+        let at_borders = self.border.iter().map(Border::sagitta);
         at_borders.fold(above, f32::max).into()
     }
 }
@@ -197,9 +212,9 @@ impl Patch {
 
 /// Sets the heights of the diagonals that another drawing of the same corners may have: where two single triangles make
 /// a convex quadrilateral, either of its diagonals may have been drawn.
-pub fn flip(facets: &Facets<'_>, heights: &mut [Heights]) {
-    for edge in (0..facets.edges.len()).filter(|e| facets.is_smooth(*e)) {
-        let [u, v] = facets.edges.around(edge) else {
+pub fn flip(facets: &Facets<'_>, is_smooth: impl Fn(u32) -> bool, heights: &mut [Heights]) {
+    for edge in (0..facets.edges.len() as u32).filter(|e| is_smooth(*e)) {
+        let [u, v] = facets.edges.around(edge as usize) else {
             continue;
         };
         let single = |u: &EdgeUse| facets.single[facets.flat(u) as usize];

@@ -45,23 +45,23 @@ impl SmoothSurface {
         let corners = triangles.iter().enumerate();
         let pairs = corners.flat_map(|(t, corners)| corners.iter().map(move |&v| (v, t as u32)));
         let around = Table::new(vertices.len(), pairs);
-        let read = |folds: &[Fold], least: f64| {
+        let read = |folds: &[Fold], doubtful: &[Fold], least: f64| {
+            let is_doubtful = |e| doubtful.binary_search_by_key(&e, |f| f.edge).is_ok();
             let curvature = curvature(&facets, folds);
             let mut heights = patches(&facets, &curvature);
-            follow(&facets, &mut heights);
-            flip(&facets, &mut heights);
+            let is_smooth = |e| facets.is_smooth(e as usize) || is_doubtful(e);
+            follow(&facets, is_smooth, &mut heights);
+            flip(&facets, is_smooth, &mut heights);
             slack(&facets, &around, (folds, &curvature, least), &mut heights);
             heights
         };
         let mut folds = facets.folds();
         let doubtful = facets.doubtful(&folds);
-        let mut heights = read(&folds, SMOOTH);
+        let mut heights = read(&folds, &[], SMOOTH);
         if !doubtful.is_empty() {
-            folds.extend(doubtful);
-            for (heights, bent) in heights.iter_mut().zip(read(&folds, BENT)) {
-                heights.bent = [bent.corner, bent.side];
-                heights.slack = heights.slack.max(bent.slack);
-            }
+            folds.extend(&doubtful);
+            let bent = read(&folds, &doubtful, BENT);
+            heights.iter_mut().zip(&bent).for_each(|(h, b)| h.add(b));
         }
         Self {
             largest: heights.iter().map(Heights::most).fold(0.0, f64::max),
