@@ -6,5 +6,6 @@ mod exchange;
 mod gaps;
 mod heat;
 mod inputs;
+mod layers;
 mod motor;
 mod random;

@@ -41,6 +41,16 @@ fn a_coarse_circle_and_a_fine_one_touch_as_far_as_the_coarse_one_is_uncertain() 
 }
 
 #[test]
+fn a_bent_face_that_others_cross_is_divided_where_it_is_bent() {
+    // Polygons of one circle in plates on top of each other: faces bent to one of them crossed each other within their
+    // borders, round after round.
+    for seed in [1453, 2394, 3754, 4170] {
+        let said = said(seed);
+        assert!(said.contains("solids that touch have the same"), "{said}");
+    }
+}
+
+#[test]
 fn a_pin_in_plates_is_read_alike_in_every_run() {
     // Of points at one angle from the middle of a face, spade took some in the order of a hash table.
     let pin = assembly(40);

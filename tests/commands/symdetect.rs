@@ -380,13 +380,25 @@ fn defects_are_counted_and_placed() {
             }
         }
     });
-    let run = symdetect(&arguments, folder.path());
+    let run = symdetect(
+        &[&arguments[..], &["--repair", "off"]].concat(),
+        folder.path(),
+    );
     assert!(run.status.success());
     let said = String::from_utf8_lossy(&run.stderr).into_owned();
     assert!(said.contains("crosses or touches itself at"), "{said}");
     let crossings = &report()["defects"]["self_intersections"];
     assert!(crossings["count"].as_u64().unwrap() > 10);
     assert_eq!(crossings["at_least"], false);
+    // By default it is the union of itself, which does not cross itself any more.
+    let run = symdetect(&arguments, folder.path());
+    assert!(run.status.success());
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(
+        said.contains("it is taken as the union of its parts"),
+        "{said}"
+    );
+    assert_eq!(report()["defects"]["self_intersections"]["count"], 0);
 
     // What was mended is in the report as well.
     stl(&body, &path, |facets| {

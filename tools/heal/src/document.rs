@@ -21,6 +21,8 @@ pub struct Imported {
     pub repairs: Vec<Repair>,
     /// What was done to make one body of solids that touch or overlap, where that was needed.
     pub joined: Option<Joined>,
+    /// Whether it was made sure that no two triangles meet away from common corners and edges.
+    pub is_apart: bool,
 }
 
 /// A surface with its labels, before volumes and areas are known.
@@ -96,6 +98,7 @@ pub fn document(labelled: Labelled, format: &str) -> Result<Imported, HealError>
         notices,
         repairs,
         joined: None,
+        is_apart: false,
     })
 }
 

@@ -134,6 +134,50 @@ fn a_surface_that_crosses_itself_is_the_union_of_itself() {
     volumes(&good(&binary_stl(b"", &both), Stl));
 }
 
+/// A bar with a square section of area 1 along a line of which the last piece passes through the first one, `lift` higher:
+/// a single shell.
+fn bar_through_itself(lift: f64) -> Vec<Facet> {
+    // Sections: a corner at the lower left of the way and one at the lower right, and how high they are.
+    let sections = [
+        ([0.0, 0.5], [0.0, -0.5], 0.0),
+        ([3.5, 0.5], [4.5, -0.5], 0.0),
+        ([3.5, 2.5], [4.5, 3.5], 0.0),
+        ([3.2, 2.5], [3.2, 3.5], 0.0),
+        ([2.8, 2.5], [2.8, 3.5], lift),
+        ([2.5, 2.5], [1.5, 3.5], lift),
+        ([2.5, -2.0], [1.5, -2.0], lift),
+    ];
+    let corners = sections
+        .map(|([a, b], [c, d], z)| [[a, b, z], [c, d, z], [c, d, z + 1.0], [a, b, z + 1.0]]);
+    let quad = |[a, b, c, d]: [Point; 4]| [[a, b, c], [a, c, d]];
+    let mut facets = Vec::new();
+    for pair in corners.windows(2) {
+        for i in 0..4 {
+            let j = (i + 1) % 4;
+            facets.extend(quad([pair[0][i], pair[0][j], pair[1][j], pair[1][i]]));
+        }
+    }
+    let [a, b, c, d] = corners[0];
+    facets.extend(quad([d, c, b, a]));
+    facets.extend(quad(corners[6]));
+    facets
+}
+
+#[test]
+fn a_single_shell_that_crosses_itself_is_the_union_of_itself() {
+    // Only pieces that hang together nowhere were looked at.
+    for (lift, common) in [(0.5, 0.5), (0.25, 0.75), (0.0, 1.0)] {
+        let imported = good(&ascii_stl(&[("a", bar_through_itself(lift))]), Stl);
+        assert_eq!(volumes(&imported)[0].1, 14.0 - common, "{lift}");
+        assert!(imported.joined.is_some(), "{lift}");
+        let said = imported.notices.join("\n");
+        assert!(said.contains("the union of its parts"), "{said}");
+    }
+    let apart = good(&ascii_stl(&[("a", bar_through_itself(2.0))]), Stl);
+    assert!(apart.joined.is_none() && apart.is_apart);
+    assert_eq!(volumes(&apart)[0].1, 14.0);
+}
+
 #[test]
 fn three_solids_with_one_place_in_common() {
     let solids = [

@@ -129,12 +129,14 @@ impl Session {
             notices,
             repairs,
             joined,
+            is_apart,
         } = imported;
         for notice in &notices {
             self.note(notice);
         }
         let _ = self.notices.set(notices);
         let _ = self.repairs.set(repairs);
+        let _ = self.is_apart.set(is_apart);
         if let Some(joined) = joined {
             let _ = self.joined.set(joined);
         }

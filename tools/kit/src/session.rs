@@ -25,6 +25,7 @@ pub struct Session {
     pub(crate) repairs: OnceLock<Vec<Repair>>,
     /// What was done to make one body of the input's solids.
     pub(crate) joined: OnceLock<Joined>,
+    pub(crate) is_apart: OnceLock<bool>,
     /// Why the input could not be read, when its surface is not closed.
     pub(crate) odd_edges: OnceLock<OddEdges>,
 }
@@ -50,6 +51,7 @@ impl Session {
             notices: OnceLock::new(),
             repairs: OnceLock::new(),
             joined: OnceLock::new(),
+            is_apart: OnceLock::new(),
             odd_edges: OnceLock::new(),
         }
     }
@@ -72,6 +74,11 @@ impl Session {
     /// What was done to make one body of the input's solids, where they touch or overlap.
     pub fn joined(&self) -> Option<&Joined> {
         self.joined.get()
+    }
+
+    /// Whether it is known of the input that no two of its triangles meet away from common corners and edges.
+    pub fn is_apart(&self) -> bool {
+        self.is_apart.get().copied().unwrap_or(false)
     }
 
     /// The edges that kept the input from being read, when its surface is not closed.

@@ -12,6 +12,8 @@ pub struct Params {
     pub radius_edge: f64,
     /// Smallest dihedral angle, degrees.
     pub min_dihedral: f64,
+    /// Whether these bounds are those that hold where nobody asks for others.
+    pub default_bounds: bool,
     /// Largest dihedral angle that optimization leaves alone, degrees; `None` leaves elements as the mesher
     /// makes them.
     pub optimize: Option<f64>,
@@ -30,6 +32,8 @@ impl Params {
             quality: wishes.quality(),
             radius_edge: wishes.radius_edge(),
             min_dihedral: wishes.min_dihedral(),
+            default_bounds: wishes.radius_edge() == Wishes::RADIUS_EDGE
+                && wishes.min_dihedral() == Wishes::MIN_DIHEDRAL,
             optimize: wishes.optimize(),
             timeout: wishes.timeout(),
             max_memory: None,

@@ -41,8 +41,9 @@ impl Command for Cli {
         let made = watched(session, None, |log| prepare(document, &params, log));
         let (mut document, report) = made.map_err(|error| error.failure())?;
         report.facts.iter().for_each(|fact| session.info(fact));
+        report.advice.iter().for_each(|advice| session.note(advice));
         let short = self.strict.judge(session, &document)?;
-        let notes = [report.facts, short].concat();
+        let notes = [report.advice, report.facts, short].concat();
         document.history.push(session.history_entry(notes));
         session.write(&document)
     }

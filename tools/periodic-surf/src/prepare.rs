@@ -11,6 +11,8 @@ use tmesh::{Document, Template};
 pub struct Report {
     /// A sentence for each template.
     pub facts: Vec<String>,
+    /// What the user should know or do otherwise, a sentence each.
+    pub advice: Vec<String>,
     /// Templates that got a new surface.
     pub remade: usize,
 }
@@ -73,6 +75,7 @@ pub fn settle_faces(
         }
         let made = remake(&document, index)?;
         document.templates[index] = made.template;
+        report.advice.extend(made.advice);
         report.add(index, &document.templates[index]);
         for follower in 0..document.templates.len() {
             if others(&document.templates[follower], follower).any(|o| o == index) {
@@ -89,6 +92,7 @@ pub fn settle_faces(
                 document.templates[follower] = given;
                 let made = remake(&document, follower)?;
                 document.templates[follower] = made.template;
+                report.advice.extend(made.advice);
                 report.add(follower, &document.templates[follower]);
             }
         }

@@ -243,11 +243,12 @@ impl Cli {
     }
 
     /// Defects of the surface, where they are looked for.
-    fn defects(&self, document: &Document) -> Option<Defects> {
+    fn defects(&self, document: &Document, is_apart: bool) -> Option<Defects> {
         let [template] = document.templates.as_slice() else {
             return None;
         };
-        self.looks_around(template).then(|| Defects::find(template))
+        self.looks_around(template)
+            .then(|| Defects::find(template, is_apart))
     }
 
     /// Gaps between solids, where they are looked for, told to the user.
@@ -289,7 +290,7 @@ impl Cli {
             })
         };
         let (defects, found) = threads::with(params.threads, || {
-            threads::both(|| self.defects(document), search)
+            threads::both(|| self.defects(document, session.is_apart()), search)
         });
         if let Some(defects) = &defects {
             for note in defects.notes() {

@@ -2,15 +2,11 @@
 
 use estimate::{CostModel, Cut, Estimate, Wedge, edge_of_volume, needles};
 use geom::measure::volume_of_region;
-use mesher::{Params, Sizes};
+use mesher::{IN_CUBE, Params, Sizes};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::time::Duration;
 use tmesh::{Document, Instance, OUTSIDE, Template, Triangle};
-
-/// Tetrahedra in a cube as large as the estimate wants elements to be: those about a diagonal of it, which is the
-/// division into the fewest that fit those of the next cube.
-const IN_CUBE: f64 = 6.0;
 
 /// What filling a document is expected to take.
 #[derive(Clone, Copy, Debug, PartialEq)]

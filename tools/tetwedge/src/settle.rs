@@ -9,8 +9,8 @@ use tmesh::Document;
 pub struct Settled {
     /// The document.
     pub document: Document,
-    /// What the user should know, if the surface could not be made.
-    pub advice: Option<String>,
+    /// What the user should know, a sentence each.
+    pub advice: Vec<String>,
     /// What was made, a sentence for each template.
     pub facts: Vec<String>,
     /// Whether surfaces were remeshed.
@@ -31,7 +31,7 @@ pub fn settle(mut document: Document, params: &Params, log: Log<'_>) -> Result<S
     };
     let filled = document.templates.iter().any(|t| !t.tets.is_empty());
     if document.wishes.keep_surface() || filled {
-        return Ok(kept(document, None, Vec::new()));
+        return Ok(kept(document, Vec::new(), Vec::new()));
     }
     // Switches are meant for the tetrahedra.
     let surface = Params {
@@ -52,7 +52,7 @@ pub fn settle(mut document: Document, params: &Params, log: Log<'_>) -> Result<S
     match settle_faces(document.clone(), &surface, of_surface) {
         Ok((document, report)) => Ok(Settled {
             document,
-            advice: None,
+            advice: report.advice,
             remeshed: !facts.is_empty(),
             facts: {
                 if report.remade > 0 {
@@ -64,9 +64,9 @@ pub fn settle(mut document: Document, params: &Params, log: Log<'_>) -> Result<S
         Err(SurfaceError::Mesher(error)) if !error.is_chance() => Err(error),
         Err(error) => Ok(kept(
             document,
-            Some(format!(
+            vec![format!(
                 "the faces that copies share stay as they were cut, which costs elements or their quality: {error}"
-            )),
+            )],
             facts,
         )),
     }

@@ -24,7 +24,7 @@ pub fn surface_of(
         mut document,
         mut notices,
         repairs,
-        joined: _,
+        ..
     } = imported;
     if !document.is_plain() {
         return Err(HealError::BadSurface(format!(

@@ -3,6 +3,7 @@
 use geom::edges::{Across, Edges};
 use geom::flat::{Flatness, Flats};
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 
 /// Triangles that may cross, in flat faces. What a face is made of inside its border may change.
 #[derive(Clone, Default)]
@@ -40,6 +41,19 @@ impl Complex {
         };
         complex.number_faces();
         complex
+    }
+
+    /// Makes a face of each triangle of some faces, such as those that lie over themselves, where what is inside their
+    /// borders cannot be told. Whether there are more faces then.
+    pub fn break_up(&mut self, faces: &FxHashSet<u32>) -> bool {
+        let before = self.number_faces();
+        let all = self.face.len() as u32;
+        for (t, f) in (0..).zip(&mut self.face) {
+            if faces.contains(f) {
+                *f = all + t;
+            }
+        }
+        self.number_faces() > before
     }
 
     /// Numbers faces in the order of their first triangles; how many there are.

@@ -41,6 +41,7 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, gap: Option<f64
         done: false,
     };
     let mut is_new = vec![true; complex.triangles.len()];
+    let mut fewest = usize::MAX;
     for round in 0..ROUNDS {
         let edges = Edges::new(&complex.triangles);
         let faces = Faces::new(&complex, &edges);
@@ -64,6 +65,23 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, gap: Option<f64
             overlay.done = found.search == Search::Done;
             break;
         }
+        if found.pairs.len() >= fewest {
+            // Edges within a face do not count, as it is flat: where it was bent, others cross it there, and dividing its
+            // border changes nothing.
+            let stuck = found.pairs.iter().flatten().copied().collect();
+            let are_stuck = complex.face.iter().map(|f| FxHashSet::contains(&stuck, f));
+            let are_stuck: Vec<bool> = are_stuck.collect();
+            if complex.break_up(&stuck) {
+                complex.points.truncate(before);
+                is_new
+                    .iter_mut()
+                    .zip(are_stuck)
+                    .for_each(|(new, stuck)| *new |= stuck);
+                fewest = usize::MAX;
+                continue;
+            }
+        }
+        fewest = fewest.min(found.pairs.len());
         overlay.largest = overlay.largest.max(found.largest);
         let ids = ids(&complex.points, before, &mut found.same, within);
         let round = Round {

@@ -87,9 +87,9 @@ pub fn label_mended(
         relative_precision,
         ..
     } = mending;
-    let told = merged.and_then(|()| label(&surface, &edges));
     let apart = apart.as_ref().unwrap_or(&surface);
     let tolerance = tolerance(&apart.points, relative_precision);
+    let told = merged.and_then(|()| label(&surface, &edges, tolerance.flat()));
     let mut joined = None;
     let (surface, mut labels) = match (told, repairing) {
         (told, Repairing::Off) => (surface, told?),
@@ -115,6 +115,7 @@ pub fn label_mended(
             },
         },
     };
+    let is_apart = labels.is_apart;
     notices.append(&mut labels.notices);
     let mut labelled = tables(surface, labels);
     labelled.relative_precision = relative_precision;
@@ -125,6 +126,7 @@ pub fn label_mended(
         joined.tell_volumes(&imported.document);
     }
     imported.joined = joined;
+    imported.is_apart = is_apart;
     Ok(imported)
 }
 

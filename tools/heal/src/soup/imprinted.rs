@@ -40,13 +40,20 @@ pub fn imprinted(
     contacts: Contacts,
 ) -> Result<Imprinted, String> {
     let mut reason = String::new();
-    let crosses_itself = crossing_themselves(surface);
+    let mut complex = complex_of(surface, tolerance);
+    let (crosses_itself, folded) = crossing_themselves(surface, &complex);
+    complex.break_up(&folded);
     let flat = Contacts {
         gap: Some(0.0),
         ..contacts
     };
     for contacts in [contacts, flat] {
-        match attempt(surface, tolerance, contacts, &crosses_itself) {
+        match attempt(
+            (surface, complex.clone()),
+            tolerance,
+            contacts,
+            &crosses_itself,
+        ) {
             Ok(imprinted) => return Ok(imprinted),
             Err(why) => reason = why,
         }
@@ -55,13 +62,12 @@ pub fn imprinted(
 }
 
 fn attempt(
-    surface: &Surface,
+    (surface, complex): (&Surface, Complex),
     tolerance: &Tolerance,
     contacts: Contacts,
     crosses_itself: &[bool],
 ) -> Result<Imprinted, String> {
     let solid = &surface.solid;
-    let complex = complex_of(surface, tolerance);
     let overlay = overlay(complex, solid, tolerance.equal(), contacts.gap);
     let complex = &overlay.complex;
     let met = meetings(&complex.points, &complex.triangles, |t| t, |_| true);
@@ -182,9 +188,10 @@ impl Shared {
     }
 }
 
-/// Which solids have triangles that meet away from common vertices and edges.
-fn crossing_themselves(surface: &Surface) -> Vec<bool> {
+/// Which solids have triangles that meet away from common vertices and edges, and which faces do.
+fn crossing_themselves(surface: &Surface, complex: &Complex) -> (Vec<bool>, FxHashSet<u32>) {
     let mut crosses = vec![false; surface.solids.len()];
+    let mut folded = FxHashSet::default();
     contacts(
         &surface.points,
         &surface.triangles,
@@ -194,10 +201,14 @@ fn crossing_themselves(surface: &Surface) -> Vec<bool> {
             if a == b {
                 crosses[a as usize] = true;
             }
+            let [a, b] = contact.triangles.map(|t| complex.face[t as usize]);
+            if a == b {
+                folded.insert(a);
+            }
             true
         },
     );
-    crosses
+    (crosses, folded)
 }
 
 fn sided(surface: &Surface, complex: &Complex, settled: &Settled) -> Surface {
@@ -225,6 +236,7 @@ fn labels(settled: &Settled, notices: Vec<String>) -> Labels {
         turned: vec![false; settled.triangles.len()],
         notices,
         crosses: false,
+        is_apart: false,
     }
 }
 
@@ -322,10 +334,13 @@ fn notices(
         _ => surface.solid_name(solid),
     };
     for &(solid, volume) in &settled.doubled {
+        let twice = match volume > 0.0 {
+            true => format!(", which have a volume of {} more than once", short(volume)),
+            false => String::new(),
+        };
         notices.push(format!(
-            "{} crosses or touches itself: it is taken as the union of its parts, which have a volume of {} more than once",
-            name(solid),
-            short(volume)
+            "{} crosses or touches itself: it is taken as the union of its parts{twice}",
+            name(solid)
         ));
     }
     if joined.interfaces > 0 {

@@ -1,5 +1,6 @@
 //! One attempt: how the surface is described, what is asked for, and what came of it.
 
+use super::layers::Layers;
 use super::room::Room;
 use super::rungs::Change;
 use crate::complex::Description;
@@ -38,6 +39,8 @@ pub struct Attempt {
     pub room: Option<Room>,
     /// Whether the limit is the last one, after which the mesh is taken as it is.
     pub stop: bool,
+    /// Layers too thin for the bounds.
+    pub layers: Option<Layers>,
 }
 
 impl Attempt {
@@ -48,6 +51,7 @@ impl Attempt {
             asks,
             room: None,
             stop: false,
+            layers: None,
         }
     }
 
@@ -80,12 +84,26 @@ impl Attempt {
         }
     }
 
-    /// Decides how many points may be added, now that the surface is known.
-    pub fn limit(&mut self, first: impl FnOnce() -> Room, plc: &Plc) {
-        self.room = match self.stop {
-            true => Some(Room::last(plc)),
-            false => self.room.or_else(|| Some(first())),
-        };
+    /// Decides how many points may be added, now that the surface is known. Where its layers take too many elements, the
+    /// mesh is taken as it is after some points for each of the surface.
+    pub fn limit(
+        &mut self,
+        first: impl FnOnce() -> Room,
+        layers: impl FnOnce() -> Option<Layers>,
+        plc: &Plc,
+    ) {
+        if self.room.is_none() {
+            let first = first();
+            self.room = Some(first);
+            self.layers = layers().filter(|l| l.elements > first.more().most());
+            if self.layers.is_some() {
+                self.asks = Asks::Loosened;
+                self.stop = true;
+            }
+        }
+        if self.stop {
+            self.room = Some(Room::last(plc));
+        }
     }
 
     /// What the mesher is to do.
@@ -106,10 +124,13 @@ impl Attempt {
             Some(room) => format!(", and it was stopped after {:.0} points", room.most()),
             None => String::new(),
         };
+        let why = match self.layers {
+            Some(layers) => layers.to_string(),
+            None => "refinement did not come to an end at sharp angles of the surface".to_owned(),
+        };
         (self.asks == Asks::Loosened).then(|| {
             format!(
-                "refinement did not come to an end at sharp angles of the surface: radius-edge bound eased to {radius_edge}, \
-                 that of the smallest dihedral angle left out{stopped}",
+                "{why}: radius-edge bound eased to {radius_edge}, that of the smallest dihedral angle left out{stopped}",
             )
         })
     }

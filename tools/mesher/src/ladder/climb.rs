@@ -1,6 +1,7 @@
 //! The rule by which attempts follow each other.
 
 use super::attempt::{Answer, Asks, Attempt};
+use super::layers::Layers;
 use super::room::Room;
 use super::rungs::{Change, Ending, Rung};
 use crate::error::{ADVICE, Place};
@@ -76,7 +77,8 @@ impl Climb<'_> {
         loop {
             let answer = self.run(&mut attempt, failed);
             if let Ok(Answer { plc, mesh, .. }) = &answer
-                && let Some(ending) = attempt.room.and_then(|room| room.ending(plc, &**mesh))
+                && let Some(room) = attempt.room.filter(|_| !attempt.stop)
+                && let Some(ending) = room.ending(plc, &**mesh)
                 && let Some(change) = left.next(ending)
             {
                 attempt = attempt.changed(change);
@@ -112,11 +114,14 @@ impl Climb<'_> {
         let plc =
             Plc::new(self.piece, self.sizes, attempt.description).map_err(|error| (error, None))?;
         let prepared = Instant::now();
-        if self.params.quality && !self.params.switches.contains('S') {
-            // The user's own limit counts.
-            attempt.limit(|| Room::new(self.piece, self.sizes, &plc), &plc);
-        }
         let preserve = self.preserve && plc.faces.preserve();
+        if self.params.quality && !self.params.switches.contains('S') {
+            // The user's own limit counts, and the user's own bounds do. Faces that are preserved get no points, however
+            // thin layers are.
+            let yields = self.params.default_bounds && !preserve;
+            let layers = || yields.then(|| Layers::of(&plc)).flatten();
+            attempt.limit(|| Room::new(self.piece, self.sizes, &plc), layers, &plc);
+        }
         let task = attempt.task(self.params, preserve);
         let limits = Limits {
             timeout: self.deadline.left(),

@@ -2,9 +2,11 @@
 
 mod attempt;
 mod climb;
+mod layers;
 mod room;
 mod rungs;
 
 pub use attempt::{Answer, Asks, Attempt, EASING};
 pub use climb::Climb;
+pub use layers::IN_CUBE;
 pub use rungs::{Change, Ending, LADDER, Rung};

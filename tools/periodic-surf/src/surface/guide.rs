@@ -19,6 +19,8 @@ pub struct Refined {
     pub facets: Facets,
     /// What computing may lose, model units.
     pub rounding: f64,
+    /// What became of the bounds, if they could not be met.
+    pub advice: Option<String>,
 }
 
 /// Meshes a template as asked for, but free to put points on every facet, and gives
@@ -32,18 +34,12 @@ pub fn refine(climb: &Climb<'_>) -> Result<Refined, Error> {
         preserve: false,
         ..*climb
     };
-    let take = |answer: Answer| {
-        if let Some(advice) = &answer.advice {
-            climb
-                .log
-                .detail(&format!("template {}: {advice}", climb.piece.index));
-        }
-        surface_of(climb, answer)
-    };
     // The mesher is given eased bounds again when it fills this surface, and a guide that insists on more only multiplies
     // points.
     let [ratio, angle] = EASING;
-    free.climb(Asks::Eased([ratio * ratio, angle]), take)
+    free.climb(Asks::Eased([ratio * ratio, angle]), |answer| {
+        surface_of(climb, answer)
+    })
 }
 
 /// The surface of the mesher's answer.
@@ -55,7 +51,9 @@ fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
     if !answer.keeps_points() {
         return Err(unusable("input points were moved or left out".to_owned()));
     }
-    let Answer { plc, mesh, .. } = answer;
+    let Answer {
+        plc, mesh, advice, ..
+    } = answer;
     let Cells { surface, .. } = label(&plc, &*mesh).map_err(|c| {
         let place = Place(plc.to_model(c.place));
         unusable(format!("there are {} near {place}", c.what))
@@ -76,6 +74,7 @@ fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
         vertex_of_point: plc.vertex_of_point,
         facets: plc.facets,
         rounding: plc.rounding,
+        advice,
     };
     put_back(&mut refined, plc.shift);
     Ok(refined)

@@ -18,6 +18,8 @@ pub struct Made {
     pub vertices: Vec<u32>,
     /// Triangles on faces that other templates list as a hub wall, increasing.
     pub shared: Vec<u32>,
+    /// What became of the bounds, if they could not be met.
+    pub advice: Option<String>,
 }
 
 /// Makes the surface of a template: its seam's faces become images of each other, its own hub
@@ -61,5 +63,6 @@ pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
         shared: shared.collect(),
         template: made,
         vertices: of_input,
+        advice: guide.advice,
     })
 }

@@ -66,8 +66,9 @@ impl Defects {
         defects
     }
 
-    /// Looks for defects. O(n log n) where few triangles are crowded together.
-    pub fn find(template: &Template) -> Self {
+    /// Looks for defects. O(n log n) where few triangles are crowded together. Where it is known that triangles are
+    /// apart that is not looked for.
+    pub fn find(template: &Template, is_apart: bool) -> Self {
         let mut defects = Self::default();
         let triangles: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
         let edges = Edges::new(&triangles);
@@ -84,6 +85,10 @@ impl Defects {
                 n if n > 2 && one_region => defects.non_manifold_edges.add(place()),
                 _ => {}
             }
+        }
+        if is_apart {
+            defects.self_intersections = Some(Places::default());
+            return defects;
         }
         // What lies in one plane and is joined along edges does not cross itself, and may be fans of
         // many triangles around one point, all of which would have to be compared.

@@ -13,6 +13,7 @@ use crate::words::place;
 use geom::cells::Cells;
 use geom::contacts::{Contact, Search};
 use geom::edges::Edges;
+use geom::flat::{Flatness, Flats};
 use geom::measure::tet_volume;
 use geom::sets::DisjointSets;
 use interchange::text::counted;
@@ -29,22 +30,36 @@ pub struct Labels {
     pub turned: Vec<bool>,
     /// What the user should know.
     pub notices: Vec<String>,
-    /// Whether pieces of a lone solid cross: then its triangles are labelled by their orientation.
+    /// Whether a lone solid crosses itself. Where pieces of it do, its triangles are labelled by their orientation.
     pub crosses: bool,
+    /// Whether it was made sure that no two triangles meet away from common corners and edges.
+    pub is_apart: bool,
 }
 
-/// Finds the solid on either side of each triangle.
+/// Finds the solid on either side of each triangle. What of a lone solid lies in one plane within a distance is taken for
+/// one piece, which does not meet itself.
 ///
 /// # Errors
 /// Solids that overlap, cross, or touch with different triangles; edges where it cannot be told.
-pub fn label(surface: &Surface, edges: &Edges) -> Result<Labels, HealError> {
+pub fn label(surface: &Surface, edges: &Edges, flat: f64) -> Result<Labels, HealError> {
     let solids = surface.solids.len();
     let (shell, shells) = shells(surface, edges);
     let mut notices = Vec::new();
-    if shells > 1
-        && let Some(crossing) = check_contacts(surface, &shell, solids, &mut notices)?
+    let met = match (solids, shells) {
+        (1, _) => check_contacts(surface, &faces(surface, edges, flat), &mut notices)?,
+        (_, 1) => Met::Unknown,
+        _ => check_contacts(surface, &shell, &mut notices)?,
+    };
+    let met_at = match &met {
+        Met::At(place) => Some(place),
+        _ => None,
+    };
+    if let Some(place) = met_at
+        && shells > 1
     {
-        notices.push(crossing);
+        notices.push(format!(
+            "pieces of the surface {place}; it cannot be meshed as it is"
+        ));
         return as_oriented(surface, edges, notices);
     }
     let cells = Cells::new(&surface.points, &surface.triangles, edges);
@@ -54,7 +69,8 @@ pub fn label(surface: &Surface, edges: &Edges) -> Result<Labels, HealError> {
         back: Vec::with_capacity(shell.len()),
         turned: Vec::with_capacity(shell.len()),
         notices,
-        crosses: false,
+        crosses: met_at.is_some(),
+        is_apart: matches!(met, Met::Nowhere) && solids == 1,
     };
     for t in 0..shell.len() {
         let front = content[cells.front(t) as usize];
@@ -101,19 +117,41 @@ fn shells(surface: &Surface, edges: &Edges) -> (Vec<u32>, usize) {
     sets.numbered()
 }
 
-/// Looks for shells that cross or touch other than in common triangles, edges and vertices. Within
+/// The flat faces of a surface: of each triangle, the number of its face. Fans of many triangles around one corner, all of
+/// which would have to be compared, are one.
+fn faces(surface: &Surface, edges: &Edges, flat: f64) -> Vec<u32> {
+    let flatness = |_| Flatness {
+        distance: flat,
+        // What the distance leaves of folds.
+        cosine: 0.5,
+    };
+    let Surface {
+        points, triangles, ..
+    } = surface;
+    let flats = Flats::new(points, triangles, &edges.across(), flatness, |_, _| true);
+    flats.regions.of
+}
+
+/// Whether parts of a surface meet that should not.
+enum Met {
+    Nowhere,
+    /// Where and how often, for the end of a sentence.
+    At(String),
+    Unknown,
+}
+
+/// Looks for parts that cross or touch other than in common triangles, edges and vertices. Within
 /// a lone solid that is allowed, and described in the result.
 fn check_contacts(
     surface: &Surface,
-    shell: &[u32],
-    solids: usize,
+    part: &[u32],
     notices: &mut Vec<String>,
-) -> Result<Option<String>, HealError> {
+) -> Result<Met, HealError> {
     let of = |t: u32| (surface.solid[t as usize], surface.partner[t as usize]);
     let met = meetings(
         &surface.points,
         &surface.triangles,
-        |t| shell[t as usize],
+        |t| part[t as usize],
         |contact| {
             let [(a, b), (c, d)] = contact.triangles.map(of);
             // An interface's own solids meet at it.
@@ -121,14 +159,15 @@ fn check_contacts(
             !(related && (b != NONE || d != NONE))
         },
     );
-    if met.lowest.is_none() && met.search == Search::GaveUp {
+    let Some(Contact { triangles, point }) = met.lowest else {
+        if met.search == Search::Done {
+            return Ok(Met::Nowhere);
+        }
         notices.push(
             "too many triangles lie close to each other to tell whether all pieces are apart"
                 .to_owned(),
         );
-    }
-    let Some(Contact { triangles, point }) = met.lowest else {
-        return Ok(None);
+        return Ok(Met::Unknown);
     };
     let [a, b] = triangles.map(|t| surface.solid[t as usize]);
     let (one, many) = ("pair of triangles meets", "pairs of triangles meet");
@@ -142,16 +181,13 @@ fn check_contacts(
             surface.solid_name(b)
         )));
     }
-    if solids > 1 {
+    if surface.solids.len() > 1 {
         return Err(HealError::BadSurface(format!(
             "{} crosses or touches itself at {at}: {count}",
             surface.solid_name(a)
         )));
     }
-    Ok(Some(format!(
-        "pieces of the surface cross or touch at {at} ({count}); it cannot be \
-         meshed as it is"
-    )))
+    Ok(Met::At(format!("cross or touch at {at} ({count})")))
 }
 
 /// The solid in each cell.
@@ -275,5 +311,6 @@ fn as_oriented(
         turned: vec![turned; n],
         notices,
         crosses: true,
+        is_apart: false,
     })
 }

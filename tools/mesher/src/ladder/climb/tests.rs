@@ -2,7 +2,7 @@ use super::*;
 use crate::{Elements, LADDER, Mesh, Task};
 use glam::DVec3;
 use std::sync::Mutex;
-use tmesh::{Document, OUTSIDE, Region, Template, Triangle};
+use tmesh::{Document, OUTSIDE, Region, Template, Triangle, Wishes};
 
 /// A mesher that ends as it is told, one word for each run, and notes what it was asked for.
 struct Scripted {
@@ -165,4 +165,62 @@ fn no_rung_is_taken_when_the_time_is_over() {
     let none = Some(Duration::from_nanos(1));
     assert!(climb(&mesher, &LADDER, none).is_err());
     assert_eq!(mesher.runs(), 1);
+}
+
+#[test]
+fn thin_layers_are_meshed_coarsely_unless_bounds_are_asked_for() {
+    let mut document = document();
+    let corners = (0..8).map(|c| {
+        let thickness = 5e-4;
+        DVec3::new(
+            f64::from(c & 1),
+            f64::from(c >> 1 & 1),
+            thickness * f64::from(c >> 2),
+        )
+    });
+    let sides = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let plate = &mut document.templates[0];
+    let first = plate.triangles[0];
+    plate.vertices = corners.collect();
+    plate.triangles = sides
+        .into_iter()
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
+        .map(|vertices| Triangle { vertices, ..first })
+        .collect();
+    let sizes = Sizes::new(&document);
+    let bounds = |radius_edge: Option<f64>| {
+        let wishes = Wishes {
+            radius_edge,
+            ..Wishes::default()
+        };
+        let params = Params::new(&wishes);
+        let mesher = Scripted::new(&[]);
+        let climb = Climb {
+            piece: Piece::of(&document, 0),
+            params: &params,
+            sizes: &sizes,
+            preserve: false,
+            rungs: &LADDER,
+            deadline: Deadline::start(None),
+            mesher: &mesher,
+            log: Log::new(&|_| ()),
+        };
+        let advice = climb
+            .climb(Asks::AsWished, |answer| Ok(answer.advice))
+            .unwrap();
+        let asked = mesher.asked.lock().unwrap();
+        (asked[0].0.bounds.unwrap(), advice)
+    };
+    let (loosened, advice) = bounds(None);
+    assert_eq!(loosened, [2.0, 0.0]);
+    assert!(advice.unwrap().contains("layers as thin as 0.0005"));
+    let (wished, advice) = bounds(Some(1.5));
+    assert_eq!((wished[0], advice), (1.5, None));
 }

@@ -1,0 +1,37 @@
+//! Layers so thin that the default bounds would take millions of elements.
+
+use bodies::assembly::assembly;
+use serde_json::Value;
+use support::{encode, pipe, run};
+
+/// What tetwedge says of the assembly of a seed, and the report of its mesh.
+fn meshed(seed: u64) -> (String, Value) {
+    let body = assembly(seed);
+    let input = encode(&body.body, body.encoding);
+    let stages = pipe(
+        &[
+            &["symdetect", "--allow-asymmetric"],
+            &["wedgecut"],
+            &["tetwedge"],
+            &["rotassemble", "--to", "tmesh"],
+        ],
+        &input,
+    );
+    let said = stages[2].stderr.clone();
+    let mesh = stages.into_iter().last().expect("a stage").success();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("quality.json");
+    let path = path.to_str().expect("a name");
+    run("meshqual", &["--check", "--json", path], &mesh).success();
+    let report = std::fs::read(path).expect("a report");
+    (said, serde_json::from_slice(&report).expect("JSON"))
+}
+
+#[test]
+fn a_layer_of_a_thousandth_caps_the_quality_instead_of_filling_memory() {
+    // By the default bounds this block is 3.09 million tetrahedra, and others of their kind never ended.
+    let (said, report) = meshed(209);
+    assert!(said.contains("layers as thin as 0.00118707"), "{said}");
+    let elements = report["tetrahedra"].as_u64().expect("a number");
+    assert!(elements < 10_000, "{elements} tetrahedra");
+}
