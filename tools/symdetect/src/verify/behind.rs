@@ -94,12 +94,17 @@ impl Shape {
     }
 
     /// How far apart facets, and the shapes behind them, are where the image of a sample is near a point of the
-    /// surface; `None` where the image is not above the facet but beyond its edge.
+    /// surface; `None` where the image is not above the facet but beyond a sharp edge of it.
     pub fn apart(&self, sample: &Sample, motion: &Motion, hit: &Nearest) -> Option<Apart> {
         let [from, to] = [sample.triangle, hit.triangle].map(|t| self.normals[t as usize]);
-        let facets = (motion.apply(sample.point) - hit.point).dot(to);
+        let mut facets = (motion.apply(sample.point) - hit.point).dot(to);
         if facets.abs() < ABOVE * hit.distance {
-            return None;
+            // Above an edge of a smooth surface, but beyond one where it ends.
+            let surface = (&self.vertices[..], &self.triangles[..]);
+            if (self.smooth().sharp_edges()).pass(surface, (hit.triangle, hit.point)) {
+                return None;
+            }
+            facets = hit.distance.copysign(facets);
         }
         let above = |t: u32, p| self.smooth().above(t, self.corners(t), p);
         let here = above(sample.triangle, sample.point);

@@ -24,9 +24,9 @@ struct SharpEdges<'a> {
 
 /// Lets the borders of facets follow the curves that they are chords of: the circle through the corners of a polyline
 /// at one of its ends, the narrower one.
-pub fn follow(facets: &Facets<'_>, is_smooth: impl Fn(u32) -> bool, heights: &mut [Heights]) {
+pub fn follow(facets: &Facets<'_>, is_smooth: &[bool], heights: &mut [Heights]) {
     let sharp: Vec<u32> = (0..facets.edges.len() as u32)
-        .filter(|e| !is_smooth(*e))
+        .filter(|e| !is_smooth[*e as usize])
         .collect();
     let at = |&e: &u32| facets.edges.ends[e as usize].map(|v| (v, e));
     let pairs: Vec<(u32, u32)> = sharp.iter().flat_map(at).collect();

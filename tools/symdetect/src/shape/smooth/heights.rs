@@ -212,9 +212,9 @@ impl Patch {
 
 /// Sets the heights of the diagonals that another drawing of the same corners may have: where two single triangles make
 /// a convex quadrilateral, either of its diagonals may have been drawn.
-pub fn flip(facets: &Facets<'_>, is_smooth: impl Fn(u32) -> bool, heights: &mut [Heights]) {
-    for edge in (0..facets.edges.len() as u32).filter(|e| is_smooth(*e)) {
-        let [u, v] = facets.edges.around(edge as usize) else {
+pub fn flip(facets: &Facets<'_>, is_smooth: &[bool], heights: &mut [Heights]) {
+    for edge in (0..facets.edges.len()).filter(|e| is_smooth[*e]) {
+        let [u, v] = facets.edges.around(edge) else {
             continue;
         };
         let single = |u: &EdgeUse| facets.single[facets.flat(u) as usize];

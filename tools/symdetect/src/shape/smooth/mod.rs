@@ -5,6 +5,10 @@
 //! halfway between its own and that of the facet beyond (the triangle of Morley, Aeronautical Quarterly 19, 1968; as
 //! a discrete shape operator, Grinspun, Gingold, Reisman and Zorin, Computer Graphics Forum 25, 2006).
 //!
+//! Edges up to half a radian are smooth. Steeper ones, up to a sixth of a turn, may be sharp or not where both facets bend
+//! into others: inside of faces that are curved in two directions CAD kernels draw coarser than they are told. They are read
+//! both ways, and the shape may be anywhere between the two readings.
+//!
 //! Flat faces, sharp edges between them and straight edges so hide nothing; arcs hide their sagitta. A place may be
 //! anywhere between the facet and the patch, since facets of flat and of curved faces look alike where they meet, and
 //! between the two ways of dividing a quadrilateral into triangles. How well the patch is known is told by the patches
@@ -14,6 +18,8 @@ mod curvature;
 mod curves;
 mod facets;
 mod heights;
+mod reading;
+mod sharp;
 mod slack;
 mod surface;
 

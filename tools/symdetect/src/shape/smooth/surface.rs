@@ -1,12 +1,10 @@
 //! The shape behind a whole surface.
 
-use crate::shape::smooth::curvature::curvature;
-use crate::shape::smooth::curves::follow;
-use crate::shape::smooth::facets::{BENT, Facets, Fold};
-use crate::shape::smooth::heights::{Border, Heights, barycentric, flip, patches};
-use crate::shape::smooth::slack::slack;
+use crate::shape::smooth::facets::Facets;
+use crate::shape::smooth::heights::{Border, Heights, barycentric};
+use crate::shape::smooth::reading::Reading;
+use crate::shape::smooth::sharp::SharpEdges;
 use crate::shape::table::Table;
-use geom::smooth::SMOOTH_COSINE;
 use glam::DVec3;
 
 /// The smooth shape behind the facets of a surface.
@@ -14,6 +12,7 @@ pub struct SmoothSurface {
     heights: Vec<Heights>,
     /// The triangles at each vertex.
     around: Table,
+    sharp: SharpEdges,
     largest: f64,
 }
 
@@ -46,26 +45,17 @@ impl SmoothSurface {
         let corners = triangles.iter().enumerate();
         let pairs = corners.flat_map(|(t, corners)| corners.iter().map(move |&v| (v, t as u32)));
         let around = Table::new(vertices.len(), pairs);
-        let read = |folds: &[Fold], doubtful: &[Fold], least: f64| {
-            let is_doubtful = |e| doubtful.binary_search_by_key(&e, |f| f.edge).is_ok();
-            let curvature = curvature(&facets, folds);
-            let mut heights = patches(&facets, &curvature);
-            let is_smooth = |e| facets.is_smooth(e as usize) || is_doubtful(e);
-            follow(&facets, is_smooth, &mut heights);
-            flip(&facets, is_smooth, &mut heights);
-            slack(&facets, &around, (folds, &curvature, least), &mut heights);
-            heights
-        };
-        let mut folds = facets.folds();
-        let doubtful = facets.doubtful(&folds);
-        let mut heights = read(&folds, &[], SMOOTH_COSINE);
-        if !doubtful.is_empty() {
-            folds.extend(&doubtful);
-            let bent = read(&folds, &doubtful, BENT);
-            heights.iter_mut().zip(&bent).for_each(|(h, b)| h.add(b));
+        let reading = Reading::sharp(&facets);
+        let bent = reading.bent();
+        let mut heights = reading.heights(&around);
+        if let Some(bent) = &bent {
+            let other = bent.heights(&around);
+            heights.iter_mut().zip(&other).for_each(|(h, o)| h.add(o));
         }
+        let reading = bent.unwrap_or(reading);
         Self {
             largest: heights.iter().map(Heights::most).fold(0.0, f64::max),
+            sharp: SharpEdges::new(&facets, reading.sharp_edges()),
             heights,
             around,
         }
@@ -79,6 +69,11 @@ impl SmoothSurface {
     /// The most that a facet hides.
     pub fn most(&self, triangle: u32) -> f64 {
         self.heights[triangle as usize].most()
+    }
+
+    /// The edges that are sharp in all readings.
+    pub fn sharp_edges(&self) -> &SharpEdges {
+        &self.sharp
     }
 
     /// The shape above a point of a triangle with these corners.
