@@ -7,7 +7,6 @@ use crate::rotation::{Fit, LOOSE_RANGE, OUTLIERS, Query, TELLING_TURNS, golden, 
 use crate::shape::{Random, Sample, Target};
 use crate::verify::{Bound, Operation, golden_rotations};
 use glam::DVec3;
-use std::f64::consts::PI;
 use tmesh::{Axis, Frame, Isometry};
 
 /// Powers of a rotation that a place is tried under: each other place of an orbit of this many more is tried.
@@ -68,11 +67,13 @@ impl Query<'_> {
     /// What nearly holds about an axis.
     fn nearly_about(&self, start: &Frame, multiples: u32) -> Option<Nearly> {
         let bound = self.limits.loosely(self.shape.radius(start));
-        // What is in the way shifts second moments by about its share. A turn by half a step of an order that is too high
-        // moves nothing by more than the bound: such orders are not told from any rotation.
+        // What is in the way shifts second moments by about its share.
         let moments = &self.shape.moments;
         let highest = match moments.allow_high_order(start.rotation.z_axis, OUTLIERS) {
-            true => self.params.max_order.min((PI / self.limits.loose) as u32),
+            true => {
+                let told = (self.shape).highest_told(start, self.shape.radius(start), bound);
+                self.params.max_order.min(told)
+            }
             false => 2,
         };
         let search = self.search(multiples.max(2)..=highest);
