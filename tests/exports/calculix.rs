@@ -2,6 +2,7 @@
 //! conditions at mirror planes.
 
 use crate::tools::{coarse_mesh, rotassemble};
+use crate::{BETWEEN_BLADES, off_plane, twisted_impeller};
 use bodies::{Body, Encoding, Gear, Impeller, Placement, Ratchet};
 use std::path::Path;
 use std::process::Command;
@@ -85,9 +86,9 @@ fn of_sector(folder: &Path, deck: &str, order: u32, modes: usize, largest: f64) 
     (merged, limit)
 }
 
-/// Both lists are the same below a limit, to a thousandth.
+/// Both lists are the same below a limit, to a thousandth; gives the worst deviation.
 #[track_caller]
-fn same(what: &str, mut found: Vec<f64>, mut whole: Vec<f64>, limit: f64) {
+fn same(what: &str, mut found: Vec<f64>, mut whole: Vec<f64>, limit: f64) -> f64 {
     for list in [&mut found, &mut whole] {
         list.retain(|&f| f < 0.999 * limit);
         list.sort_by(f64::total_cmp);
@@ -98,6 +99,7 @@ fn same(what: &str, mut found: Vec<f64>, mut whole: Vec<f64>, limit: f64) {
     let worst = pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
     println!("{what}: {} modes, worst deviation {worst:.1e}", found.len());
     assert!(worst < 1e-3, "{what}: {found:?} {whole:?}");
+    worst
 }
 
 fn impeller(order: u32, bore: f64) -> Body {
@@ -144,6 +146,29 @@ fn a_sector_has_the_frequencies_of_the_whole() {
             same(&format!("order {order}, {elements:?}"), found, whole, limit);
         }
     }
+}
+
+#[test]
+fn a_sector_between_blades_has_the_frequencies_of_the_whole() {
+    if !is_there() {
+        return;
+    }
+    let temporary = tempfile::tempdir().expect("a folder");
+    let folder = temporary.path();
+    let surface = encode(&twisted_impeller(7), Encoding::Obj);
+    let input = coarse_mesh(folder, &surface, &BETWEEN_BLADES);
+    let document = tmesh::read(std::fs::read(&input).expect("a file").as_slice()).expect("valid");
+    let off = off_plane(&document);
+    assert!(off > 0.05, "{off}");
+    let path = |name: &str| folder.join(name).to_str().expect("text").to_owned();
+    let [sector, whole] = ["sector.inp", "whole.inp"].map(path);
+    rotassemble(&input, &["--sector", "-o", &sector]);
+    rotassemble(&input, &["-o", &whole]);
+    let (whole, largest) = of_whole(folder, 40);
+    let (found, limit) = of_sector(folder, "sector.inp", 7, 16, largest);
+    let worst = same("between blades", found, whole, limit);
+    // Seven digits are printed, the whole consists of images of the sector: the last one may differ by one.
+    assert!(worst < 1e-6, "{worst:.1e}");
 }
 
 #[test]

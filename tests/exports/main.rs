@@ -38,6 +38,42 @@ fn via() -> bodies::Body {
     body
 }
 
+/// An impeller whose blades turn so far that a seam between them is no plane.
+fn twisted_impeller(order: u32) -> bodies::Body {
+    Impeller {
+        order,
+        bore: 0.2,
+        height: 1.0,
+        twist: 0.8,
+        layers: 4,
+        ..Impeller::default()
+    }
+    .build()
+}
+
+/// How the wedge of such an impeller is cut.
+const BETWEEN_BLADES: [&str; 4] = ["--hub", "none", "--seam", "auto"];
+
+/// The largest distance of the points of a seam's low face from the plane through the axis where they are
+/// seen from the axis on average.
+fn off_plane(document: &tmesh::Document) -> f64 {
+    let template = &document.templates[0];
+    let seam = template.gluings.iter().find(|g| g.is_seam(0));
+    let low: Vec<glam::DVec2> = seam
+        .expect("a seam")
+        .vertex_pairs
+        .iter()
+        .map(|&[_, there]| template.vertices[there as usize].truncate())
+        .collect();
+    let mean = low
+        .iter()
+        .map(|p| p.normalize_or_zero())
+        .sum::<glam::DVec2>();
+    let mean = mean.normalize();
+    let off = low.iter().map(|p| mean.perp_dot(*p).abs());
+    off.fold(0.0, f64::max)
+}
+
 fn write(folder: &Path, name: &str, input: &Path, options: &[&str]) -> String {
     let path = folder.join(name).to_str().expect("text").to_owned();
     let output = [&["-o", path.as_str()], options].concat();
@@ -205,6 +241,52 @@ fn gmsh_reads_the_couplings_of_a_sector() {
     let on_axis = nodes.iter().filter(|p| p[0] == p[1]).count();
     assert_eq!(on_axis, document.templates[0].axis.len());
     assert_eq!(table["axis"].as_array().expect("a list").len(), on_axis);
+}
+
+#[test]
+fn gmsh_reads_the_couplings_of_a_curved_seam() {
+    if !referee::is_there() {
+        return;
+    }
+    let body = twisted_impeller(7);
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let input = mesh(folder, &encode(&body, EXACT_STL), &BETWEEN_BLADES);
+    let document = tmesh::read(std::fs::read(&input).expect("a file").as_slice()).expect("valid");
+    let off = off_plane(&document);
+    assert!(off > 0.05, "{off}");
+    let seam = &document.templates[0].gluings[0];
+    assert!(seam.is_seam(0));
+    let [first, second] = ["a.msh", "b.msh"];
+    for (name, options) in [
+        (first, &["--sector"][..]),
+        (second, &["--sector", "--second-order"]),
+    ] {
+        let path = write(folder, name, &input, options);
+        let found = &read(&[Job::new("gmsh", "msh", &path)])[0];
+        let periodic = found["periodic"].as_array().expect("a list");
+        assert_eq!(periodic.len(), 1, "{found}");
+        let link = &periodic[0];
+        assert_eq!(
+            (&link["master"], &link["dependent"]),
+            (&"wall-a".into(), &"wall-b".into())
+        );
+        let size = found["size"].as_f64().expect("a size");
+        assert!(link["error"].as_f64() < Some(1e-12 * size), "{link}");
+        if name == first {
+            assert_eq!(link["pairs"], seam.vertex_pairs.len());
+        } else {
+            assert!(link["pairs"].as_u64() > Some(seam.vertex_pairs.len() as u64));
+        }
+        close(
+            &found["areas"]["wall-a"],
+            found["areas"]["wall-b"].as_f64().expect("an area"),
+            1e-12,
+            name,
+        );
+        let seventh = body.volume(0) / 7.0;
+        close(&found["volumes"]["body"], seventh, 1e-6, name);
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::referee::{close, is_there, python};
 use crate::tools::{coarse_mesh, mesh, rotassemble};
-use crate::via;
+use crate::{BETWEEN_BLADES, off_plane, twisted_impeller, via};
 use bodies::{Body, Prism, Ratchet};
 use serde_json::Value;
 use std::path::Path;
@@ -141,6 +141,42 @@ fn a_sector_has_cyclic_patches() {
     );
     let text = std::fs::read_to_string(deck).expect("a file");
     assert!(text.contains("\n% wall-b is wall-a turned by 1/8\n"));
+}
+
+#[test]
+fn cyclic_patches_of_a_curved_seam_are_images() {
+    if !is_there() {
+        return;
+    }
+    let body = twisted_impeller(7);
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let input = coarse_mesh(folder, &encode(&body, EXACT_STL), &BETWEEN_BLADES);
+    let document = tmesh::read(std::fs::read(&input).expect("a file").as_slice()).expect("valid");
+    let off = off_plane(&document);
+    assert!(off > 0.05, "{off}");
+    let case = folder.join("case");
+    export(&input, &case.join("constant/polyMesh"), &["--sector"]);
+    let found = read("polymesh", &case);
+    let [a, b] = ["wall-a", "wall-b"].map(|name| &found["patches"][name]);
+    for (patch, other, turn) in [(a, "wall-b", 1.0 / 7.0), (b, "wall-a", -1.0 / 7.0)] {
+        assert_eq!(
+            (&patch["type"], &patch["other"]),
+            (&"cyclic".into(), &other.into())
+        );
+        close(&patch["turn"], turn, 1e-12, "the turn");
+    }
+    assert_eq!(a["faces"], b["faces"]);
+    close(
+        &a["area"],
+        b["area"].as_f64().expect("an area"),
+        1e-12,
+        "both faces",
+    );
+    assert!(found["off"].as_f64() < Some(1e-12), "{}", found["off"]);
+    assert!(found["open"].as_f64() < Some(1e-12));
+    let seventh = body.volume(0) / 7.0;
+    close(&found["volume_by_faces"], seventh, 1e-6, "the sector");
 }
 
 #[test]
