@@ -51,6 +51,23 @@ fn a_bent_face_that_others_cross_is_divided_where_it_is_bent() {
 }
 
 #[test]
+fn a_bent_face_is_not_left_between_two_that_cross_it() {
+    // Pieces around a hub: what was left of such faces lay over each other with other triangles, and the wedge lost a
+    // part of its boundary.
+    let pieces = assembly(1071);
+    let input = encode(&pieces.body, pieces.encoding);
+    let stages: [&[&str]; 5] = [
+        &["symdetect", "--allow-asymmetric"],
+        &["wedgecut", "--domain", "rotation"],
+        &["periodic-surf"],
+        &["tetwedge"],
+        &["rotassemble", "--to", "tmesh"],
+    ];
+    let mesh = pipe(&stages, &input).pop().expect("a stage").success();
+    run("meshqual", &["--check"], &mesh).success();
+}
+
+#[test]
 fn a_pin_in_plates_is_read_alike_in_every_run() {
     // Of points at one angle from the middle of a face, spade took some in the order of a hash table.
     let pin = assembly(40);

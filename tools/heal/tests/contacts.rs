@@ -173,6 +173,11 @@ fn a_single_shell_that_crosses_itself_is_the_union_of_itself() {
         let said = imported.notices.join("\n");
         assert!(said.contains("the union of its parts"), "{said}");
     }
+    // Beside another solid.
+    expect(
+        &two(bar_through_itself(0.5), unit_cube([9.0; 3])),
+        [13.5, 1.0],
+    );
     let apart = good(&ascii_stl(&[("a", bar_through_itself(2.0))]), Stl);
     assert!(apart.joined.is_none() && apart.is_apart);
     assert_eq!(volumes(&apart)[0].1, 14.0);

@@ -282,6 +282,89 @@ fn facets_explain_a_bore_but_not_a_groove() {
     assert!(flawed.order <= 2);
 }
 
+/// A body of revolution whose rings have corners at angles of their own, in parts of a turn; from the bottom up.
+fn rings(rings: &[(f64, f64, Vec<f64>)]) -> Document {
+    let mut vertices = Vec::new();
+    let mut triangles = Vec::new();
+    let mut below: Option<(usize, &[f64])> = None;
+    for (r, z, angles) in rings {
+        let first = vertices.len();
+        vertices.extend(angles.iter().map(|a| {
+            let (s, c) = libm::sincos(TAU * a);
+            DVec3::new(r * c, r * s, *z)
+        }));
+        if let Some((lower, old)) = below {
+            // The corner that comes next around, of either ring, ends the next triangle.
+            let (mut i, mut j) = (0, 0);
+            let at =
+                |angles: &[f64], i: usize| angles[i % angles.len()] + (i / angles.len()) as f64;
+            while i < old.len() || j < angles.len() {
+                let [a, b] = [i, i + 1].map(|i| (lower + i % old.len()) as u32);
+                let [c, d] = [j, j + 1].map(|j| (first + j % angles.len()) as u32);
+                if j >= angles.len() || i < old.len() && at(old, i + 1) <= at(angles, j + 1) {
+                    triangles.push([a, b, c]);
+                    i += 1;
+                } else {
+                    triangles.push([a, d, c]);
+                    j += 1;
+                }
+            }
+        }
+        below = Some((first, angles));
+    }
+    let (_, _, bottom) = &rings[0];
+    let (_, _, top) = &rings[rings.len() - 1];
+    let last = vertices.len() - top.len();
+    triangles.extend((1..bottom.len() as u32 - 1).map(|i| [0, i + 1, i]));
+    triangles.extend((1..top.len() as u32 - 1).map(|i| [0, i, i + 1].map(|i| last as u32 + i)));
+    bodies::document(vertices, triangles)
+}
+
+fn evenly(count: u32) -> Vec<f64> {
+    (0..count)
+        .map(|i| f64::from(i) / f64::from(count))
+        .collect()
+}
+
+/// Bottles were refused whose shoulder the CAD kernel had drawn with seven facets around, and the neck with twenty-six.
+#[test]
+fn a_shoulder_drawn_more_coarsely_than_the_neck_is_round() {
+    let mut random = Random(15);
+    // Six and a half of them.
+    let coarse: Vec<f64> = (0..7).map(|i| f64::from(i) / 6.5).collect();
+    let mut profile = vec![(1.0, -2.0, evenly(26)), (1.0, 1.0, evenly(26))];
+    for angle in [20.0_f64, 40.0, 60.0, 80.0] {
+        let (s, c) = libm::sincos(angle.to_radians());
+        profile.push((0.4 + 0.6 * c, 1.0 + 0.6 * s, coarse.clone()));
+    }
+    profile.extend([(0.4, 1.6, evenly(26)), (0.4, 2.0, evenly(26))]);
+    for _ in 0..3 {
+        let found = find(&bodies::place(&rings(&profile), &mut random, 1.0, 0.0));
+        assert!(found.axisymmetric && found.mirror, "{found:?}");
+    }
+}
+
+/// Nor are a flat along a shaft, and six or eight sides of a neck that is meant to have them.
+#[test]
+fn flats_along_a_round_shaft_are_no_facets() {
+    let mut random = Random(16);
+    let mut flat = evenly(40);
+    flat.retain(|a| (0.3..=1.0).contains(a) || *a == 0.0);
+    let shaft = [(1.0, 0.0, flat.clone()), (1.0, 3.0, flat)];
+    let found = find(&bodies::place(&rings(&shaft), &mut random, 1.0, 0.0));
+    assert!(found.order <= 2 && !found.axisymmetric, "{found:?}");
+    for sides in [6, 8] {
+        let neck = [
+            (1.0, 0.0, evenly(26)),
+            (1.0, 1.0, evenly(26)),
+            (0.6, 1.0, evenly(sides)),
+            (0.6, 2.0, evenly(sides)),
+        ];
+        let found = find(&bodies::place(&rings(&neck), &mut random, 1.0, 0.0));
+        assert_eq!((found.order, found.axisymmetric), (sides, false));
+    }
+}
+
 #[test]
 fn an_oval_of_a_small_bore_is_not_taken_for_facets() {
     // Drawn with sixteen facets whose sagitta is beyond the tolerance; oval by no more than that.

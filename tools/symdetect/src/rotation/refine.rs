@@ -138,8 +138,10 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         let off = y - hit.point;
         if hit.distance > 0.0 && off.dot(normal).abs() < SAME_FACE * hit.distance {
             // Slid off the edge of a face: says nothing about the distance between faces.
-            sum += hit.distance * hit.distance;
-            count += 1.0;
+            if !fit.bound.facets {
+                sum += hit.distance * hit.distance;
+                count += 1.0;
+            }
             continue;
         }
         let mut e = normal.dot(off);
@@ -150,7 +152,7 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
                 continue;
             };
             e = apart.shapes * normal.dot(shape.normals[hit.triangle as usize]).signum();
-            weight /= 1.0 + (apart.slack / fit.bound.limit).powi(2);
+            weight /= 1.0 + ((apart.slack + apart.doubt) / fit.bound.limit).powi(2);
         }
         let back = motion.linear.transpose() * normal;
         let (x, z) = (sample.point - motion.centre, y - motion.centre);

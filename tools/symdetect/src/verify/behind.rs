@@ -20,6 +20,8 @@ pub struct Apart {
     pub shapes: f64,
     /// How well that is known.
     pub slack: f64,
+    /// How far other readings of the edges have either shape from what lies between it and its facet.
+    pub doubt: f64,
 }
 
 impl Shape {
@@ -118,6 +120,7 @@ impl Shape {
             gap: (a.min(b) - high).max(low - a.max(b)).max(0.0),
             shapes: facets + side * here.shape - there.shape,
             slack: here.unknown_beside(&there),
+            doubt: here.doubt() + there.doubt(),
         })
     }
 }

@@ -18,6 +18,7 @@ use geom::measure::tet_volume;
 use geom::sets::DisjointSets;
 use interchange::text::counted;
 use rustc_hash::FxHashMap;
+use std::cell::Cell;
 use std::collections::VecDeque;
 
 /// Which solid lies on either side of each triangle.
@@ -30,33 +31,27 @@ pub struct Labels {
     pub turned: Vec<bool>,
     /// What the user should know.
     pub notices: Vec<String>,
-    /// Whether a lone solid crosses itself. Where pieces of it do, its triangles are labelled by their orientation.
+    /// Whether a solid crosses itself. Where pieces of a lone one do, its triangles are labelled by their orientation.
     pub crosses: bool,
     /// Whether it was made sure that no two triangles meet away from common corners and edges.
     pub is_apart: bool,
 }
 
-/// Finds the solid on either side of each triangle. What of a lone solid lies in one plane within a distance is taken for
-/// one piece, which does not meet itself.
+/// Finds the solid on either side of each triangle. What lies in one plane within a distance is taken for one face, which
+/// does not meet itself.
 ///
 /// # Errors
 /// Solids that overlap, cross, or touch with different triangles; edges where it cannot be told.
 pub fn label(surface: &Surface, edges: &Edges, flat: f64) -> Result<Labels, HealError> {
     let solids = surface.solids.len();
-    let (shell, shells) = shells(surface, edges);
+    let (shell, _) = shells(surface, edges);
     let mut notices = Vec::new();
-    let met = match (solids, shells) {
-        (1, _) => check_contacts(surface, &faces(surface, edges, flat), &mut notices)?,
-        (_, 1) => Met::Unknown,
-        _ => check_contacts(surface, &shell, &mut notices)?,
-    };
-    let met_at = match &met {
-        Met::At(place) => Some(place),
-        _ => None,
-    };
-    if let Some(place) = met_at
-        && shells > 1
-    {
+    let met = check_contacts(
+        surface,
+        (&shell, &faces(surface, edges, flat)),
+        &mut notices,
+    )?;
+    if let Met::Pieces(place) = &met {
         notices.push(format!(
             "pieces of the surface {place}; it cannot be meshed as it is"
         ));
@@ -69,8 +64,8 @@ pub fn label(surface: &Surface, edges: &Edges, flat: f64) -> Result<Labels, Heal
         back: Vec::with_capacity(shell.len()),
         turned: Vec::with_capacity(shell.len()),
         notices,
-        crosses: met_at.is_some(),
-        is_apart: matches!(met, Met::Nowhere) && solids == 1,
+        crosses: matches!(met, Met::Within),
+        is_apart: matches!(met, Met::Nowhere),
     };
     for t in 0..shell.len() {
         let front = content[cells.front(t) as usize];
@@ -135,24 +130,32 @@ fn faces(surface: &Surface, edges: &Edges, flat: f64) -> Vec<u32> {
 /// Whether parts of a surface meet that should not.
 enum Met {
     Nowhere,
-    /// Where and how often, for the end of a sentence.
-    At(String),
+    /// Faces that hang together.
+    Within,
+    /// Pieces of a lone solid: where and how often, for the end of a sentence.
+    Pieces(String),
     Unknown,
 }
 
-/// Looks for parts that cross or touch other than in common triangles, edges and vertices. Within
-/// a lone solid that is allowed, and described in the result.
+/// Looks for faces that cross or touch other than in common triangles, edges and vertices. Within a shell and within a
+/// lone solid that is allowed, and described in the result.
 fn check_contacts(
     surface: &Surface,
-    part: &[u32],
+    (shell, face): (&[u32], &[u32]),
     notices: &mut Vec<String>,
 ) -> Result<Met, HealError> {
     let of = |t: u32| (surface.solid[t as usize], surface.partner[t as usize]);
+    let within = Cell::new(false);
     let met = meetings(
         &surface.points,
         &surface.triangles,
-        |t| part[t as usize],
+        |t| face[t as usize],
         |contact| {
+            let [s, t] = contact.triangles.map(|t| shell[t as usize]);
+            if s == t {
+                within.set(true);
+                return false;
+            }
             let [(a, b), (c, d)] = contact.triangles.map(of);
             // An interface's own solids meet at it.
             let related = a == c || a == d || b == c || (b == d && b != NONE);
@@ -160,6 +163,9 @@ fn check_contacts(
         },
     );
     let Some(Contact { triangles, point }) = met.lowest else {
+        if within.get() {
+            return Ok(Met::Within);
+        }
         if met.search == Search::Done {
             return Ok(Met::Nowhere);
         }
@@ -187,7 +193,7 @@ fn check_contacts(
             surface.solid_name(a)
         )));
     }
-    Ok(Met::At(format!("cross or touch at {at} ({count})")))
+    Ok(Met::Pieces(format!("cross or touch at {at} ({count})")))
 }
 
 /// The solid in each cell.

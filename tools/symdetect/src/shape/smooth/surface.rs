@@ -29,6 +29,12 @@ pub struct Height {
 }
 
 impl Height {
+    /// How far the heights that are allowed for go beyond what lies between the facet and the shape.
+    pub fn doubt(&self) -> f64 {
+        let [low, high] = self.range;
+        (high - self.shape.max(0.0)).max(self.shape.min(0.0) - low)
+    }
+
     /// How far two drawings of the same place may differ by what is not known of them. The shape may be as far beyond
     /// either estimate as that is from the other, which is twice what they differ by; and a place that one drawing
     /// tells well may be between corners of it all the same, where the other one tells that the shape bends.
