@@ -62,6 +62,7 @@ fn sized(
         &Rules {
             held,
             bound: &bound,
+            links: &[],
             onto: &nowhere,
             deviation,
             flat: 1e-10,
