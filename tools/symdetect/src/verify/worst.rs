@@ -33,7 +33,7 @@ impl Shape {
             return (n.distance, passes);
         }
         // Where many triangles are about equally far, an open search would visit them all.
-        let mut within = 4.0 * most;
+        let mut within = 4.0 * most.max(ARITHMETIC);
         while within < 2.0 {
             if let Some(n) = find(within) {
                 return (n.distance, false);
