@@ -3,12 +3,9 @@
 mod apply;
 mod change;
 mod fit;
-mod images;
-mod orbits;
 mod triangle;
 
 pub use change::Change;
-pub use images::Images;
 pub use triangle::quality;
 
 use crate::input::{Rules, Surface};
@@ -38,8 +35,6 @@ pub struct Mesh<'a> {
     pub fixed: Vec<bool>,
     /// Whether each vertex and triangles between such vertices stay as they are.
     pub held: Vec<bool>,
-    /// What is the image of what.
-    pub images: Images,
     /// Length of edges wanted at each vertex.
     pub size: Vec<f64>,
     /// Width of the input's facets at each vertex.
@@ -72,7 +67,6 @@ impl<'a> Mesh<'a> {
                 .for_each(|&v| around[v as usize].push(t as u32));
         }
         let vertices = 0..surface.points.len();
-        let images = Images::new(surface, rules.links, patches);
         let ends = curves.ends.iter().copied();
         let mut mesh = Self {
             rules,
@@ -81,9 +75,8 @@ impl<'a> Mesh<'a> {
             points: surface.points.clone(),
             bound: rules.bound.to_vec(),
             fixed: vertices
-                .map(|v| rules.held[v] || curves.corner[v] || images.is_fixed(v as u32))
+                .map(|v| rules.held[v] || curves.corner[v])
                 .collect(),
-            images,
             held: rules.held.to_vec(),
             size: allowance.size.clone(),
             width: allowance.width.clone(),

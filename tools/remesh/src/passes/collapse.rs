@@ -5,11 +5,7 @@ use crate::mesh::{Change, Mesh};
 
 /// Collapses an edge into its second end, if that keeps to the rules and leaves no worse triangles.
 pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2]) -> bool {
-    let Some(orbit) = mesh.collapsing([from, to]) else {
-        return false;
-    };
-    let changes: Option<Vec<Change>> = orbit.iter().map(|&edge| change(mesh, edge)).collect();
-    let Some(change) = changes.map(Change::all) else {
+    let Some(change) = change(mesh, [from, to]) else {
         return false;
     };
     let before = mesh.worst(&change.gone);
@@ -22,14 +18,11 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2]) -> bool {
     }
     if before >= GOOD {
         // Of good triangles none gets longer than those to be split.
-        let lengthened = |&[from, to]: &[u32; 2]| {
-            let longer = |&w: &u32| {
-                mesh.relative([to, w]) > LONG && mesh.length([to, w]) > mesh.length([from, w])
-            };
-            mesh.neighbours(from).iter().any(longer)
+        let lengthened = |&w: &u32| {
+            mesh.relative([to, w]) > LONG && mesh.length([to, w]) > mesh.length([from, w])
         };
         let is_curved = |&(_, patch): &([u32; 3], u32)| mesh.planes[patch as usize].is_none();
-        if change.new.iter().any(is_curved) && orbit.iter().any(lengthened) {
+        if change.new.iter().any(is_curved) && mesh.neighbours(from).iter().any(lengthened) {
             return false;
         }
     }
@@ -37,7 +30,6 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2]) -> bool {
         return false;
     };
     mesh.apply(&change, fitted);
-    orbit.iter().for_each(|edge| mesh.images.drop(edge[0]));
     true
 }
 

@@ -62,7 +62,6 @@ fn sized(
         &Rules {
             held,
             bound: &bound,
-            links: &[],
             onto: &nowhere,
             deviation,
             flat: 1e-10,
