@@ -20,6 +20,16 @@ impl Surface {
     }
 }
 
+/// Two faces of a surface of which one is the image of the other, vertex by vertex: what is done to one is done to both.
+pub struct Link {
+    /// Each vertex with its image.
+    pub pairs: Vec<[u32; 2]>,
+    /// Labels of the triangles of both faces.
+    pub labels: Vec<u32>,
+    /// The image of a point.
+    pub image: Box<dyn Fn(DVec3) -> DVec3 + Sync>,
+}
+
 /// What must stay, and how far the rest may move.
 #[derive(Clone, Copy)]
 pub struct Rules<'a> {
@@ -29,6 +39,8 @@ pub struct Rules<'a> {
     pub bound: &'a [u32],
     /// The nearest point on the plane or line of a bit.
     pub onto: &'a (dyn Fn(u32, DVec3) -> DVec3 + Sync),
+    /// Faces that stay images of each other.
+    pub links: &'a [Link],
     /// How far the surface may move at most, model units.
     pub deviation: f64,
     /// Within this of a plane, triangles are in one plane, model units.

@@ -12,5 +12,5 @@ mod mesh;
 mod passes;
 mod shape;
 
-pub use input::{Rules, Sizes, Surface};
+pub use input::{Link, Rules, Sizes, Surface};
 pub use passes::{Remeshed, Told, remesh};

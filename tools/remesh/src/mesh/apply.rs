@@ -4,6 +4,18 @@ use super::change::{Change, Fitted};
 use super::{Mesh, NONE};
 
 impl Change {
+    /// Several changes of different triangles as one.
+    pub fn all(changes: Vec<Self>) -> Self {
+        let mut all = Self::default();
+        for change in changes {
+            all.gone.extend(change.gone);
+            all.new.extend(change.new);
+            all.chords_gone.extend(change.chords_gone);
+            all.chords.extend(change.chords);
+        }
+        all
+    }
+
     /// Replaces a vertex by another one in triangles.
     pub fn replacing(mesh: &Mesh<'_>, gone: &[u32], from: u32, to: u32) -> Self {
         let with = |t: &u32| {

@@ -3,9 +3,13 @@
 mod apply;
 mod change;
 mod fit;
+mod images;
+mod orbits;
 mod triangle;
 
 pub use change::Change;
+pub use images::Images;
+pub use orbits::Splitting;
 pub use triangle::quality;
 
 use crate::input::{Rules, Surface};
@@ -35,6 +39,8 @@ pub struct Mesh<'a> {
     pub fixed: Vec<bool>,
     /// Whether each vertex and triangles between such vertices stay as they are.
     pub held: Vec<bool>,
+    /// What is the image of what.
+    pub images: Images,
     /// Length of edges wanted at each vertex.
     pub size: Vec<f64>,
     /// Width of the input's facets at each vertex.
@@ -67,6 +73,7 @@ impl<'a> Mesh<'a> {
                 .for_each(|&v| around[v as usize].push(t as u32));
         }
         let vertices = 0..surface.points.len();
+        let images = Images::new(surface, rules.links, patches);
         let ends = curves.ends.iter().copied();
         let mut mesh = Self {
             rules,
@@ -75,8 +82,9 @@ impl<'a> Mesh<'a> {
             points: surface.points.clone(),
             bound: rules.bound.to_vec(),
             fixed: vertices
-                .map(|v| rules.held[v] || curves.corner[v])
+                .map(|v| rules.held[v] || curves.corner[v] || images.is_fixed(v as u32))
                 .collect(),
+            images,
             held: rules.held.to_vec(),
             size: allowance.size.clone(),
             width: allowance.width.clone(),

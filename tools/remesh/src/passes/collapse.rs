@@ -5,7 +5,11 @@ use crate::mesh::{Change, Mesh};
 
 /// Collapses an edge into its second end, if that keeps to the rules and leaves no worse triangles.
 pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2]) -> bool {
-    let Some(change) = change(mesh, [from, to]) else {
+    let Some(orbit) = mesh.collapsing([from, to]) else {
+        return false;
+    };
+    let changes: Option<Vec<Change>> = orbit.iter().map(|&edge| change(mesh, edge)).collect();
+    let Some(change) = changes.map(Change::all) else {
         return false;
     };
     let before = mesh.worst(&change.gone);
@@ -18,11 +22,14 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2]) -> bool {
     }
     if before >= GOOD {
         // Of good triangles none gets longer than those to be split.
-        let lengthened = |&w: &u32| {
-            mesh.relative([to, w]) > LONG && mesh.length([to, w]) > mesh.length([from, w])
+        let lengthened = |&[from, to]: &[u32; 2]| {
+            let longer = |&w: &u32| {
+                mesh.relative([to, w]) > LONG && mesh.length([to, w]) > mesh.length([from, w])
+            };
+            mesh.neighbours(from).iter().any(longer)
         };
         let is_curved = |&(_, patch): &([u32; 3], u32)| mesh.planes[patch as usize].is_none();
-        if change.new.iter().any(is_curved) && mesh.neighbours(from).iter().any(lengthened) {
+        if change.new.iter().any(is_curved) && orbit.iter().any(lengthened) {
             return false;
         }
     }
@@ -30,6 +37,7 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2]) -> bool {
         return false;
     };
     mesh.apply(&change, fitted);
+    orbit.iter().for_each(|edge| mesh.images.drop(edge[0]));
     true
 }
 

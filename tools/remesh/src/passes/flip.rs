@@ -5,7 +5,8 @@ use crate::mesh::{Change, Mesh};
 
 /// Replaces an edge by the other diagonal of the two triangles at it, if the worse of them gets better.
 pub fn flip(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
-    if mesh.curve(a, b).is_some() || mesh.held[a as usize] && mesh.held[b as usize] {
+    let stays = |v: u32| mesh.held[v as usize] || mesh.images.has(v);
+    if mesh.curve(a, b).is_some() || stays(a) && stays(b) {
         return false;
     }
     let [s, t] = mesh.at_edge(a, b)[..] else {

@@ -9,7 +9,7 @@ use glam::DVec3;
 /// Moves a vertex to the middle of what is around it, along the surface or along its curve, if the worst of its triangles
 /// gets no worse.
 pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
-    if mesh.fixed[v as usize] || mesh.around(v).is_empty() {
+    if mesh.fixed[v as usize] || mesh.images.has(v) || mesh.around(v).is_empty() {
         return false;
     }
     let along = mesh.along(v);

@@ -6,7 +6,7 @@ use super::relocate::relocate;
 use super::split::split;
 use super::worth::{LONG, SHORT};
 use crate::input::{Rules, Surface};
-use crate::mesh::{Mesh, NONE};
+use crate::mesh::{Images, Mesh, NONE};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
 use geom::contacts::contacts;
 use glam::DVec3;
@@ -23,6 +23,8 @@ pub struct Remeshed {
     pub triangles: Vec<u32>,
     /// The planes and lines that each new vertex is on.
     pub bound: Vec<u32>,
+    /// Of each link, the new vertices with their images.
+    pub links: Vec<Vec<[u32; 2]>>,
     /// What was done.
     pub told: Told,
 }
@@ -60,6 +62,9 @@ const ATTEMPTS: u32 = 4;
 
 /// Remeshes a surface within the rules. `None` where there is nothing to do, or nothing that could be done.
 pub fn remesh(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
+    if rules.links.len() > Images::MOST {
+        return None;
+    }
     let mut held = rules.held.to_vec();
     for attempt in 0..ATTEMPTS {
         let rules = Rules {
@@ -266,6 +271,12 @@ fn taken(surface: &Surface, mesh: Mesh<'_>, told: Told) -> Remeshed {
             remeshed.surface.labels.push(label_of[&mesh.patch[t]]);
         }
     }
+    remeshed.links = (0..mesh.rules.links.len())
+        .map(|link| {
+            let pairs = mesh.images.pairs(link).into_iter();
+            pairs.map(|p| p.map(|v| vertices[v as usize])).collect()
+        })
+        .collect();
     vertices.truncate(surface.points.len());
     remeshed.vertices = vertices;
     remeshed

@@ -1,35 +1,86 @@
 //! Splitting edges that are too long.
 
-use crate::mesh::{Change, Mesh};
+use crate::mesh::{Change, Mesh, Splitting};
 use crate::shape::Near;
+use glam::DVec3;
 
-/// Splits an edge near its middle, if that keeps to the rules.
+/// Splits an edge near its middle, and its image as well, if that keeps to the rules.
 pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
     // Along an edge between vertices that are held, the body may touch another piece of it, which nobody would split.
     if mesh.held[a as usize] && mesh.held[b as usize] {
         return false;
     }
-    let at_edge = mesh.at_edge(a, b);
-    let Some(&first) = at_edge.first() else {
+    let (first, second) = match mesh.splitting([a, b]) {
+        None => return false,
+        Some(Splitting::Alone(links)) => return alone(mesh, [a, b], &links),
+        // An image is made from what it is the image of.
+        Some(Splitting::With((link, true, original))) => (original, (link, [a, b])),
+        Some(Splitting::With((link, false, image))) => ([a, b], (link, image)),
+    };
+    let Some(place) = place(mesh, first) else {
         return false;
     };
-    let curve = mesh.curve(a, b);
+    let (link, second) = second;
+    let image = (mesh.rules.links[link].image)(place);
+    let new = mesh.points.len() as u32;
+    let changes = vec![halved(mesh, first, place), halved(mesh, second, image)];
+    if make(mesh, &Change::all(changes)) {
+        mesh.images.add(link, [new, new + 1]);
+        return true;
+    }
+    mesh.drop_last();
+    mesh.drop_last();
+    false
+}
+
+/// Splits an edge that is nobody's image but its own.
+fn alone(mesh: &mut Mesh<'_>, edge: [u32; 2], links: &[usize]) -> bool {
+    let Some(place) = place(mesh, edge) else {
+        return false;
+    };
+    let new = mesh.points.len() as u32;
+    let change = halved(mesh, edge, place);
+    if make(mesh, &change) {
+        for &link in links {
+            mesh.images.add(link, [new, new]);
+            mesh.fixed[new as usize] = true;
+        }
+        return true;
+    }
+    mesh.drop_last();
+    false
+}
+
+fn make(mesh: &mut Mesh<'_>, change: &Change) -> bool {
+    let fitted = mesh.fit(change);
+    fitted.is_some_and(|fitted| {
+        mesh.apply(change, fitted);
+        true
+    })
+}
+
+/// Where an edge is split.
+fn place(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> Option<DVec3> {
+    let &first = mesh.at_edge(a, b).first()?;
     let patch = mesh.patch[first as usize];
     let middle = 0.5 * (mesh.points[a as usize] + mesh.points[b as usize]);
-    let near = match curve {
+    let near = match mesh.curve(a, b) {
         Some(curve) => mesh.envelope.nearest(Near::Curve(curve), middle),
         None if mesh.planes[patch as usize].is_some() => Some(middle),
         None => mesh.envelope.nearest(Near::Patch(patch), middle),
     };
     let bound = mesh.bound[a as usize] & mesh.bound[b as usize];
-    let Some(place) = near.and_then(|p| mesh.rules.put(bound, p)) else {
-        return false;
-    };
+    near.and_then(|p| mesh.rules.put(bound, p))
+}
+
+/// Adds a vertex there, and halves the triangles at the edge by it.
+fn halved(mesh: &mut Mesh<'_>, [a, b]: [u32; 2], place: DVec3) -> Change {
+    let at_edge = mesh.at_edge(a, b);
+    let bound = mesh.bound[a as usize] & mesh.bound[b as usize];
     let size = 0.5 * (mesh.size[a as usize] + mesh.size[b as usize]);
-    let wanted = mesh
-        .envelope
-        .at(patch, place)
-        .map_or(size, |at| at.1.min(size));
+    let first = at_edge.first().map(|&t| mesh.patch[t as usize]);
+    let wanted = first.and_then(|patch| mesh.envelope.at(patch, place));
+    let wanted = wanted.map_or(size, |at| at.1.min(size));
     let new = mesh.add(place, bound, wanted);
     let halves = at_edge.iter().flat_map(|&t| {
         let corners = mesh.triangles[t as usize];
@@ -47,18 +98,9 @@ pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
         gone: at_edge.clone(),
         ..Change::default()
     };
-    if let Some(curve) = curve {
+    if let Some(curve) = mesh.curve(a, b) {
         change.chords_gone = vec![key(a, b)];
         change.chords = vec![(key(a, new), curve), (key(b, new), curve)];
     }
-    match mesh.fit(&change) {
-        Some(fitted) => {
-            mesh.apply(&change, fitted);
-            true
-        }
-        None => {
-            mesh.drop_last();
-            false
-        }
-    }
+    change
 }

@@ -1,6 +1,6 @@
 //! Surfaces that are remeshed, without any document.
 
-use crate::{Remeshed, Rules, Sizes, Surface, remesh};
+use crate::{Link, Remeshed, Rules, Sizes, Surface, remesh};
 use geom::contacts::contacts;
 use geom::measure::volume_of_region;
 use geom::tree::Tree;
@@ -51,10 +51,15 @@ fn done(surface: &Surface, deviation: f64, held: &[bool]) -> Option<Remeshed> {
     sized(surface, deviation, (held, None))
 }
 
-fn sized(
+fn sized(surface: &Surface, deviation: f64, asked: (&[bool], Option<f64>)) -> Option<Remeshed> {
+    linked(surface, deviation, asked, &[])
+}
+
+fn linked(
     surface: &Surface,
     deviation: f64,
     (held, length): (&[bool], Option<f64>),
+    links: &[Link],
 ) -> Option<Remeshed> {
     let bound = vec![0; surface.points.len()];
     remesh(
@@ -62,6 +67,7 @@ fn sized(
         &Rules {
             held,
             bound: &bound,
+            links,
             onto: &nowhere,
             deviation,
             flat: 1e-10,
@@ -241,4 +247,52 @@ fn flat_faces_and_what_has_no_needles_stay() {
     if let Some(made) = done(&surface, 0.01, &held) {
         assert_eq!(volume(&made.surface), 1.0);
     }
+}
+
+/// A round bar beside the axis, which it touches along an edge, and with it its image under half a turn.
+fn bar() -> Surface {
+    let around = 24;
+    let at = |i: u32, z: f64| {
+        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(around);
+        match 2 * i == around {
+            true => DVec3::new(0.0, 0.0, z),
+            false => DVec3::new(1.0 + angle.cos(), angle.sin(), z),
+        }
+    };
+    let rings = (0..around).flat_map(|i| [at(i, -1.0), at(i, 1.0)]);
+    let mut surface = Surface {
+        points: rings
+            .chain([DVec3::new(1.0, 0.0, -1.0), DVec3::new(1.0, 0.0, 1.0)])
+            .collect(),
+        ..Surface::default()
+    };
+    for i in 0..around {
+        let [low, high] = [2 * i, 2 * i + 1];
+        let [next, above] = [low, high].map(|v| (v + 2) % (2 * around));
+        surface
+            .triangles
+            .extend([[low, next, above], [low, above, high]]);
+        surface
+            .triangles
+            .extend([[2 * around, next, low], [2 * around + 1, high, above]]);
+    }
+    surface.labels = vec![0; surface.triangles.len()];
+    surface
+}
+
+#[test]
+fn an_edge_along_which_a_body_touches_its_image_stays_its_image() {
+    let surface = bar();
+    let links = [Link {
+        pairs: vec![[24, 24], [25, 25]],
+        labels: Vec::new(),
+        image: Box::new(|p| DVec3::new(-p.x, -p.y, p.z)),
+    }];
+    let free = vec![false; surface.points.len()];
+    let done = linked(&surface, 1e-2, (&free, Some(0.2)), &links).unwrap();
+    let on_axis = (0..).zip(&done.surface.points);
+    let on_axis = on_axis.filter(|(_, p)| p.truncate().length() < 1e-9);
+    let images: Vec<[u32; 2]> = on_axis.map(|(v, _): (u32, _)| [v, v]).collect();
+    assert!(images.len() > 4, "{}", images.len());
+    assert_eq!(done.links, [images]);
 }
