@@ -1,6 +1,6 @@
 //! The document model.
 
-use crate::{Frame, Gluing, Isometry, Promise, RegionMap, Search, Symmetry, Wishes};
+use crate::{Deviation, Frame, Gluing, Isometry, Promise, RegionMap, Search, Symmetry, Wishes};
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -182,6 +182,17 @@ impl Document {
         match instance.region_map {
             0 => region,
             i => self.region_maps[i as usize - 1].get(region),
+        }
+    }
+
+    /// How far surfaces may move, relative to the radius about the axis. A body within `equal`, relative as well, of its
+    /// symmetry has no facets that stand for another shape: it is exact, and none of them moves unless that is asked for.
+    pub fn deviation(&self, equal: f64) -> f64 {
+        match (self.wishes.deviation(), &self.symmetry) {
+            (Deviation::Within(relative), _) => relative,
+            (Deviation::Auto, None) => 0.0,
+            (Deviation::Auto, Some(found)) if found.residual <= equal => found.residual,
+            (Deviation::Auto, Some(found)) => found.residual.max(found.tolerance),
         }
     }
 

@@ -48,21 +48,12 @@ pub struct Wishes {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Deviation {
-    /// As far as the input is from the symmetry that was found in it.
+    /// What the tolerance of the symmetry is, or as far as the input is from it if that is more; nothing where the input
+    /// has the symmetry exactly. See [`crate::Document::deviation`].
     Auto,
     /// So far, relative to the radius about the axis; 0 keeps every triangle.
     #[serde(untagged)]
     Within(f64),
-}
-
-impl Deviation {
-    /// How far surfaces may move, model units: of a body that is `drift` off its symmetry at most, of this radius.
-    pub fn length(self, drift: f64, radius: f64) -> f64 {
-        match self {
-            Self::Auto => drift,
-            Self::Within(relative) => relative * radius,
-        }
-    }
 }
 
 /// A size of elements.

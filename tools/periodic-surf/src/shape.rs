@@ -1,13 +1,17 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
 use crate::remeshed::{Remeshing, Smoothed, remeshed};
-use crate::surface::same_body;
+use crate::surface::{same_body, same_size};
 use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use mesher::{Log, Params, Progress};
 use remesh::Sizes;
 use std::f64::consts::TAU;
-use tmesh::{Document, Wishes};
+use tmesh::{Deviation, Document, Wishes};
+
+/// What a deviation is multiplied by where it changes volumes by too much. A choice: what a deviation changes of them is at most
+/// proportional to it, so that a few steps of this size are enough, and none gives up much more than needed.
+const NARROWER: f64 = 0.25;
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
 /// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for.
@@ -15,18 +19,23 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
     let tolerance = tolerance(document);
     let mut facts = Vec::new();
     let radius = tolerance.extent().radius;
-    let deviation = document
-        .wishes
-        .deviation()
-        .length(tolerance.drift(), radius);
+    let deviation = radius * document.deviation(tolerance.equal() / radius);
     if !params.quality || deviation <= tolerance.equal() {
         return facts;
     }
-    let remeshing = Remeshing {
-        deviation,
-        flat: tolerance.flat(),
-        feature_angle: document.wishes.feature_angle(),
-        sizes: sizes(&document.wishes),
+    // Nobody asked for more than the tolerance: then volume and area stay what they are within what the body is off its
+    // symmetry, or it is remeshed within that.
+    let attempts = match document.wishes.deviation() {
+        Deviation::Auto if deviation > tolerance.drift() => {
+            let drift = tolerance.drift();
+            let wider = std::iter::successors(Some(deviation), |d| Some(d * NARROWER));
+            let wider = wider.take_while(|d| *d > drift);
+            wider
+                .map(|d| (d, Some(drift)))
+                .chain([(drift, None)])
+                .collect()
+        }
+        _ => vec![(deviation, None)],
     };
     for index in 0..document.templates.len() {
         log.progress(&Progress {
@@ -35,16 +44,32 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
             points: 0.0,
             tetrahedra: 0.0,
         });
-        let Some(smoothed) = remeshed(document, index, &remeshing) else {
-            continue;
-        };
-        let before = &document.templates[index];
-        if let Err(what) = same_body(before, &smoothed.template, (deviation, 0.0)) {
-            log.detail(&format!("template {index}: not remeshed, {what}"));
-            continue;
+        for &(deviation, drift) in &attempts {
+            let remeshing = Remeshing {
+                deviation,
+                flat: tolerance.flat(),
+                feature_angle: document.wishes.feature_angle(),
+                sizes: sizes(&document.wishes),
+            };
+            let Some(smoothed) = remeshed(document, index, &remeshing) else {
+                continue;
+            };
+            let before = &document.templates[index];
+            let kept = same_body(before, &smoothed.template, (deviation, 0.0)).and_then(|()| {
+                drift.map_or(Ok(()), |d| {
+                    same_size((before, index), &smoothed.template, d)
+                })
+            });
+            if let Err(what) = kept {
+                log.detail(&format!(
+                    "template {index}: not remeshed within {deviation:.1e}, {what}"
+                ));
+                continue;
+            }
+            facts.push(fact(index, &smoothed, before.triangles.len(), deviation));
+            take(document, index, smoothed);
+            break;
         }
-        facts.push(fact(index, &smoothed, before.triangles.len(), deviation));
-        take(document, index, smoothed);
     }
     if !facts.is_empty() {
         document.wishes.keep_surface = Some(true);

@@ -35,7 +35,8 @@ pub struct WishArgs {
     optimize: Option<f64>,
 
     /// How far the surface that is meshed may be from the input's, relative to the radius about the axis; 0 keeps every
-    /// triangle, `auto` allows what the input is off the symmetry that was found [default: inherited, or auto]
+    /// triangle, `auto` allows the tolerance of the symmetry, or what the input is off it if that is more, and keeps all where
+    /// the input has its symmetry exactly [default: inherited, or auto]
     #[arg(long, value_name = "REL|auto", allow_negative_numbers = true, value_parser = deviation)]
     deviation: Option<Deviation>,
 

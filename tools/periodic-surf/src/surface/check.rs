@@ -69,3 +69,34 @@ pub fn same_body(
     }
     Ok(())
 }
+/// Volumes and the area of the boundary unchanged but for what comes of a surface that is off by `drift`, model units.
+pub fn same_size(
+    (before, index): (&Template, usize),
+    after: &Template,
+    drift: f64,
+) -> Result<(), String> {
+    let [(old, _), (new, around)] = [before, after].map(|t| boundary(t, index));
+    let allowed = drift * around;
+    if (new - old).abs() > allowed {
+        return Err(format!(
+            "the boundary has the area {new:.12e}, it had {old:.12e}"
+        ));
+    }
+    same_body(before, after, (0.0, drift * old))
+}
+
+/// Area of the boundary, and half the perimeters of its triangles; without faces that are glued to others.
+fn boundary(template: &Template, index: usize) -> (f64, f64) {
+    let mut glued = vec![false; template.triangles.len()];
+    for gluing in &template.gluings {
+        let here = gluing.triangles_of(index);
+        here.for_each(|t| glued[t as usize] = true);
+    }
+    let all = template.triangles.iter().zip(glued);
+    let free = all.filter(|(t, glued)| !glued && (t.front == OUTSIDE) != (t.back == OUTSIDE));
+    free.fold((0.0, 0.0), |(area, half), (t, _)| {
+        let [a, b, c] = corners(&template.vertices, t);
+        let perimeter = a.distance(b) + b.distance(c) + c.distance(a);
+        (area + triangle_area(a, b, c), half + 0.5 * perimeter)
+    })
+}

@@ -25,6 +25,6 @@ mod orbits;
 mod pairing;
 mod pieces;
 
-pub use check::same_body;
+pub use check::{same_body, same_size};
 pub use impose::{Other, impose};
 pub use make::{Made, make};

@@ -126,11 +126,8 @@ fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
     };
     // What is remeshed costs nothing, however narrow it is drawn.
     let tolerance = &body.tolerance;
-    let wishes = &body.document.wishes;
-    let deviation = wishes
-        .deviation()
-        .length(tolerance.drift(), tolerance.extent().radius);
-    let is_kept = deviation <= tolerance.equal();
+    let equal = tolerance.equal() / tolerance.extent().radius;
+    let is_kept = body.document.deviation(equal) <= equal;
     let cost = |cut: &Cut| {
         let needles = |t: &Template| estimate::needles(t, body.element_size());
         let narrow = cut.templates.iter().map(needles).filter(|_| is_kept);
