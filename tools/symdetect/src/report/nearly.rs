@@ -110,11 +110,19 @@ impl Query<'_> {
 
     /// Whether most of some turns take a sample off the surface.
     fn is_lost(&self, sample: &Sample, turns: &[Operation], bound: Bound) -> bool {
-        let half = turns.len() / 2;
-        let lost = turns
-            .iter()
-            .filter(|turn| !self.shape.lands(turn, sample, bound));
-        lost.take(half + 1).count() > half
+        let most = turns.len() / 2;
+        let (mut lost, mut kept) = (0, 0);
+        for turn in turns {
+            match self.shape.lands(turn, sample, bound) {
+                true => kept += 1,
+                false => lost += 1,
+            }
+            // Looking at the others would not change it.
+            if lost > most || kept >= turns.len() - most {
+                break;
+            }
+        }
+        lost > most
     }
 
     /// What is in the way of an order, or of any rotation.
