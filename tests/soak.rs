@@ -32,6 +32,13 @@ fn random_assemblies_are_meshed_and_checked() {
 }
 
 #[test]
+fn random_bladed_bodies_are_meshed_and_checked() {
+    // With splitters, shrouds, sweep, camber and rake; those of few elements.
+    let seeds = [7, 14, 20, 29, 35, 36, 37, 46, 52, 54];
+    all_are_meshed(Kind::Bladed, false, seeds.into_iter());
+}
+
+#[test]
 fn surfaces_stay_within_the_deviation_asked_for() {
     all_are_meshed(Kind::Solids, true, 1..=16);
 }

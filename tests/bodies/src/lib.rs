@@ -2,13 +2,14 @@
 //!
 //! A [`Body`] is a list of vertices and of triangles with the material on either side. [`swept`] builds bodies
 //! from rings around an axis, so that neighbouring materials share their triangles, [`orbits`] bodies that their
-//! group turns over, [`random_solid`] bodies from random numbers, and [`assembly`] solids drawn one by one.
+//! group turns over, [`random_solid`] and [`bladed`] bodies from random numbers, and [`assembly`] solids drawn one by one.
 //!
 //! [`adversarial`] has the shapes that make programs slow, [`facets`] and [`files`] have what the readers of files
 //! are given. [`structured`], [`wedges`] and [`meshes`] make documents of wedges without any of the tools.
 
 pub mod adversarial;
 pub mod assembly;
+pub mod bladed;
 mod body;
 mod chance;
 pub mod facets;

@@ -1,6 +1,7 @@
 //! What goes through the pipe, and what is known of it.
 
 use bodies::assembly::{Assembly, Claim, assembly};
+use bodies::bladed::bladed;
 use bodies::random_solid::{Solid, solid};
 use bodies::{Body, Encoding};
 
@@ -11,6 +12,8 @@ pub enum Kind {
     Solids,
     /// Solids drawn one by one that touch, overlap or leave gaps.
     Assemblies,
+    /// Hubs with blades, twisted, swept and leant.
+    Bladed,
 }
 
 /// A body of a seed.
@@ -58,6 +61,14 @@ impl Subject {
         match kind {
             Kind::Solids => solid(seed).into(),
             Kind::Assemblies => assembly(seed).into(),
+            Kind::Bladed => {
+                let subject: Self = bladed(seed).into();
+                // Without twist they have mirrors, and some half turns.
+                Self {
+                    symmetry: Symmetry::AtLeast(subject.symmetry.order()),
+                    ..subject
+                }
+            }
         }
     }
 }

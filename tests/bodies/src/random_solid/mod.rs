@@ -283,7 +283,7 @@ fn turns(grid: &Grid, faces: &[grid::Face], places: &[DVec3], filling: &[Option<
 }
 
 /// Drops vertices without faces and materials without volume.
-fn tidy(body: &mut Body) {
+pub(crate) fn tidy(body: &mut Body) {
     let mut ids = vec![u32::MAX; body.vertices.len()];
     let mut vertices = Vec::new();
     for v in body.faces.iter_mut().flat_map(|f| &mut f.vertices) {
@@ -310,7 +310,7 @@ fn tidy(body: &mut Body) {
 }
 
 /// Disturbs, turns, shifts and scales the body. Returns the disturbance and the scale.
-fn place(body: &mut Body, features: &mut Vec<String>, dice: &mut Dice) -> (f64, f64) {
+pub(crate) fn place(body: &mut Body, features: &mut Vec<String>, dice: &mut Dice) -> (f64, f64) {
     let mut noise = 0.0;
     if dice.chance(0.15) {
         noise = dice
@@ -337,7 +337,7 @@ fn place(body: &mut Body, features: &mut Vec<String>, dice: &mut Dice) -> (f64, 
     (noise, scale)
 }
 
-fn encoding(body: &Body, noise: f64, dice: &mut Dice) -> Encoding {
+pub(crate) fn encoding(body: &Body, noise: f64, dice: &mut Dice) -> Encoding {
     let single = body.materials.len() == 1;
     match dice.below(10) {
         0..3 if single => Encoding::StlBinary,
