@@ -25,11 +25,11 @@ fn twisted_vase(twist: f64, lean: f64) -> Vec<u8> {
         let rhythm = (50 + 7 * (i % 4), 0.37 * f64::from(i));
         ring(rhythm, z, [twist, lean])
     });
-    written(&rings.collect::<Vec<_>>())
+    written(&rings.collect::<Vec<_>>(), 1.0)
 }
 
 /// A vase whose facets share its symmetry but for `noise`, with bands of needles around it.
-fn noisy_vase(noise: f64) -> Vec<u8> {
+fn noisy_vase(noise: f64, peak: f64) -> Vec<u8> {
     let heights = [
         -1.0, -0.7, -0.3, -0.003, -0.001, 0.001, 0.003, 0.3, 0.7, 1.0,
     ];
@@ -41,17 +41,17 @@ fn noisy_vase(noise: f64) -> Vec<u8> {
             *p += DVec3::new(p.x, p.y, 0.0).normalize() * off;
         }
     }
-    written(&rings)
+    written(&rings, peak)
 }
 
-/// The surface between rings and its two ends as STL.
-fn written(rings: &[Vec<DVec3>]) -> Vec<u8> {
+/// The surface between rings and its two ends as STL; their middles are so many times as far out as their rims.
+fn written(rings: &[Vec<DVec3>], peak: f64) -> Vec<u8> {
     let mut triangles = Vec::new();
     for pair in rings.windows(2) {
         zip(&pair[0], &pair[1], &mut triangles);
     }
     for (ring, up) in [(&rings[0], false), (&rings[rings.len() - 1], true)] {
-        let middle = DVec3::new(0.0, 0.0, ring[0].z);
+        let middle = DVec3::new(0.0, 0.0, peak * ring[0].z);
         for (i, &p) in ring.iter().enumerate() {
             let q = ring[(i + 1) % ring.len()];
             triangles.push(if up { [middle, p, q] } else { [middle, q, p] });
@@ -212,7 +212,7 @@ fn deviation_0_keeps_every_vertex() {
 /// it is off.
 #[test]
 fn what_is_nearly_exact_is_remeshed_within_the_tolerance() {
-    let found = run("symdetect", &["-q"], &noisy_vase(1e-4)).success();
+    let found = run("symdetect", &["-q"], &noisy_vase(1e-4, 1.0)).success();
     let cut = run("wedgecut", &["-q"], &found).success();
     let residual = read(&cut).symmetry.expect("a symmetry").residual;
     assert!((1e-5..2e-4).contains(&residual), "{residual}");
@@ -225,6 +225,19 @@ fn what_is_nearly_exact_is_remeshed_within_the_tolerance() {
     };
     let [near, auto] = [&format!("{residual:e}"), "auto"].map(within);
     assert!(auto.0 < near.0 && 2 * auto.1 < near.1, "{near:?} {auto:?}");
+}
+
+/// A body that is exact keeps its needles unless a deviation is asked for, and who is short of elements for that is told.
+#[test]
+fn a_deviation_is_advised_where_needles_are_kept() {
+    let found = run("symdetect", &["-q"], &noisy_vase(0.0, 1.2)).success();
+    let said = |options: &[&str]| {
+        let cut = run("wedgecut", options, &found).success();
+        run("tetwedge", &["--radius-edge", "1.05"], &cut).stderr
+    };
+    let [kept, remeshed] = [&["-q"][..], &["-q", "--deviation", "1e-3"]].map(said);
+    assert!(kept.contains("--deviation 0.001"), "{kept}");
+    assert!(!remeshed.contains("--deviation"), "{remeshed}");
 }
 
 /// A larger deviation that is asked for is one that the check knows of, and a wish that later tools inherit.

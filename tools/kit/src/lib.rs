@@ -12,6 +12,7 @@ mod output;
 mod run;
 mod session;
 mod threads;
+mod tolerance;
 mod unfinished;
 mod wishes;
 
@@ -24,4 +25,5 @@ pub use output::{Closed, Output};
 pub use run::{Command, main};
 pub use session::{Progress, Session, Status, duration};
 pub use threads::{ThreadArgs, available_threads, both, in_parallel};
+pub use tolerance::tolerance;
 pub use wishes::{StrictArgs, WishArgs, shortfalls};

@@ -2,8 +2,7 @@
 
 use crate::remeshed::{Remeshing, Smoothed, remeshed};
 use crate::surface::{same_body, same_size};
-use geom::tolerance::{Extent, Tolerance};
-use glam::DVec3;
+use kit::tolerance;
 use mesher::{Log, Params, Progress};
 use remesh::Sizes;
 use std::f64::consts::TAU;
@@ -86,16 +85,6 @@ fn sizes(wishes: &Wishes) -> Sizes {
         length: wishes.edge_length(),
         growth: wishes.gradation() - 1.0,
     }
-}
-
-/// What counts as equal in a document.
-fn tolerance(document: &Document) -> Tolerance {
-    let points = document.templates.iter().flat_map(|t| &t.vertices);
-    let points: Vec<DVec3> = points.copied().collect();
-    let extent = Extent::about(&points, DVec3::ZERO, DVec3::Z);
-    let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
-    let residual = document.symmetry.as_ref().map_or(0.0, |s| s.residual);
-    Tolerance::new(extent, precision, residual)
 }
 
 fn fact(index: usize, smoothed: &Smoothed, before: usize, deviation: f64) -> String {

@@ -4,13 +4,13 @@
 use super::bound::{Bound, Measure};
 use super::place::{Place, Places};
 use super::sharp::{Sharp, sharp_edges};
-use crate::{number, point};
+use crate::{number, point, tolerance};
 use geom::measure::corners;
 use geom::tet::TetMeasures;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use tmesh::{Document, Instance};
+use tmesh::{Document, Instance, OUTSIDE, Template};
 
 /// Something beyond a bound: an element, or an edge of the surface.
 struct Failing<'a> {
@@ -195,24 +195,62 @@ fn said<'a>(
 
 /// What would help elements that were made.
 fn remedy(document: &Document, bound: &Bound) -> String {
+    let shape = follow_shape(document, bound);
     match bound.measure {
         Measure::Volume => {
             "a smaller --edge-length or --max-volume gives smaller ones, but not at faces kept by --keep-surface".to_owned()
         }
-        Measure::RadiusEdge => "a smaller --edge-length gives them room".to_owned(),
+        Measure::RadiusEdge => format!("a smaller --edge-length gives them room{shape}"),
         Measure::Dihedral => {
             let all: Vec<Sharp> = sharp(document, bound.asked).flat_map(|s| s.1).collect();
             let least = all.iter().map(|s| s.angle).fold(f64::INFINITY, f64::min);
             match all.len() {
-                0 => "a smaller --edge-length gives them room".to_owned(),
+                0 => format!("a smaller --edge-length gives them room{shape}"),
                 count => format!(
                     "a smaller --edge-length gives them room, but not at {count} edge(s) where the surface itself has \
-                     such angles, down to {}",
+                     such angles, down to {}{shape}",
                     number(least)
                 ),
             }
         }
     }
+}
+
+/// That the surface may follow its shape, where it keeps triangles with corners sharper than elements should be.
+fn follow_shape(document: &Document, bound: &Bound) -> String {
+    let Some(symmetry) = &document.symmetry else {
+        return String::new();
+    };
+    let tolerance = tolerance(document);
+    let equal = tolerance.equal() / tolerance.extent().radius;
+    let asked = document.wishes.min_dihedral();
+    let is_sharp = |template: &Template| {
+        let surface = template.triangles.par_iter();
+        surface
+            .filter(|t| t.front == OUTSIDE || t.back == OUTSIDE)
+            .any(|t| sharpest(corners(&template.vertices, t)) < asked)
+    };
+    let is_kept = document.deviation(equal) <= equal;
+    match is_kept && bound.measure != Measure::Volume && document.templates.iter().any(is_sharp) {
+        true => format!(
+            "; --deviation {} from wedgecut on remeshes needles of curved surfaces",
+            number(symmetry.tolerance)
+        ),
+        false => String::new(),
+    }
+}
+
+/// The sharpest corner of a triangle, degrees.
+fn sharpest(points: [DVec3; 3]) -> f64 {
+    let corner = |i: usize| {
+        let [p, q, r] = [0, 1, 2].map(|k| points[(i + k) % 3]);
+        (q - p).angle_between(r - p)
+    };
+    [0, 1, 2]
+        .map(corner)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+        .to_degrees()
 }
 
 /// What would help before elements are made, by where the smallest angle is.
