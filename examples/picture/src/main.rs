@@ -26,9 +26,13 @@ const COLOURS: [[[f64; 3]; 2]; 4] = [
     [[128.0, 176.0, 112.0], [160.0, 200.0, 144.0]],
 ];
 
+/// Colour of both faces of a seam.
+const SEAM: [f64; 3] = [238.0, 176.0, 80.0];
+
 /// Draw the surface of documents side by side as an SVG image.
 ///
-/// Colours tell regions apart, shades of them copies of the wedge and their mirror images.
+/// Colours tell regions apart, shades of them copies of the wedge and their mirror images. Seams of a wedge have a colour of
+/// their own.
 #[derive(Parser)]
 struct Cli {
     /// Documents (tmesh); `wedge:PATH` draws one copy of each template, with its walls
@@ -71,6 +75,8 @@ fn facets(document: &Document, wedge: bool, view: DMat3) -> Vec<Facet> {
                 .flat_map(|g| g.triangles_of(0))
                 .collect(),
         };
+        let seams = template.gluings.iter().filter(|g| g.is_seam(0));
+        let seams: BTreeSet<u32> = seams.flat_map(|g| g.triangles_of(0)).collect();
         let placed = instance.isometry.placed();
         for (index, triangle) in template.triangles.iter().enumerate() {
             let inner = triangle.front != OUTSIDE && triangle.back != OUTSIDE;
@@ -87,7 +93,10 @@ fn facets(document: &Document, wedge: bool, view: DMat3) -> Vec<Facet> {
             let colours = COLOURS[place.unwrap_or(0) % COLOURS.len()];
             facets.push(Facet {
                 corners,
-                colour: colours[usize::from(instance.isometry.mirrored())],
+                colour: match seams.contains(&(index as u32)) {
+                    true => SEAM,
+                    false => colours[usize::from(instance.isometry.mirrored())],
+                },
             });
         }
     }
