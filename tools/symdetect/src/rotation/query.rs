@@ -4,7 +4,7 @@ use crate::params::Params;
 use crate::rotation::find::OrderSearch;
 use crate::rotation::limits::Limits;
 use crate::rotation::refine::{Canonical, Fit, refine};
-use crate::shape::Shape;
+use crate::shape::{Moments, Shape};
 use crate::tolerance::{ROUNDINGS, SINGLE};
 use crate::verify::Depth;
 use geom::tolerance::{Extent, Tolerance};
@@ -22,8 +22,6 @@ pub struct Query<'a> {
     pub limits: Limits,
     /// Sine of the angle up to which two directions are the same axis.
     pub parallel: f64,
-    /// The centre, given or that of mass, in the coordinates of the shape.
-    pub centre: DVec3,
     /// The group of the drawing, where that of the shape behind it is looked for.
     pub drawn: Option<Drawn>,
 }
@@ -50,9 +48,21 @@ impl<'a> Query<'a> {
             params,
             parallel: Tolerance::new(extent, shape.precision, params.tolerance).parallel(),
             limits: Limits::new(params.tolerance, params.facets),
-            centre: params.center.map_or(DVec3::ZERO, |c| shape.of_world(c)),
             drawn: None,
         }
+    }
+
+    /// The centre, given or that of mass, in the coordinates of the shape.
+    pub fn centre(&self) -> DVec3 {
+        match self.params.center {
+            Some(centre) => self.shape.of_world(centre),
+            None => self.moments().centre(),
+        }
+    }
+
+    /// Moments of the drawing, or of the shape behind it where that is looked for.
+    pub fn moments(&self) -> &Moments {
+        self.shape.moments(self.limits.facets)
     }
 
     /// Whether two unit vectors are, either way round, the direction of the same axis.
@@ -92,7 +102,7 @@ impl<'a> Query<'a> {
     /// Whether the line along `free` (or, with `free` zero, the point) through the frame's origin
     /// passes the centre that the user gave; an adjustment may move it by as much as it adjusts.
     pub fn passes_centre(&self, frame: &Frame, free: DVec3, radius: f64) -> bool {
-        let off = frame.origin - self.centre;
+        let off = frame.origin - self.centre();
         let off = (off - free * off.dot(free)).length();
         self.params.center.is_none() || off <= 0.5 * self.limits.loose * radius
     }

@@ -20,6 +20,9 @@ const FAR: f64 = 20.0;
 const LONGEST_STEP: f64 = 0.1;
 /// Triangles whose normals differ by more than this cosine are not taken for images of each other.
 const SAME_FACE: f64 = 0.7;
+/// Equations of faces to each corner that is taken beside them at least: a corner makes three, so that no more than
+/// about as many are of corners.
+const CORNERS: usize = 4;
 
 /// An operation by its matrix in the frame that is being adjusted.
 pub struct Canonical {
@@ -110,9 +113,7 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         .iter()
         .map(|o| Motion::new(frame, o.matrix))
         .collect();
-    let mut a = [[0.0; 6]; 6];
-    let mut b = [0.0; 6];
-    let (mut sum, mut count) = (0.0, 0.0);
+    let mut equations = Equations::default();
     let faces = &shape.samples.faces;
     let taken = fit.samples.min(faces.len() * operations.len());
     for i in 0..taken {
@@ -127,8 +128,7 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         };
         let Some(hit) = shape.near(y, sample.triangle, target, within) else {
             if !fit.bound.facets {
-                sum += reach * reach;
-                count += 1.0;
+                equations.leave_out(reach);
             }
             continue;
         };
@@ -139,8 +139,7 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         if hit.distance > 0.0 && off.dot(normal).abs() < SAME_FACE * hit.distance {
             // Slid off the edge of a face: says nothing about the distance between faces.
             if !fit.bound.facets {
-                sum += hit.distance * hit.distance;
-                count += 1.0;
+                equations.leave_out(hit.distance);
             }
             continue;
         }
@@ -154,41 +153,82 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
             e = apart.shapes * normal.dot(shape.normals[hit.triangle as usize]).signum();
             weight /= 1.0 + ((apart.slack + apart.doubt) / fit.bound.limit).powi(2);
         }
+        equations.add(motion, sample.point, (normal, e), weight);
+    }
+    if fit.bound.facets {
+        // Where faces are drawn so coarsely that they tell little, corners are as they were drawn.
+        let corners = shape.smooth().corners();
+        let (points, count) = (corners.points(), corners.points().len());
+        for i in 0..(fit.samples / CORNERS).min(count * operations.len()) {
+            let (point, motion) = (points[i % count], &motions[(i + i / count) % motions.len()]);
+            let y = motion.apply(point);
+            if let Some(corner) = corners.nearest(y, reach) {
+                for normal in DVec3::AXES {
+                    equations.add(motion, point, (normal, normal.dot(y - corner)), 1.0);
+                }
+            }
+        }
+    }
+    equations.step(frame)
+}
+
+/// Equations of least squares for a small turn about the centre of the motions and a shift.
+#[derive(Default)]
+struct Equations {
+    a: [[f64; 6]; 6],
+    b: [f64; 6],
+    sum: f64,
+    count: f64,
+}
+
+impl Equations {
+    /// The image of a point, by a motion that is fixed in the frame, is off along a unit vector by `e`.
+    fn add(&mut self, motion: &Motion, point: DVec3, (normal, e): (DVec3, f64), weight: f64) {
         let back = motion.linear.transpose() * normal;
-        let (x, z) = (sample.point - motion.centre, y - motion.centre);
+        let (x, z) = (point - motion.centre, motion.apply(point) - motion.centre);
         let turn = z.cross(normal) - x.cross(back);
         let shift = normal - back;
         let row = [turn.x, turn.y, turn.z, shift.x, shift.y, shift.z];
         for (p, u) in row.iter().enumerate() {
             for (q, v) in row.iter().enumerate() {
-                a[p][q] += weight * u * v;
+                self.a[p][q] += weight * u * v;
             }
-            b[p] -= weight * u * e;
+            self.b[p] -= weight * u * e;
         }
-        sum += weight * e * e;
-        count += weight;
+        self.sum += weight * e * e;
+        self.count += weight;
     }
-    if count < 6.0 {
-        return None;
+
+    /// An image that is off by so much says nothing of where the frame is.
+    fn leave_out(&mut self, distance: f64) {
+        self.sum += distance * distance;
+        self.count += 1.0;
     }
-    let solution = eigen::symmetric(a);
-    let mut x = [0.0; 6];
-    for (value, vector) in solution.values.iter().zip(&solution.vectors) {
-        // Motions that the operations do not see, such as a slide along the axis, are left out.
-        if *value > VANISHING * solution.values[5] {
-            let along: f64 = vector.iter().zip(&b).map(|(v, b)| v * b).sum::<f64>() / value;
-            for (x, v) in x.iter_mut().zip(vector) {
-                *x += along * v;
+
+    /// The frame that solves them, and what is left before it moves.
+    fn step(self, frame: &Frame) -> Option<Step> {
+        if self.count < 6.0 {
+            return None;
+        }
+        let solution = eigen::symmetric(self.a);
+        let mut x = [0.0; 6];
+        for (value, vector) in solution.values.iter().zip(&solution.vectors) {
+            // Motions that the operations do not see, such as a slide along the axis, are left out.
+            if *value > VANISHING * solution.values[5] {
+                let along: f64 = vector.iter().zip(&self.b).map(|(v, b)| v * b).sum();
+                for (x, v) in x.iter_mut().zip(vector) {
+                    *x += along / value * v;
+                }
             }
         }
+        let turn = DVec3::new(x[0], x[1], x[2]);
+        let shift = DVec3::new(x[3], x[4], x[5]);
+        let scale = (LONGEST_STEP / turn.length().max(shift.length())).min(1.0);
+        Some(Step {
+            frame: moved(frame, turn * scale, shift * scale),
+            mean_square: self.sum / self.count,
+        })
     }
-    let turn = DVec3::new(x[0], x[1], x[2]);
-    let shift = DVec3::new(x[3], x[4], x[5]);
-    let scale = (LONGEST_STEP / turn.length().max(shift.length())).min(1.0);
-    Some(Step {
-        frame: moved(frame, turn * scale, shift * scale),
-        mean_square: sum / count,
-    })
 }
 
 /// The frame turned by a small rotation vector about its origin and shifted.

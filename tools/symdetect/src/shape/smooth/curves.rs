@@ -14,6 +14,8 @@ struct Chord {
     /// The vertices that it ends at.
     ends: [u32; 2],
     length: f64,
+    /// Whether all its edges are sharper than any that a smooth surface is drawn with.
+    is_certain: bool,
 }
 
 /// Sharp edges with the vertices that they join.
@@ -75,6 +77,7 @@ impl SharpEdges<'_> {
                 edges: Vec::new(),
                 ends: [from; 2],
                 length: 0.0,
+                is_certain: true,
             };
             let mut next = Some(edge);
             while let Some(edge) = next.filter(|e| !seen[*e as usize]) {
@@ -85,6 +88,7 @@ impl SharpEdges<'_> {
                 let start = chord.length;
                 chord.length += (q - p).length();
                 chord.edges.push((edge, [start, chord.length], forward));
+                chord.is_certain &= !self.facets.may_be_smooth(edge as usize);
                 chord.ends[1] = end;
                 next = self.straight_on(edge, end);
             }
@@ -111,9 +115,13 @@ impl SharpEdges<'_> {
         is_straight(away(e), away(f)).then_some(if e == edge { f } else { e })
     }
 
-    /// Curvature vector of the polyline at a vertex where two chords meet, zero where it has a corner.
+    /// Curvature vector of the polyline at a vertex where two chords meet, zero where it has a corner. Of more than two,
+    /// those that are sharp for certain are the border of a face, and the others are inside of it or end there.
     fn curvature(&self, chords: &[Chord], there: &[u32], vertex: u32) -> DVec3 {
-        let &[e, f] = there else {
+        let certain: Vec<u32> = (there.iter().copied())
+            .filter(|c| chords[*c as usize].is_certain)
+            .collect();
+        let ((&[e, f], _) | (_, &[e, f])) = (there, &certain[..]) else {
             return DVec3::ZERO;
         };
         let here = self.facets.vertices[vertex as usize];

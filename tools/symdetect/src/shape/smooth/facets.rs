@@ -96,6 +96,14 @@ impl<'a> Facets<'a> {
         }
     }
 
+    /// Whether facets meet at an edge at no more than the angle at which those of one surface ever do.
+    pub fn may_be_smooth(&self, edge: usize) -> bool {
+        match self.edges.around(edge) {
+            [u, v] => u.forward != v.forward && self.normal(u).dot(self.normal(v)) >= BENT,
+            _ => false,
+        }
+    }
+
     /// All smooth edges between different flats.
     pub fn folds(&self) -> Vec<Fold> {
         let smooth = (0..self.edges.len()).filter(|e| self.is_smooth(*e));

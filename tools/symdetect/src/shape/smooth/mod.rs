@@ -12,8 +12,10 @@
 //! Flat faces, sharp edges between them and straight edges so hide nothing; arcs hide their sagitta. A place may be
 //! anywhere between the facet and the patch, since facets of flat and of curved faces look alike where they meet, and
 //! between the two ways of dividing a quadrilateral into triangles. How well the patch is known is told by the patches
-//! next to it; near the corners of a facet, which are on the shape, it is known the better the nearer they are.
+//! next to it; near the corners of a facet, which are on the shape, it is known the better the nearer they are. Where sharp
+//! edges meet, the shape itself has a corner, which any drawing of it has.
 
+mod corners;
 mod curvature;
 mod curves;
 mod facets;

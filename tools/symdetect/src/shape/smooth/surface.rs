@@ -1,5 +1,6 @@
 //! The shape behind a whole surface.
 
+use crate::shape::smooth::corners::Corners;
 use crate::shape::smooth::facets::Facets;
 use crate::shape::smooth::heights::{Border, Heights, barycentric};
 use crate::shape::smooth::reading::Reading;
@@ -13,6 +14,7 @@ pub struct SmoothSurface {
     /// The triangles at each vertex.
     around: Table,
     sharp: SharpEdges,
+    corners: Corners,
     largest: f64,
 }
 
@@ -62,6 +64,7 @@ impl SmoothSurface {
         Self {
             largest: heights.iter().map(Heights::most).fold(0.0, f64::max),
             sharp: SharpEdges::new(&facets, reading.sharp_edges()),
+            corners: Corners::new(&facets),
             heights,
             around,
         }
@@ -80,6 +83,16 @@ impl SmoothSurface {
     /// The edges that are sharp in all readings.
     pub fn sharp_edges(&self) -> &SharpEdges {
         &self.sharp
+    }
+
+    /// The mean height of the shape above a triangle.
+    pub fn mean(&self, triangle: u32) -> f64 {
+        self.heights[triangle as usize].mean()
+    }
+
+    /// Where sharp edges meet.
+    pub fn corners(&self) -> &Corners {
+        &self.corners
     }
 
     /// The shape above a point of a triangle with these corners.
