@@ -4,7 +4,7 @@ use crate::bodies::{self, Kind};
 use crate::shape::Random;
 use crate::{Error, Params, detect};
 use glam::DVec3;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use tmesh::{Axis, Document, Isometry, OtherAxis, Template};
 
 /// What was found, spelled out.
@@ -442,6 +442,47 @@ fn facets_and_flaws() {
                 }
             }
         }
+    }
+}
+
+/// Its facets are so large that they shift the centre of mass by more than the tolerance, hide more of the faces than tells
+/// where the axes are, and make edges inside of its faces that look sharp. What tells are the corners and the borders.
+#[test]
+fn a_bar_that_is_drawn_as_coarsely_as_it_twists() {
+    // Steps as a kernel takes them, from one end.
+    let levels = [0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.875, 1.0];
+    let section = [
+        (6.0, 10.0),
+        (-6.0, 10.0),
+        (-6.0, 0.0),
+        (-6.0, -10.0),
+        (6.0, -10.0),
+        (6.0, 0.0),
+    ];
+    let vertex = |(level, (x, y)): (f64, (f64, f64))| {
+        let (s, c) = (PI * level).sin_cos();
+        DVec3::new(c * x - s * y, s * x + c * y, 60.0 * level)
+    };
+    let vertices = levels
+        .iter()
+        .flat_map(|l| section.map(|p| vertex((*l, p))))
+        .collect();
+    let n = section.len() as u32;
+    let mut triangles = Vec::new();
+    for k in 0..levels.len() as u32 - 1 {
+        for i in 0..n {
+            let [a, b] = [i, (i + 1) % n].map(|i| k * n + i);
+            triangles.extend([[a, b, a + n], [b, b + n, a + n]]);
+        }
+    }
+    let top = (levels.len() as u32 - 1) * n;
+    for i in 1..n - 1 {
+        triangles.extend([[0, i + 1, i], [top, top + i, top + i + 1]]);
+    }
+    let body = bodies::document(vertices, triangles);
+    for seed in 0..4 {
+        let placed = bodies::place(&body, &mut Random(seed), 1.0, 0.0);
+        assert_eq!(find(&placed).group, "D2");
     }
 }
 

@@ -35,33 +35,80 @@ impl Turned<'_> {
         {
             return Some(exact);
         }
+        if self.query.limits.facets
+            && let Some(exact) = (self.in_corners().into_iter()).find_map(|f| self.near(f))
+        {
+            return Some(exact);
+        }
         let (shape, rotation) = (self.query.shape, self.rotation);
-        let bound = self.query.limits.bound(rotation.radius);
         let mut best: Option<Beside> = None;
         for angle in self.candidates() {
-            let Some(frame) = self.turned_to(angle).map(|f| self.adjusted(f)) else {
+            let Some(found) = self.turned_to(angle).and_then(|f| self.near(f)) else {
                 continue;
             };
-            let motion = Motion::new(&frame, self.operation.matrix());
-            let Ok((deviation, permutation)) = shape.verify_one(motion, bound, Depth::Quick) else {
-                continue;
-            };
-            let better = best
-                .as_ref()
-                .is_none_or(|b| deviation.value < 0.5 * b.deviation.value);
-            if better {
-                best = Some(Beside {
-                    frame,
-                    deviation,
-                    permutation,
-                });
+            let deviation = found.deviation.value;
+            let best_yet = best.as_ref().map_or(f64::INFINITY, |b| b.deviation.value);
+            if deviation < 0.5 * best_yet {
+                best = Some(found);
             }
             // No other angle can be better than the rotations themselves.
-            if deviation.value <= shape.rounding().max(rotation.deviation.value) {
+            if deviation <= shape.rounding().max(rotation.deviation.value) {
                 break;
             }
         }
         best
+    }
+
+    /// The operation in a frame that has been adjusted to it, if it holds there.
+    fn near(&self, frame: Frame) -> Option<Beside> {
+        let frame = self.adjusted(frame);
+        let motion = Motion::new(&frame, self.operation.matrix());
+        let bound = self.query.limits.bound(self.rotation.radius);
+        let verified = (self.query.shape).verify_one(motion, bound, Depth::Quick);
+        let (deviation, permutation) = verified.ok()?;
+        Some(Beside {
+            frame,
+            deviation,
+            permutation,
+        })
+    }
+
+    /// Frames in which the corner of the shape that is farthest from the axis goes to one: faces that are drawn coarsely are
+    /// nearest to their images at some other angle, and have another centre of mass.
+    fn in_corners(&self) -> Vec<Frame> {
+        let (shape, rotation) = (self.query.shape, self.rotation);
+        let near = self.query.limits.loosely(rotation.radius).limit;
+        let places = shape.smooth().corners().points().iter().map(|p| {
+            let p = rotation.frame.to_canonical(*p);
+            (libm::hypot(p.x, p.y), libm::atan2(p.y, p.x), p.z)
+        });
+        let farthest = (places.clone()).reduce(|a, b| if b.0 > a.0 { b } else { a });
+        let Some((radius, angle, height)) = farthest else {
+            return Vec::new();
+        };
+        // What turns the axis over exchanges the lowest and the highest of them.
+        let heights = places.clone().map(|p| p.2);
+        let range = heights.fold([height; 2], |r, z| [r[0].min(z), r[1].max(z)]);
+        let shift = match self.operation.flipped() && !self.fixed {
+            true => 0.5 * (range[0] + range[1]),
+            false => 0.0,
+        };
+        let image = self.operation.apply(DVec3::Z * (height - shift)).z + shift;
+        let period = PI / f64::from(rotation.order);
+        let mut angles: Vec<f64> = places
+            .filter(|(r, _, z)| radius - r <= near && (z - image).abs() <= near)
+            .map(|(_, a, _)| (0.5 * (a + angle)).rem_euclid(period))
+            .collect();
+        angles.sort_unstable_by(f64::total_cmp);
+        angles.dedup_by(|a, b| *a - *b < near / rotation.radius);
+        angles.truncate(NEXT_BEST);
+        let shift = rotation.frame.rotation.z_axis * shift;
+        let shifted = |frame: Frame| Frame {
+            origin: frame.origin + shift,
+            ..frame
+        };
+        let frames = angles.into_iter().filter_map(|a| self.turned_to(a));
+        frames.map(shifted).collect()
     }
 
     /// The rotation's frame turned about its axis.

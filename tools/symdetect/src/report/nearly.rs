@@ -30,7 +30,6 @@ impl Query<'_> {
     /// teeth, only the gap is.
     pub fn nearly(&self, directions: &[DVec3], found: Option<&Found>) -> Option<Nearly> {
         let known = found.filter(|f| f.group.order > 2);
-        let multiples = known.map_or(1, |f| f.group.order);
         let is_exact = known.is_some_and(|f| f.verified.deviation.value <= self.noise(f.radius));
         let is_round = found.is_some_and(|f| f.axisymmetric);
         if is_exact || is_round || self.params.order.is_some() {
@@ -44,9 +43,34 @@ impl Query<'_> {
                 .collect(),
         };
         let centred = frames.iter().filter_map(|f| self.centred(f));
-        let about =
-            (frames.iter().copied().chain(centred)).map(|f| self.nearly_about(&f, multiples));
-        Nearly::best(about.flatten().collect())
+        let about = (frames.iter().copied().chain(centred)).map(|frame| {
+            let multiples = self.order_about(frame.rotation.z_axis, found);
+            self.nearly_about(&frame, multiples)
+        });
+        // An axis that is known may have been started from too far away to be told before.
+        let is_news = |n: &Nearly| {
+            let axis = DVec3::from_array(n.axis.direction);
+            n.order.is_none_or(|o| o > self.order_about(axis, found))
+        };
+        Nearly::best(about.flatten().filter(is_news).collect())
+    }
+
+    /// The order of what was found about a direction, which need only be near the axis.
+    fn order_about(&self, direction: DVec3, found: Option<&Found>) -> u32 {
+        let Some(found) = found else {
+            return 1;
+        };
+        let d = found.frame.rotation.transpose() * direction;
+        let (group, near) = (found.group, self.same_candidate());
+        let is_half_turn = |g: Isometry| g.flipped() && !g.reverses_orientation();
+        let holds = |g: Isometry| (g.apply(d) - d).length() <= 2.0 * near;
+        if d.cross(DVec3::Z).length() <= near {
+            group.order
+        } else if (group.elements()).any(|g| is_half_turn(g) && holds(g)) {
+            2
+        } else {
+            1
+        }
     }
 
     /// A frame moved to where any turn takes most of the surface to itself, its rims and bores, if that is farther off than

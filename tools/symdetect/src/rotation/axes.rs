@@ -69,7 +69,7 @@ impl Query<'_> {
     }
 
     /// Sine of the angle up to which two directions are one candidate: it is adjusted, from as far off.
-    fn same_candidate(&self) -> f64 {
+    pub fn same_candidate(&self) -> f64 {
         self.parallel.max(self.limits.loose)
     }
 
