@@ -11,7 +11,8 @@
 /// that all others follow from: with four times as many, all that is sampled takes four times as long; with a quarter,
 /// already a scan would overlook flaws of less than a third of the surface.
 pub const GLANCE: usize = 16;
-/// Tests of one of hundreds of orders or angles in a scan, and corners by which the width of a flat is measured: flaws
+/// Tests of one of hundreds of orders or angles in a scan, corners by which the width of a flat is measured, and places on
+/// each kind of interface that vote for what it goes to: flaws
 /// of 8 % of the surface.
 pub const SCAN: usize = 4 * GLANCE;
 /// Tests for a residual that is only reported: of an order that does not hold, or of one in a plot; and starts of a
@@ -24,7 +25,7 @@ pub const QUICK: usize = 4 * REPORTED;
 /// below the tolerance.
 pub const FIT: usize = 4 * QUICK;
 /// Places that means over some hundred neighbourhoods are taken from, a hundred for each; that deviations are looked
-/// for at all around the axis; that regions vote at; and that a body is compared with a body of revolution at.
+/// for at all around the axis; and that a body is compared with a body of revolution at.
 pub const SURVEY: usize = 4 * FIT;
 /// Vertices, and places on faces, that a surface is represented by at most, and tests of all but the first operation of
 /// a full verification: flaws of less than 0.01 % of the surface, and half a second's work.

@@ -107,7 +107,15 @@ fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, 
                 axis: f.frame.rotation.z_axis,
                 group: f.group,
             });
-        let behind = search(&query, log);
+        let mut behind = search(&query, log);
+        // A mirror plane of the drawing comes before none and before a single operation behind it, but before no more.
+        let is_more = |f: &Found| f.group.size() > 2 && query.is_meant(f);
+        if outcome.found.is_none() && !behind.found.as_ref().is_some_and(is_more) {
+            query.limits.facets = false;
+            outcome.look_for_mirror(&query);
+            query.limits.facets = true;
+        }
+        behind.look_for_mirror(&query);
         let is_behind =
             (behind.found.as_ref()).map(|found| query.is_behind(found, outcome.found.as_ref()));
         match is_behind {
@@ -122,6 +130,8 @@ fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, 
                 }
             }
         }
+    } else {
+        outcome.look_for_mirror(&query);
     }
     let facets = std::mem::replace(&mut query.limits.facets, hidden);
     let nearly = query.nearly(&outcome.directions, outcome.found.as_ref());
@@ -152,22 +162,24 @@ struct Outcome {
     found: Option<Found>,
 }
 
-/// The rotation of the highest order with all that holds beside it; without one, a mirror plane.
+impl Outcome {
+    /// A mirror plane, if there is no rotation and none is asked for.
+    fn look_for_mirror(&mut self, query: &Query<'_>) {
+        if self.found.is_none() && !query.params.order.is_some_and(|n| n > 1) {
+            self.found = query.mirror_only(&self.directions);
+        }
+    }
+}
+
+/// The rotation of the highest order with all that holds beside it.
 fn search(query: &Query<'_>, log: &mut dyn FnMut(&str)) -> Outcome {
-    let asked = query.params.order;
-    let (directions, rotations) = match asked {
+    let (directions, rotations) = match query.params.order {
         Some(1) => (query.directions(log), Vec::new()),
         _ => query.rotations(log),
     };
-    let found = query.certified(rotations.clone(), log);
-    let mirror = || query.mirror_only(&directions);
-    let found = match asked {
-        Some(n) if n > 1 => found,
-        _ => found.or_else(mirror),
-    };
     Outcome {
+        found: query.certified(rotations.clone(), log),
         directions,
         rotations,
-        found,
     }
 }

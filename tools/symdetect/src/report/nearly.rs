@@ -1,6 +1,6 @@
 //! A rotation that nearly holds: what breaks it, and where.
 
-use crate::budget::{FIT, NEXT_BEST, QUICK};
+use crate::budget::{FIT, NEXT_BEST, QUICK, REPORTED};
 use crate::group::Found;
 use crate::nearly::Nearly;
 use crate::rotation::{Fit, LOOSE_RANGE, OUTLIERS, Query, TELLING_TURNS, golden, powers, settle};
@@ -107,7 +107,7 @@ impl Query<'_> {
         // Of a body that has an order, it is no news that its other parts are round.
         let any = (multiples == 1).then_some(None);
         let orders = orders.into_iter().map(Some).chain(any);
-        let telling = self.telling(start, bound, QUICK);
+        let telling = self.telling(start, bound, REPORTED);
         let rough = orders.filter_map(|order| self.in_the_way(start, order, bound, &telling));
         let order = Nearly::best(rough.collect())?.order;
         let operations = match order {

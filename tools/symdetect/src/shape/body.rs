@@ -166,15 +166,19 @@ impl Shape {
         part.answer(match normal {
             None => part.tree.nearest(image, within),
             Some(normal) => (part.tree).nearest_of(image, within, |t| {
-                let t = part.triangle(t) as usize;
-                let cosine = self.normals[t].dot(normal);
-                // Where there is material on one side only, that is where it is in the image.
-                match self.interfaces.sign(t) * self.interfaces.sign(triangle as usize) {
-                    0.0 => cosine.abs() >= SMOOTH_COSINE,
-                    sign => sign * cosine >= SMOOTH_COSINE,
-                }
+                self.faces_like(part.triangle(t), (normal, triangle))
             }),
         })
+    }
+
+    /// Whether a triangle faces where the image of another one does, whose normal then is given: where there is material on
+    /// one side only, that is where it is in the image.
+    pub fn faces_like(&self, t: u32, (normal, triangle): (DVec3, u32)) -> bool {
+        let cosine = self.normals[t as usize].dot(normal);
+        match self.interfaces.sign(t as usize) * self.interfaces.sign(triangle as usize) {
+            0.0 => cosine.abs() >= SMOOTH_COSINE,
+            sign => sign * cosine >= SMOOTH_COSINE,
+        }
     }
 
     fn behind(&self) -> &Behind {

@@ -91,7 +91,7 @@ fn sample_faces(
         }
     };
     let total: f64 = (0..count).map(area).sum();
-    let wanted = (2 * count).clamp(FIT, FULL);
+    let wanted = count.clamp(FIT, FULL);
     let mut taken = vec![0_usize; classes];
     let mut samples = Vec::with_capacity(wanted + GLANCE * classes);
     // Systematic sampling: equal steps along the cumulated area.

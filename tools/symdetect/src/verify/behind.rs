@@ -1,6 +1,6 @@
 //! Whether deviations are explained by facets: comparison of the shapes behind them.
 
-use crate::shape::{Border, Motion, Sample, Shape, Target};
+use crate::shape::{Motion, Sample, Shape, Target};
 use crate::verify::deviation::Bound;
 use crate::verify::operation::Operation;
 use geom::tree::Nearest;
@@ -68,9 +68,11 @@ impl Shape {
         let image = motion.apply(sample.point);
         let normal = motion.linear * self.normals[sample.triangle as usize];
         let (triangle, target) = (sample.triangle, &operation.target);
-        let alike = self.nearest_behind((image, Some(normal)), triangle, target, limit);
-        if alike.is_some_and(|hit| explained(&hit)) {
-            return true;
+        if !self.faces_like(hit.triangle, (normal, triangle)) {
+            let alike = self.nearest_behind((image, Some(normal)), triangle, target, limit);
+            if alike.is_some_and(|hit| explained(&hit)) {
+                return true;
+            }
         }
         hit.distance <= limit + self.edges_explain((sample.triangle, sample.point), hit)
     }
@@ -81,18 +83,7 @@ impl Shape {
         let surface = (&self.vertices[..], &self.triangles[..]);
         let near = |place| self.smooth().edges_near(surface, place, hit.distance);
         let [here, there] = [near(place), near((hit.triangle, hit.point))];
-        let curvatures = here
-            .iter()
-            .chain(&there)
-            .map(|(b, _)| f64::from(b.curvature));
-        let curvature = curvatures.fold(0.0, f64::max);
-        let most = |edges: &[(Border, f64)]| {
-            let off = edges
-                .iter()
-                .map(|(border, part)| border.off(*part, curvature));
-            off.fold(0.0, f64::max)
-        };
-        most(&here) + most(&there)
+        here.curvature.max(there.curvature) * (here.bow + there.bow)
     }
 
     /// How far apart facets, and the shapes behind them, are where the image of a sample is near a point of the

@@ -1,6 +1,6 @@
 //! What operations do to regions.
 
-use crate::budget::SURVEY;
+use crate::budget::SCAN;
 use crate::shape::{Motion, NO_CLASS, Permutation, Shape, Target};
 use crate::verify::deviation::{Bound, Deviation};
 use rustc_hash::FxHashMap;
@@ -11,7 +11,13 @@ impl Shape {
     pub fn vote(&self, motion: &Motion, bound: Bound) -> Option<Permutation> {
         let n = self.region_count();
         let mut votes: FxHashMap<[u32; 2], u32> = FxHashMap::default();
-        for sample in self.samples.faces.iter().take(SURVEY.max(40 * n)) {
+        let mut asked = vec![0; self.interfaces.classes.len()];
+        for sample in &self.samples.faces {
+            let asked = &mut asked[self.interfaces.class[sample.triangle as usize] as usize];
+            if *asked == SCAN {
+                continue;
+            }
+            *asked += 1;
             let image = motion.apply(sample.point);
             let Some(hit) = self.near(image, sample.triangle, &Target::Any, bound) else {
                 continue;

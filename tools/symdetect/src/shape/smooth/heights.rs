@@ -40,15 +40,15 @@ impl Border {
         0.125 * self.length * self.length * self.curvature
     }
 
-    /// How far a curve of some curvature may be from the chord at a part of this piece of it. A circle rises above it
+    /// How far a curve of curvature one may be from the chord at a part of this piece of it. A circle rises above it
     /// by `k s (L - s) / 2`; any curve that bends one way stays below the extensions of the chords next to it, which
     /// rise twice as steeply from the corners, where all of them are on the curve.
-    pub fn off(&self, part: f64, curvature: f64) -> f64 {
+    pub fn bow(&self, part: f64) -> f64 {
         let [from, to] = self.along.map(f64::from);
         let length = f64::from(self.length);
         let at = from + part * (to - from);
         let most = 0.125 * length * length;
-        curvature * (at * (length - at)).clamp(0.0, most)
+        (at * (length - at)).clamp(0.0, most)
     }
 }
 

@@ -25,5 +25,4 @@ mod sharp;
 mod slack;
 mod surface;
 
-pub use heights::Border;
 pub use surface::SmoothSurface;

@@ -13,11 +13,14 @@ pub fn slack(
     (folds, curvature, least): (&[Fold], &[DMat3], f64),
     heights: &mut [Heights],
 ) {
+    let angles: Vec<[f64; 3]> = (0..facets.triangles.len())
+        .map(|t| angles(facets.corners(t)))
+        .collect();
     let mut slack = vec![0.0_f64; facets.flats.count()];
     for (t, &flat) in facets.flats.of.iter().enumerate() {
         let mut known = f64::from(heights[t].slack);
         if facets.single[flat as usize] {
-            known = known.max(from_normals((facets, around, least), t, &heights[t]));
+            known = known.max(from_normals((facets, around, &angles, least), t, &heights[t]));
         }
         let s = &mut slack[flat as usize];
         *s = s.max(known);
@@ -36,14 +39,18 @@ pub fn slack(
 /// The difference between the heights above the sides of a triangle and those that the normals at its corners tell,
 /// which are means of those of the facets around.
 fn from_normals(
-    (facets, around, least): (&Facets<'_>, &Table, f64),
+    (facets, around, angles, least): (&Facets<'_>, &Table, &[[f64; 3]], f64),
     t: usize,
     heights: &Heights,
 ) -> f64 {
     let corners = facets.triangles[t];
     let normal = |v: u32| {
         let smooth = |s: &&u32| facets.normals[**s as usize].dot(facets.normals[t]) >= least;
-        let weighted = |s: &u32| facets.normals[*s as usize] * angle(facets, *s as usize, v);
+        let weighted = |s: &u32| {
+            let s = *s as usize;
+            let at = facets.triangles[s].iter().position(|w| *w == v);
+            facets.normals[s] * angles[s][at.unwrap_or(0)]
+        };
         let sum: DVec3 = around.of(v).iter().filter(smooth).map(weighted).sum();
         sum.normalize_or_zero()
     };
@@ -60,13 +67,13 @@ fn from_normals(
     [0, 1, 2].map(off).into_iter().fold(0.0, f64::max)
 }
 
-/// The angle of a triangle at one of its vertices.
-fn angle(facets: &Facets<'_>, triangle: usize, vertex: u32) -> f64 {
-    let corners = facets.corners(triangle);
-    let at = facets.triangles[triangle].iter().position(|v| *v == vertex);
-    let [a, b, c] = [0, 1, 2].map(|i| corners[(at.unwrap_or(0) + i) % 3]);
-    let (p, q) = (b - a, c - a);
-    libm::atan2(p.cross(q).length(), p.dot(q))
+/// The angles of a triangle at its corners.
+fn angles(corners: [DVec3; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| {
+        let [a, b, c] = [0, 1, 2].map(|k| corners[(i + k) % 3]);
+        let (p, q) = (b - a, c - a);
+        libm::atan2(p.cross(q).length(), p.dot(q))
+    })
 }
 
 /// What the difference in curvature of the facets at a fold makes of the height over the middle of either, `H w^2 / 8`

@@ -2,7 +2,7 @@
 
 use crate::shape::smooth::corners::Corners;
 use crate::shape::smooth::facets::Facets;
-use crate::shape::smooth::heights::{Border, Heights, barycentric};
+use crate::shape::smooth::heights::{Heights, barycentric};
 use crate::shape::smooth::reading::Reading;
 use crate::shape::smooth::sharp::SharpEdges;
 use crate::shape::table::Table;
@@ -11,11 +11,20 @@ use glam::DVec3;
 /// The smooth shape behind the facets of a surface.
 pub struct SmoothSurface {
     heights: Vec<Heights>,
-    /// The triangles at each vertex.
-    around: Table,
+    /// The triangles at each vertex that have sharp edges.
+    bordered: Table,
     sharp: SharpEdges,
     corners: Corners,
     largest: f64,
+}
+
+/// Sharp edges near a place, chords of curves.
+#[derive(Clone, Copy, Default)]
+pub struct EdgesNear {
+    /// The most that a curve of curvature one may be from one of them there.
+    pub bow: f64,
+    /// The largest curvature of the curves.
+    pub curvature: f64,
 }
 
 /// What is known of the height of the shape above a point of a facet.
@@ -52,7 +61,7 @@ impl SmoothSurface {
         let facets = Facets::new(vertices, triangles, normals);
         let corners = triangles.iter().enumerate();
         let pairs = corners.flat_map(|(t, corners)| corners.iter().map(move |&v| (v, t as u32)));
-        let around = Table::new(vertices.len(), pairs);
+        let around = Table::new(vertices.len(), pairs.clone());
         let reading = Reading::sharp(&facets);
         let bent = reading.bent();
         let mut heights = reading.heights(&around);
@@ -61,12 +70,14 @@ impl SmoothSurface {
             heights.iter_mut().zip(&other).for_each(|(h, o)| h.add(o));
         }
         let reading = bent.unwrap_or(reading);
+        let is_bordered = |t: u32| (heights[t as usize].border.iter()).any(|b| b.length > 0.0);
+        let at_sharp = pairs.filter(|(_, t)| is_bordered(*t));
         Self {
             largest: heights.iter().map(Heights::most).fold(0.0, f64::max),
             sharp: SharpEdges::new(&facets, reading.sharp_edges()),
             corners: Corners::new(&facets),
+            bordered: Table::new(vertices.len(), at_sharp),
             heights,
-            around,
         }
     }
 
@@ -107,17 +118,17 @@ impl SmoothSurface {
         }
     }
 
-    /// The sharp edges that pass within a distance of a point of a triangle of the surface given, or so near that the
-    /// point may be beyond the curves that they are chords of; each with the part of it where it does.
+    /// What is known of the sharp edges that pass within a distance of a point of a triangle of the surface given, or so
+    /// near that the point may be beyond the curves that they are chords of.
     pub fn edges_near(
         &self,
         (vertices, triangles): (&[DVec3], &[[u32; 3]]),
         (triangle, point): (u32, DVec3),
         distance: f64,
-    ) -> Vec<(Border, f64)> {
-        let mut near = Vec::new();
+    ) -> EdgesNear {
+        let mut near = EdgesNear::default();
         let corners = &triangles[triangle as usize];
-        for &t in corners.iter().flat_map(|v| self.around.of(*v)) {
+        for &t in corners.iter().flat_map(|v| self.bordered.of(*v)) {
             let heights = &self.heights[t as usize];
             let corners = triangles[t as usize].map(|v| vertices[v as usize]);
             for c in (0..3).filter(|c| heights.border[*c].length > 0.0) {
@@ -125,9 +136,11 @@ impl SmoothSurface {
                 let part = (point - start).dot(along) / along.length_squared();
                 let part = part.clamp(0.0, 1.0);
                 let border = heights.border[c];
-                let off = border.off(part, border.curvature.into());
-                if point.distance(start + part * along) <= distance.max(off) {
-                    near.push((border, part));
+                let (bow, curvature) = (border.bow(part), f64::from(border.curvature));
+                let reach = distance.max(bow * curvature);
+                if point.distance_squared(start + part * along) <= reach * reach {
+                    near.bow = near.bow.max(bow);
+                    near.curvature = near.curvature.max(curvature);
                 }
             }
         }
