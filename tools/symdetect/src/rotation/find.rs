@@ -121,7 +121,7 @@ impl OrderSearch<'_> {
     fn fitted(&self, start: Frame, radius: f64, operations: &[Canonical]) -> Frame {
         let fit = Fit {
             operations,
-            samples: FIT / 4,
+            samples: FIT,
             reach: self.limits.loosely(radius).limit,
             bound: self.limits.bound(radius),
         };
