@@ -114,11 +114,15 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         .map(|o| Motion::new(frame, o.matrix))
         .collect();
     let mut equations = Equations::default();
-    let faces = &shape.samples.faces;
-    let taken = fit.samples.min(faces.len() * operations.len());
+    // Vertices are on the shape itself, wherever its facets are.
+    let samples = match fit.bound.facets {
+        true => &shape.samples.mixed,
+        false => &shape.samples.faces,
+    };
+    let taken = fit.samples.min(samples.len() * operations.len());
     for i in 0..taken {
-        let sample = &faces[i % faces.len()];
-        let which = (i + i / faces.len()) % operations.len();
+        let sample = &samples[i % samples.len()];
+        let which = (i + i / samples.len()) % operations.len();
         let (motion, target) = (&motions[which], &operations[which].target);
         let y = motion.apply(sample.point);
         let turned = motion.linear * shape.normals[sample.triangle as usize];
