@@ -62,6 +62,9 @@ impl Query<'_> {
                 };
                 if let Ok(verified) = check.group(&group) {
                     (found.frame, found.group, found.verified) = (frame, group, verified);
+                    if found.axisymmetric && !found.distinct {
+                        found.group = Group::new(of_revolution(*kind), found.group.order);
+                    }
                     return true;
                 }
             }
@@ -95,6 +98,14 @@ impl Query<'_> {
 /// How much there is beside the rotation: mirrors that contain the axis count most.
 fn rank(group: &Group) -> u32 {
     2 * u32::from(group.has_vertical_mirrors()) + u32::from(group.turning_over().is_some())
+}
+
+/// The kind of a body of revolution that has the operations of another kind: every plane through its axis is a mirror.
+fn of_revolution(kind: Kind) -> Kind {
+    match kind {
+        Kind::C | Kind::Cv => Kind::Cv,
+        Kind::Ch | Kind::S | Kind::D | Kind::Dd | Kind::Dh => Kind::Dh,
+    }
 }
 
 /// Kinds that may be left of one when some of its operations do not hold, the largest first.

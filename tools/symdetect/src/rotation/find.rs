@@ -42,6 +42,10 @@ impl Rotation {
 
     /// Whether this is the better find. `noise` is the deviation that is not worth a distinction.
     fn beats(&self, other: &Self, noise: f64) -> bool {
+        // Where all orders hold in one frame, those that hold in another one are no more.
+        if self.axisymmetric != other.axisymmetric {
+            return self.axisymmetric;
+        }
         if self.rank() != other.rank() {
             return self.rank() > other.rank();
         }
@@ -101,9 +105,18 @@ impl OrderSearch<'_> {
         let bound = self.limits.loosely(radius);
         let in_frame_for =
             |operations: &[Canonical]| self.in_frame(&self.fitted(start, radius, operations));
-        let revolution = shape.deviation_from_revolution(&start, bound);
-        if revolution.is_some() && self.orders.end() > self.orders.start() {
-            return self.better(as_is, in_frame_for(&golden()));
+        if self.orders.end() > self.orders.start() {
+            if shape.deviation_from_revolution(&start, bound).is_some() {
+                return self.better(as_is, in_frame_for(&golden()));
+            }
+            // About a rough axis, much of a round body that is drawn coarsely is off.
+            if shape.off_revolution(&start, bound) <= 2.0 * OUTLIERS {
+                let frame = self.fitted(start, radius, &golden());
+                let bound = self.limits.bound(shape.radius(&frame));
+                if shape.deviation_from_revolution(&frame, bound).is_some() {
+                    return self.better(as_is, self.in_frame(&frame));
+                }
+            }
         }
         let target = shape.target_in_place();
         let told = shape.highest_told(&start, radius, bound);

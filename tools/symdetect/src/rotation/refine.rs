@@ -114,23 +114,23 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         .map(|o| Motion::new(frame, o.matrix))
         .collect();
     let mut equations = Equations::default();
-    // Vertices are on the shape itself, wherever its facets are.
-    let samples = match fit.bound.facets {
-        true => &shape.samples.mixed,
-        false => &shape.samples.faces,
-    };
-    let taken = fit.samples.min(samples.len() * operations.len());
+    let faces = &shape.samples.faces;
+    let taken = fit.samples.min(faces.len() * operations.len());
     for i in 0..taken {
-        let sample = &samples[i % samples.len()];
-        let which = (i + i / samples.len()) % operations.len();
+        let mut sample = faces[i % faces.len()];
+        if fit.bound.facets && i % 2 == 1 {
+            // Vertices are on the shape itself, wherever its facets are.
+            sample.point = shape.corners(sample.triangle)[i / 2 % 3];
+        }
+        let which = (i + i / faces.len()) % operations.len();
         let (motion, target) = (&motions[which], &operations[which].target);
         let y = motion.apply(sample.point);
         let turned = motion.linear * shape.normals[sample.triangle as usize];
-        let within = Bound {
-            limit: reach,
-            ..fit.bound
+        let hit = match fit.bound.facets {
+            true => shape.nearest_behind((y, Some(turned)), sample.triangle, target, reach),
+            false => shape.nearest(y, sample.triangle, target, reach),
         };
-        let Some(hit) = shape.near(y, sample.triangle, target, within) else {
+        let Some(hit) = hit else {
             if !fit.bound.facets {
                 equations.leave_out(reach);
             }
@@ -151,7 +151,7 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         let mut weight = 1.0;
         if fit.bound.facets {
             // Beside an edge of a facet, nothing tells where the shape is.
-            let Some(apart) = shape.apart(sample, motion, &hit) else {
+            let Some(apart) = shape.apart(&sample, motion, &hit) else {
                 continue;
             };
             e = apart.shapes * normal.dot(shape.normals[hit.triangle as usize]).signum();

@@ -24,6 +24,15 @@ impl Shape {
         .ok()
     }
 
+    /// The share of some samples that rotations by angles spread over the whole turn take off the surface.
+    pub fn off_revolution(&self, frame: &Frame, bound: Bound) -> f64 {
+        let operations = golden_rotations(frame, TURNS, self.target_in_place());
+        let samples = &self.samples.mixed[..self.samples.mixed.len().min(REPORTED)];
+        let pairs = samples.iter().zip(operations.iter().cycle());
+        let off = pairs.filter(|(sample, operation)| !self.lands(operation, sample, bound));
+        off.count() as f64 / samples.len() as f64
+    }
+
     /// The highest order that is told from any rotation: half a step of it moves the rim farther than some samples are
     /// off that a bound allows to be, under angles spread over the whole turn.
     pub fn highest_told(&self, frame: &Frame, radius: f64, bound: Bound) -> u32 {
