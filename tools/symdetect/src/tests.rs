@@ -344,6 +344,32 @@ fn a_shoulder_drawn_more_coarsely_than_the_neck_is_round() {
     }
 }
 
+/// The axis of such a body must be known better than its facets tell, which hide fifty times the tolerance.
+#[test]
+fn few_facets_at_any_angles_are_round() {
+    let mut random = Random(17);
+    for (rim, neck) in [(27, 13), (13, 14), (14, 17), (26, 19)] {
+        let mut turned = |count: u32| {
+            let phase = random.unit() / f64::from(count);
+            let angles = evenly(count).into_iter();
+            angles.map(|a| a + phase).collect::<Vec<f64>>()
+        };
+        let profile = [
+            (1.0, 0.0, turned(rim)),
+            (1.0, 2.0, turned(rim)),
+            (0.92, 2.4, turned(neck)),
+            (0.73, 2.7, turned(neck)),
+            (0.33, 3.0, turned(neck)),
+            (0.33, 3.7, turned(neck)),
+        ];
+        for seed in 0..4 {
+            let body = bodies::place(&rings(&profile), &mut Random(seed), 1.0, 0.0);
+            let found = find(&body);
+            assert!(found.axisymmetric && found.mirror, "{rim} {neck} {found:?}");
+        }
+    }
+}
+
 /// Nor are a flat along a shaft, and six or eight sides of a neck that is meant to have them.
 #[test]
 fn flats_along_a_round_shaft_are_no_facets() {

@@ -20,7 +20,11 @@ pub fn slack(
     for (t, &flat) in facets.flats.of.iter().enumerate() {
         let mut known = f64::from(heights[t].slack);
         if facets.single[flat as usize] {
-            known = known.max(from_normals((facets, around, &angles, least), t, &heights[t]));
+            known = known.max(from_normals(
+                (facets, around, &angles, least),
+                t,
+                &heights[t],
+            ));
         }
         let s = &mut slack[flat as usize];
         *s = s.max(known);
