@@ -1,12 +1,15 @@
 //! The best group that holds everywhere.
 
+use crate::budget::SURVEY;
 use crate::group::found::Found;
-use crate::rotation::{Query, Rotation};
+use crate::rotation::{Canonical, Fit, Query, Rotation, explain, golden, powers};
+use crate::shape::Target;
 use crate::tolerance::compare_along_axes;
 use crate::verify::{Check, Depth};
 use glam::DVec3;
 use kit::point;
-use tmesh::{Group, Kind};
+use std::iter;
+use tmesh::{Frame, Group, Kind};
 
 impl Query<'_> {
     /// The best of the rotations that holds everywhere, with all that holds beside it.
@@ -53,7 +56,9 @@ impl Query<'_> {
         let bound = self.limits.bound(found.radius);
         for kind in parts(found.group.kind) {
             let group = Group::new(*kind, found.group.order);
-            for frame in [found.frame, found.rough] {
+            let explained = || self.limits.facets.then(|| self.explained(found, group));
+            let frames = [found.frame, found.rough].into_iter();
+            for frame in frames.chain(iter::once_with(explained).flatten()) {
                 let check = Check {
                     shape: self.shape,
                     frame: &frame,
@@ -70,6 +75,23 @@ impl Query<'_> {
             }
         }
         false
+    }
+
+    /// The frame moved to where facets explain a group, if it is not far from there.
+    fn explained(&self, found: &Found, group: Group) -> Frame {
+        let mut operations = match found.axisymmetric && !found.distinct {
+            true => golden(),
+            false => powers(group.order, &Target::Any),
+        };
+        let generators = group.generators().into_iter();
+        operations.extend(generators.map(|g| Canonical::new(g, Target::Any)));
+        let fit = Fit {
+            operations: &operations,
+            samples: SURVEY,
+            reach: 0.0,
+            bound: self.limits.bound(found.radius),
+        };
+        explain(self.shape, found.frame, &fit)
     }
 
     /// Removes and returns the best rotation: highest order, then clearly smaller deviation, then the

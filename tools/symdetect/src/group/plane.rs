@@ -68,7 +68,7 @@ impl Query<'_> {
 
     /// The normal of the mirror plane that contains an axis given.
     fn normal_across(&self, axis: DVec3) -> Option<DVec3> {
-        let start = Frame::from_axis(self.centre(), axis, axis.any_orthogonal_vector())?;
+        let start = Frame::from_axis(self.centre, axis, axis.any_orthogonal_vector())?;
         let rotation = Rotation {
             frame: start,
             radius: self.shape.radius(&start),
@@ -100,7 +100,7 @@ impl Query<'_> {
             let z = (hint - normal * hint.dot(normal)).try_normalize()?;
             Frame::from_axis(origin, z, normal.cross(z))
         };
-        let start = frame_of(self.centre(), normal)?;
+        let start = frame_of(self.centre, normal)?;
         let mirror = Isometry::MIRROR;
         let motion = |frame: &Frame| Motion::new(frame, mirror.matrix());
         let radius = shape.radius(&start);

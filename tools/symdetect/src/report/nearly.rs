@@ -39,7 +39,7 @@ impl Query<'_> {
             Some(found) => vec![found.frame],
             // The three principal ones come first.
             None => (directions.iter().take(3))
-                .filter_map(|d| Frame::from_axis(self.centre(), *d, d.any_orthogonal_vector()))
+                .filter_map(|d| Frame::from_axis(self.centre, *d, d.any_orthogonal_vector()))
                 .collect(),
         };
         let centred = frames.iter().filter_map(|f| self.centred(f));
@@ -92,7 +92,7 @@ impl Query<'_> {
     fn nearly_about(&self, start: &Frame, multiples: u32) -> Option<Nearly> {
         let bound = self.limits.loosely(self.shape.radius(start));
         // What is in the way shifts second moments by about its share.
-        let moments = self.moments();
+        let moments = &self.shape.moments;
         let highest = match moments.allow_high_order(start.rotation.z_axis, OUTLIERS) {
             true => {
                 let told = (self.shape).highest_told(start, self.shape.radius(start), bound);

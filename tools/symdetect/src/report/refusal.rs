@@ -131,7 +131,7 @@ impl Query<'_> {
             symmetry: Symmetry {
                 group: Group::TRIVIAL,
                 axis: Axis {
-                    point: self.shape.to_world(self.centre()).to_array(),
+                    point: self.shape.to_world(self.centre).to_array(),
                     direction: frame.rotation.z_axis.to_array(),
                 },
                 reference: frame.rotation.x_axis.to_array(),
@@ -157,7 +157,7 @@ impl Query<'_> {
     /// slivers between faces in planes that rounding has bent, and planes across coordinate axes have exact coordinates.
     fn frame_along_faces(&self) -> Frame {
         let shape = self.shape;
-        let along = |z: DVec3, x: DVec3| Frame::from_axis(self.centre(), z, x);
+        let along = |z: DVec3, x: DVec3| Frame::from_axis(self.centre, z, x);
         let faces = match self.params.axis {
             Some(_) => None,
             None => alignment(shape.triangles.len(), |t| shape.corners(t as u32)),
@@ -173,7 +173,7 @@ impl Query<'_> {
 
     /// A frame with its axis along a direction through the centre.
     fn frame_along(&self, direction: DVec3) -> Option<Frame> {
-        Frame::from_axis(self.centre(), direction, direction.any_orthogonal_vector())
+        Frame::from_axis(self.centre, direction, direction.any_orthogonal_vector())
     }
 
     /// The radius about the axis of a frame, never zero.

@@ -16,7 +16,7 @@ impl Query<'_> {
         if let Some(axis) = self.params.axis {
             return vec![axis];
         }
-        let principal = candidates::principal(self.moments(), self.same_candidate());
+        let principal = candidates::principal(self.shape, self.same_candidate());
         let mut all = principal.directions;
         if principal.degenerate {
             all.extend(candidates::higher(self.shape));
@@ -30,8 +30,8 @@ impl Query<'_> {
         if let Some(axis) = self.params.axis {
             return (vec![axis], self.about(axis).into_iter().collect());
         }
-        let find = |d: &DVec3| self.possible_about(*d)?.find(self.centre(), *d, false);
-        let principal = candidates::principal(self.moments(), self.same_candidate());
+        let find = |d: &DVec3| self.possible_about(*d)?.find_near(self.centres(), *d);
+        let principal = candidates::principal(self.shape, self.same_candidate());
         let mut directions = principal.directions;
         // No other axis than one of an order above two can have such an order.
         let main = (self.drawn).filter(|d| d.group.order > 2 && !principal.isotropic);
@@ -77,7 +77,7 @@ impl Query<'_> {
     fn possible_about(&self, direction: DVec3) -> Option<OrderSearch<'_>> {
         let mut search = self.search_about(direction);
         // What is off about a candidate shifts second moments by about its share.
-        if !self.moments().allow_high_order(direction, OUTLIERS) {
+        if !self.shape.moments.allow_high_order(direction, OUTLIERS) {
             let (lowest, highest) = search.orders.into_inner();
             search.orders = lowest..=highest.min(2);
         }
@@ -87,12 +87,12 @@ impl Query<'_> {
     /// The rotation about an axis the user gave: as given if that is as good as an adjusted one.
     fn about(&self, axis: DVec3) -> Option<Rotation> {
         let search = self.search_about(axis);
-        let given = search.find(self.centre(), axis, true);
+        let given = search.find(self.centre, axis, true);
         let good = |g: &Rotation| g.deviation.value <= self.noise(g.radius);
         if given.as_ref().is_some_and(good) {
             return given;
         }
-        let adjusted = search.find(self.centre(), axis, false).filter(|a| {
+        let adjusted = search.find_near(self.centres(), axis).filter(|a| {
             // What was given was rounded for typing, but no coarser than a candidate may be.
             let z = a.frame.rotation.z_axis;
             z.cross(axis).length() <= self.limits.loose && self.passes_centre(&a.frame, z, a.radius)

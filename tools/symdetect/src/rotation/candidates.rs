@@ -1,6 +1,6 @@
 //! Directions in which symmetry axes and normals of mirror planes can lie.
 
-use crate::shape::{DirectionalMoment, Moments, Shape};
+use crate::shape::{DirectionalMoment, Shape};
 use geom::eigen;
 use glam::DVec3;
 
@@ -21,9 +21,9 @@ pub struct Principal {
 
 /// Principal directions: if a body has an axis of order three or more and is not isotropic, that axis
 /// is the eigenvector of the odd eigenvalue; half-turn axes and mirror normals are eigenvectors too.
-pub fn principal(moments: &Moments, parallel: f64) -> Principal {
+pub fn principal(shape: &Shape, parallel: f64) -> Principal {
     let (mut directions, mut degenerate, mut isotropic) = (Vec::new(), true, true);
-    for tensor in moments.tensors() {
+    for tensor in shape.moments.tensors() {
         let e = eigen::symmetric(tensor.to_cols_array_2d());
         let trace: f64 = e.values.iter().sum();
         let gaps = [e.values[1] - e.values[0], e.values[2] - e.values[1]].map(|g| g / trace);

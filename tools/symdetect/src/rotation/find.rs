@@ -91,6 +91,15 @@ impl OrderSearch<'_> {
         self.better(Some(found), polished)
     }
 
+    /// What is found about an axis near `direction` through a point near the first of some centres where anything is.
+    pub fn find_near(
+        &self,
+        mut centres: impl Iterator<Item = DVec3>,
+        direction: DVec3,
+    ) -> Option<Rotation> {
+        centres.find_map(|centre| self.find(centre, direction, false))
+    }
+
     fn better(&self, one: Option<Rotation>, other: Option<Rotation>) -> Option<Rotation> {
         match (one, other) {
             (Some(a), Some(b)) if b.beats(&a, 0.5 * self.shape.precision) => Some(b),

@@ -14,5 +14,5 @@ pub use axes::FIRST_DIRECTIONS;
 pub use find::{Rotation, golden, powers};
 pub use limits::{LOOSE_RANGE, OUTLIERS};
 pub use query::{Drawn, Query};
-pub use refine::{Canonical, Fit, refine, settle};
+pub use refine::{Canonical, Fit, explain, refine, settle};
 pub use scan::TELLING_TURNS;

@@ -4,7 +4,7 @@ use crate::params::Params;
 use crate::rotation::find::OrderSearch;
 use crate::rotation::limits::Limits;
 use crate::rotation::refine::{Canonical, Fit, refine};
-use crate::shape::{Moments, Shape};
+use crate::shape::Shape;
 use crate::tolerance::{ROUNDINGS, SINGLE};
 use crate::verify::Depth;
 use geom::tolerance::{Extent, Tolerance};
@@ -20,6 +20,8 @@ pub struct Query<'a> {
     pub params: &'a Params,
     /// The tolerances at present.
     pub limits: Limits,
+    /// The centre, given or that of mass, in the coordinates of the shape.
+    pub centre: DVec3,
     /// Sine of the angle up to which two directions are the same axis.
     pub parallel: f64,
     /// The group of the drawing, where that of the shape behind it is looked for.
@@ -48,21 +50,22 @@ impl<'a> Query<'a> {
             params,
             parallel: Tolerance::new(extent, shape.precision, params.tolerance).parallel(),
             limits: Limits::new(params.tolerance, params.facets),
+            centre: params.center.map_or(DVec3::ZERO, |c| shape.of_world(c)),
             drawn: None,
         }
     }
 
-    /// The centre, given or that of mass, in the coordinates of the shape.
-    pub fn centre(&self) -> DVec3 {
-        match self.params.center {
-            Some(centre) => self.shape.of_world(centre),
-            None => self.moments().centre(),
-        }
-    }
-
-    /// Moments of the drawing, or of the shape behind it where that is looked for.
-    pub fn moments(&self) -> &Moments {
-        self.shape.moments(self.limits.facets)
+    /// Points that axes may pass near: the centre and, where that is farther off than a candidate may be but no farther than
+    /// facets may shift it, that of the corners.
+    pub fn centres(&self) -> impl Iterator<Item = DVec3> {
+        let smooth = || self.shape.smooth();
+        let looked_at = self.limits.facets && self.params.center.is_none();
+        let other = looked_at.then(|| smooth().corners().centre()).flatten();
+        // An image is displaced by twice that.
+        let near = 0.5 * self.limits.loose;
+        let shift = |c: DVec3| c.distance(self.centre);
+        let other = other.filter(|c| (near..smooth().mean()).contains(&shift(*c)));
+        [self.centre].into_iter().chain(other)
     }
 
     /// Whether two unit vectors are, either way round, the direction of the same axis.
@@ -102,7 +105,7 @@ impl<'a> Query<'a> {
     /// Whether the line along `free` (or, with `free` zero, the point) through the frame's origin
     /// passes the centre that the user gave; an adjustment may move it by as much as it adjusts.
     pub fn passes_centre(&self, frame: &Frame, free: DVec3, radius: f64) -> bool {
-        let off = frame.origin - self.centre();
+        let off = frame.origin - self.centre;
         let off = (off - free * off.dot(free)).length();
         self.params.center.is_none() || off <= 0.5 * self.limits.loose * radius
     }

@@ -2,7 +2,7 @@
 
 use crate::shape::{Motion, Shape, Target};
 use crate::tolerance::VANISHING;
-use crate::verify::Bound;
+use crate::verify::{Bound, Operation};
 use geom::eigen;
 use glam::{DMat3, DVec3};
 use tmesh::{Frame, Isometry};
@@ -102,6 +102,34 @@ pub fn settle(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
     frame
 }
 
+/// Moves and turns the frame until facets explain where the operations take the surface, if a little will do: by least
+/// squares of what is beyond that alone, where a fit to all of the surface leaves the frame to what is not known of the
+/// shape.
+pub fn explain(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
+    let mut frame = start;
+    for _ in 0..STEPS {
+        let operation = |o: &Canonical| Operation {
+            motion: Motion::new(&frame, o.matrix),
+            target: o.target.clone(),
+        };
+        let operations: Vec<Operation> = fit.operations.iter().map(operation).collect();
+        let mut equations = Equations::default();
+        let samples = &shape.samples.mixed;
+        for i in 0..fit.samples.min(samples.len() * operations.len()) {
+            let sample = &samples[i % samples.len()];
+            let operation = &operations[(i + i / samples.len()) % operations.len()];
+            if let Some(off) = shape.unexplained(sample, operation, fit.bound) {
+                equations.add(&operation.motion, sample.point, off, 1.0);
+            }
+        }
+        match equations.step(&frame) {
+            Some(step) => frame = step.frame,
+            None => break,
+        }
+    }
+    frame
+}
+
 struct Step {
     frame: Frame,
     mean_square: f64,
@@ -126,11 +154,11 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
         let (motion, target) = (&motions[which], &operations[which].target);
         let y = motion.apply(sample.point);
         let turned = motion.linear * shape.normals[sample.triangle as usize];
-        let hit = match fit.bound.facets {
-            true => shape.nearest_behind((y, Some(turned)), sample.triangle, target, reach),
-            false => shape.nearest(y, sample.triangle, target, reach),
+        let within = Bound {
+            limit: reach,
+            ..fit.bound
         };
-        let Some(hit) = hit else {
+        let Some(hit) = shape.near(y, sample.triangle, target, within) else {
             if !fit.bound.facets {
                 equations.leave_out(reach);
             }

@@ -33,20 +33,20 @@ pub struct Shape {
     pub scale: f64,
     /// Absolute error of a coordinate in this frame.
     pub precision: f64,
+    /// Moments, in this frame.
+    pub moments: Moments,
     /// Test points.
     pub samples: Samples,
     /// Whether operations may exchange regions of one shape.
     pub may_exchange: bool,
-    moments: Moments,
     drawn: Trees,
     behind: OnceLock<Behind>,
     faces: OnceLock<Option<Faces>>,
 }
 
-/// The shape behind the facets, its moments, and trees that find what it may be on.
+/// The shape behind the facets, and trees that find what it may be on.
 struct Behind {
     smooth: SmoothSurface,
-    moments: Moments,
     trees: Trees,
 }
 
@@ -185,22 +185,8 @@ impl Shape {
         self.behind.get_or_init(|| {
             let smooth = SmoothSurface::new(&self.vertices, &self.triangles, &self.normals);
             let trees = Trees::new(&self.interfaces, |t| self.corners(t), |t| smooth.most(t));
-            let signed = (0..).zip(self.signed_triangles());
-            let layers = signed.map(|(t, (corners, sign))| (corners, sign * smooth.mean(t)));
-            Behind {
-                moments: self.moments.with_layers(layers),
-                smooth,
-                trees,
-            }
+            Behind { smooth, trees }
         })
-    }
-
-    /// Moments, in this frame, of the body as it is drawn or of the shape behind its facets.
-    pub fn moments(&self, behind: bool) -> &Moments {
-        match behind {
-            true => &self.behind().moments,
-            false => &self.moments,
-        }
     }
 
     /// The smooth shape that the facets stand for.

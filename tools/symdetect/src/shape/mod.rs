@@ -16,7 +16,6 @@ mod trees;
 pub use body::Shape;
 pub use directional::DirectionalMoment;
 pub use flat::{Faces, Flats};
-pub use moments::Moments;
 pub use motion::{Motion, NO_CLASS, Target};
 pub use random::Random;
 pub use regions::Permutation;

@@ -45,21 +45,6 @@ impl Moments {
 }
 
 impl Moments {
-    /// Those of the body with thin layers added to it, given by the triangle that each is on and its mean height.
-    pub fn with_layers(&self, layers: impl Iterator<Item = ([DVec3; 3], f64)>) -> Self {
-        let mut solid = Sums::of(self.volume, self.volume_centre, self.volume_tensor);
-        for ([a, b, c], height) in layers {
-            solid.add([a, b, c], height * triangle_area(a, b, c));
-        }
-        let (volume_centre, volume_tensor) = solid.about_centre();
-        Self {
-            volume: solid.mass,
-            volume_centre,
-            volume_tensor,
-            ..*self
-        }
-    }
-
     /// Whether second moments allow for a rotation of an order above two about an axis, up to a share of their trace: it
     /// leaves those across the axis equal, and those with the axis zero.
     pub fn allow_high_order(&self, axis: DVec3, share: f64) -> bool {
@@ -95,15 +80,6 @@ impl Sums {
         first: DVec3::ZERO,
         second: DMat3::ZERO,
     };
-
-    /// Of what has this measure, centre, and second moments about it divided by the measure.
-    fn of(mass: f64, centre: DVec3, tensor: DMat3) -> Self {
-        Self {
-            mass,
-            first: centre * mass,
-            second: (tensor + outer(centre)) * mass,
-        }
-    }
 
     /// Adds a simplex of `N` corners. Barycentric coordinates have the mean `1 / N`; the mean of the product of two
     /// different ones is `1 / (N (N + 1))`, that of a square is twice that.

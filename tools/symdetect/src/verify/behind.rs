@@ -77,6 +77,36 @@ impl Shape {
         hit.distance <= limit + self.edges_explain((sample.triangle, sample.point), hit)
     }
 
+    /// How far, and in which direction, the image of a sample is from what facets explain: the least of what it is beyond a
+    /// facet near it and beyond the sharp edges there. `None` if they do explain it, or if it is too far from all of them.
+    pub fn unexplained(
+        &self,
+        sample: &Sample,
+        operation: &Operation,
+        bound: Bound,
+    ) -> Option<(DVec3, f64)> {
+        let (motion, limit) = (&operation.motion, bound.limit);
+        let image = motion.apply(sample.point);
+        let (triangle, target) = (sample.triangle, &operation.target);
+        let hit = self.nearest_behind((image, None), triangle, target, limit)?;
+        if self.facets_explain(sample, operation, &hit, Bound::plain(0.0)) {
+            return None;
+        }
+        let normal = motion.linear * self.normals[triangle as usize];
+        let alike = self.nearest_behind((image, Some(normal)), triangle, target, limit);
+        let above = |hit: &Nearest| {
+            let apart = self.apart(sample, motion, hit)?;
+            let off = (apart.gap - apart.slack).copysign(apart.facets);
+            Some((self.normals[hit.triangle as usize], off))
+        };
+        let beside = || {
+            let off = hit.distance - self.edges_explain((triangle, sample.point), &hit);
+            Some(((image - hit.point).try_normalize()?, off))
+        };
+        let all = [above(&hit), alike.and_then(|hit| above(&hit)), beside()];
+        (all.into_iter().flatten()).min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+    }
+
     /// How far apart two drawings of a sharp edge may be that passes near a place and near a point of the surface: either
     /// is a polyline on a curve that bends as the narrower of the two drawings does.
     fn edges_explain(&self, place: (u32, DVec3), hit: &Nearest) -> f64 {

@@ -35,6 +35,12 @@ impl Corners {
         }
     }
 
+    /// Their mean, which is where axes pass if what they have is not more than an accident; `None` of fewer than three.
+    pub fn centre(&self) -> Option<DVec3> {
+        let count = self.points.len();
+        (count >= 3).then(|| self.points.iter().sum::<DVec3>() / count as f64)
+    }
+
     /// Where they are.
     pub fn points(&self) -> &[DVec3] {
         &self.points

@@ -58,12 +58,6 @@ impl Heights {
         patch([self.corner, self.side], b)
     }
 
-    /// The mean height of the shape: barycentric coordinates have the mean one third, products of two of them one twelfth.
-    pub fn mean(&self) -> f64 {
-        let sum = |of: [f32; 3]| of.into_iter().map(f64::from).sum::<f64>();
-        (sum(self.corner) + sum(self.side)) / 3.0
-    }
-
     /// The heights, least and largest, between which the shape may be at barycentric coordinates.
     pub fn range(&self, b: [f64; 3]) -> [f64; 2] {
         let mut range = [0.0_f64; 2];

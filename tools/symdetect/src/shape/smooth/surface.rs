@@ -6,6 +6,7 @@ use crate::shape::smooth::heights::{Heights, barycentric};
 use crate::shape::smooth::reading::Reading;
 use crate::shape::smooth::sharp::SharpEdges;
 use crate::shape::table::Table;
+use geom::measure::double_area_vector;
 use glam::DVec3;
 
 /// The smooth shape behind the facets of a surface.
@@ -16,6 +17,7 @@ pub struct SmoothSurface {
     sharp: SharpEdges,
     corners: Corners,
     largest: f64,
+    mean: f64,
 }
 
 /// Sharp edges near a place, chords of curves.
@@ -72,7 +74,14 @@ impl SmoothSurface {
         let reading = bent.unwrap_or(reading);
         let is_bordered = |t: u32| (heights[t as usize].border.iter()).any(|b| b.length > 0.0);
         let at_sharp = pairs.filter(|(_, t)| is_bordered(*t));
+        let area = |t: usize| {
+            let [a, b, c] = facets.corners(t);
+            double_area_vector(a, b, c).length()
+        };
+        let areas: Vec<f64> = (0..triangles.len()).map(area).collect();
+        let hidden = heights.iter().zip(&areas).map(|(h, a)| a * h.most());
         Self {
+            mean: hidden.sum::<f64>() / areas.iter().sum::<f64>(),
             largest: heights.iter().map(Heights::most).fold(0.0, f64::max),
             sharp: SharpEdges::new(&facets, reading.sharp_edges()),
             corners: Corners::new(&facets),
@@ -86,6 +95,11 @@ impl SmoothSurface {
         self.largest
     }
 
+    /// The mean over the surface of the most that its facets hide.
+    pub fn mean(&self) -> f64 {
+        self.mean
+    }
+
     /// The most that a facet hides.
     pub fn most(&self, triangle: u32) -> f64 {
         self.heights[triangle as usize].most()
@@ -94,11 +108,6 @@ impl SmoothSurface {
     /// The edges that are sharp in all readings.
     pub fn sharp_edges(&self) -> &SharpEdges {
         &self.sharp
-    }
-
-    /// The mean height of the shape above a triangle.
-    pub fn mean(&self, triangle: u32) -> f64 {
-        self.heights[triangle as usize].mean()
     }
 
     /// Where sharp edges meet.
