@@ -165,7 +165,7 @@ struct Outcome {
 impl Outcome {
     /// A mirror plane, if there is no rotation and none is asked for.
     fn look_for_mirror(&mut self, query: &Query<'_>) {
-        if self.found.is_none() && !query.params.order.is_some_and(|n| n > 1) {
+        if self.found.is_none() && query.params.order.is_none_or(|n| n <= 1) {
             self.found = query.mirror_only(&self.directions);
         }
     }

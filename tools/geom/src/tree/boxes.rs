@@ -29,6 +29,8 @@ pub struct Boxes {
 pub struct Node {
     pub low: [[f32; WIDTH]; 3],
     pub high: [[f32; WIDTH]; 3],
+    /// The largest margin around what is in each box, beyond the box.
+    pub margin: [f32; WIDTH],
     /// Index of a node, or of a leaf with [`LEAF`] set.
     pub child: [u32; WIDTH],
 }
@@ -37,6 +39,7 @@ impl Node {
     const EMPTY: Self = Self {
         low: [[f32::INFINITY; WIDTH]; 3],
         high: [[f32::NEG_INFINITY; WIDTH]; 3],
+        margin: [0.0; WIDTH],
         child: [0; WIDTH],
     };
 
@@ -57,7 +60,8 @@ impl Node {
         sum
     }
 
-    fn set(&mut self, slot: usize, bounds: &Bounds, child: u32) {
+    fn set(&mut self, slot: usize, range: &Range, child: u32) {
+        let bounds = &range.bounds;
         let down = |x: f64| {
             let y = x as f32;
             if f64::from(y) > x { y.next_down() } else { y }
@@ -70,6 +74,7 @@ impl Node {
             self.low[k][slot] = down(bounds.low[k]);
             self.high[k][slot] = up(bounds.high[k]);
         }
+        self.margin[slot] = up(range.margin);
         self.child[slot] = child;
     }
 }
@@ -99,14 +104,6 @@ impl Bounds {
         points.into_iter().fold(Self::EMPTY, |b, &p| b.with(p))
     }
 
-    /// The box of all that is no farther than a distance along any axis.
-    pub fn grown(self, by: f64) -> Self {
-        Self {
-            low: self.low - DVec3::splat(by),
-            high: self.high + DVec3::splat(by),
-        }
-    }
-
     fn union(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -125,15 +122,23 @@ impl Bounds {
 pub struct Item {
     bounds: Bounds,
     middle: DVec3,
+    /// How far beyond the box something still belongs to it.
+    margin: f64,
     index: u32,
 }
 
 impl Item {
     /// A box with its number.
     pub fn new(bounds: Bounds, index: u32) -> Self {
+        Self::with_margin(bounds, 0.0, index)
+    }
+
+    /// A box with a margin around it.
+    pub fn with_margin(bounds: Bounds, margin: f64, index: u32) -> Self {
         Self {
             bounds,
             middle: 0.5 * (bounds.low + bounds.high),
+            margin,
             index,
         }
     }
@@ -146,18 +151,19 @@ struct Range {
     count: usize,
     depth: usize,
     bounds: Bounds,
+    margin: f64,
 }
 
 impl Range {
     fn new(items: &[Item], first: usize, count: usize, depth: usize) -> Self {
-        let bounds = items[first..first + count]
-            .iter()
-            .fold(Bounds::EMPTY, |b, i| b.union(i.bounds));
+        let items = &items[first..first + count];
+        let bounds = (items.iter()).fold(Bounds::EMPTY, |b, i| b.union(i.bounds));
         Self {
             first,
             count,
             depth,
             bounds,
+            margin: items.iter().map(|i| i.margin).fold(0.0, f64::max),
         }
     }
 }
@@ -218,9 +224,9 @@ fn build(items: &mut [Item]) -> Vec<Node> {
         let mut node = Node::EMPTY;
         for (slot, part) in parts.iter().enumerate() {
             if part.count == 1 {
-                node.set(slot, &part.bounds, LEAF | part.first as u32);
+                node.set(slot, part, LEAF | part.first as u32);
             } else {
-                node.set(slot, &part.bounds, 0);
+                node.set(slot, part, 0);
                 work.push((*part, Some((at, slot))));
             }
         }

@@ -16,8 +16,8 @@ pub struct Tree {
     /// Corners in the order of the leaves, in the placement.
     corners: Vec<[DVec3; 3]>,
     placement: Placement,
-    /// What boxes were grown by at most, in the placement.
-    growth: f64,
+    /// Whether there is a margin around any triangle.
+    has_margins: bool,
 }
 
 /// Answer to a nearest-triangle query.
@@ -35,14 +35,14 @@ impl Tree {
     /// Builds the tree over fewer than 2^31 triangles given by their corners; degenerate ones
     /// are welcome, coordinates must be finite. Time n log n.
     pub fn new(triangles: impl IntoIterator<Item = [DVec3; 3]>) -> Self {
-        Self::grown(triangles, |_| 0.0)
+        Self::with_margins(triangles, |_| 0.0)
     }
 
-    /// The same over triangles that stand for what may be as far from each of them as `growth` says: within a distance of a
-    /// point are those whose boxes, grown by that, come as near.
-    pub fn grown(
+    /// The same over triangles that stand for what may be as far from each of them as `margin` says: within a distance of a
+    /// point are those whose boxes are no farther than the distance and their margin.
+    pub fn with_margins(
         triangles: impl IntoIterator<Item = [DVec3; 3]>,
-        growth: impl Fn(u32) -> f64,
+        margin: impl Fn(u32) -> f64,
     ) -> Self {
         let mut triangles: Vec<[DVec3; 3]> = triangles.into_iter().collect();
         let mut placement = Placement::of(Bounds::of(triangles.iter().flatten()));
@@ -55,18 +55,14 @@ impl Tree {
                 *p = turn * *p;
             }
         }
-        let mut largest = 0.0_f64;
-        let item = |(i, t)| {
-            let growth = growth(i) / placement.unit;
-            largest = largest.max(growth);
-            Item::new(Bounds::of(t).grown(growth), i)
-        };
+        let unit = placement.unit;
+        let item = |(i, t)| Item::with_margin(Bounds::of(t), margin(i) / unit, i);
         let boxes = Boxes::new((0..).zip(&triangles).map(item).collect());
         Self {
             corners: boxes.index.iter().map(|&i| triangles[i as usize]).collect(),
             boxes,
             placement,
-            growth: largest,
+            has_margins: (0..triangles.len() as u32).any(|i| margin(i) > 0.0),
         }
     }
 
@@ -109,18 +105,35 @@ impl Tree {
         enough: f64,
         wanted: impl Fn(u32) -> bool,
     ) -> Option<Nearest> {
+        match self.has_margins {
+            true => self.search_with::<true>(point, within, enough, wanted),
+            false => self.search_with::<false>(point, within, enough, wanted),
+        }
+    }
+
+    /// The search, with margins or without, which saves a fifth of the time.
+    #[inline(always)]
+    fn search_with<const MARGINS: bool>(
+        &self,
+        point: DVec3,
+        within: f64,
+        enough: f64,
+        wanted: impl Fn(u32) -> bool,
+    ) -> Option<Nearest> {
         let unit = self.placement.unit;
         let p = self.placement.inside(point);
         let single = p.as_vec3();
         // A gap between a point and a box is rounded with the point's coordinate, with the difference, of up to two
         // coordinates, and when the margin is taken off. Coordinates of boxes, below two, are rounded outwards.
         let largest = f64::from(single.abs().max_element().max(2.0));
-        let margin = rounded_up(rounding::single(5) * largest);
+        let rounded = rounded_up(rounding::single(5) * largest);
         let within = within / unit;
-        let most = within + self.growth;
-        let mut best = most * most;
-        let within = squares_up_to(within * within);
-        let mut bound = within;
+        let far = rounded_up(within);
+        let mut best = match MARGINS {
+            true => f64::INFINITY,
+            false => within * within,
+        };
+        let mut bound = squares_up_to(best);
         let mut found: Option<(u32, DVec3)> = None;
         let enough = enough / unit;
         let enough = enough * enough;
@@ -138,7 +151,7 @@ impl Tree {
                 let d = (p - q).length_squared();
                 if d < best && wanted(self.boxes.index[i]) {
                     best = d;
-                    bound = within.min(squares_up_to(best));
+                    bound = squares_up_to(best);
                     found = Some((i as u32, q));
                     if best <= enough {
                         break;
@@ -147,11 +160,16 @@ impl Tree {
                 continue;
             }
             let node = &self.boxes.nodes[at as usize];
-            let distances = node.distances_squared(single.to_array(), margin);
+            let distances = node.distances_squared(single.to_array(), rounded);
             // The nearest child ends on top.
             let first = stack.len();
-            for (d, child) in distances.into_iter().zip(node.child) {
-                if d < bound {
+            // Rounded up twice: the square is off by half a place, as the sum is.
+            let limit = |slot: usize| {
+                let most = (far + node.margin[slot]).next_up();
+                (most * most).next_up()
+            };
+            for (i, (d, child)) in distances.into_iter().zip(node.child).enumerate() {
+                if d < bound && (!MARGINS || d <= limit(i)) {
                     let mut slot = stack.len();
                     stack.push((child, d));
                     while slot > first && stack[slot - 1].1 < d {

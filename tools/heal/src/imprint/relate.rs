@@ -64,10 +64,12 @@ pub fn relate(
     let mut near = Vec::new();
     let face = complex.face.clone();
     let all: Vec<u32> = (0..complex.triangles.len() as u32).collect();
+    // What is not new is one group: where there is nothing else, nothing is looked at.
+    let not_new = u32::MAX - 1;
     let search = near_pairs(
         (complex, &all),
         reach,
-        |t| face[t as usize],
+        |t| if is_new(t) { face[t as usize] } else { not_new },
         |s, t| is_new(s) || is_new(t),
         |s, t| near.push([s, t]),
     );

@@ -37,14 +37,14 @@ impl Part {
 }
 
 impl Trees {
-    /// Over triangles with these corners, which stand for what may be as far from each of them as `growth` says.
+    /// Over triangles with these corners, which stand for what may be as far from each of them as `margin` says.
     pub fn new(
         interfaces: &Interfaces,
         corners: impl Fn(u32) -> [DVec3; 3] + Copy,
-        growth: impl Fn(u32) -> f64 + Copy,
+        margin: impl Fn(u32) -> f64 + Copy,
     ) -> Self {
         let all = Part {
-            tree: Tree::grown((0..interfaces.class.len() as u32).map(corners), growth),
+            tree: Tree::with_margins((0..interfaces.class.len() as u32).map(corners), margin),
             triangles: Vec::new(),
         };
         let count = interfaces.classes.len();
@@ -55,8 +55,8 @@ impl Trees {
             }
         }
         let part = |triangles: Vec<u32>| Part {
-            tree: Tree::grown(triangles.iter().map(|&t| corners(t)), |t| {
-                growth(triangles[t as usize])
+            tree: Tree::with_margins(triangles.iter().map(|&t| corners(t)), |t| {
+                margin(triangles[t as usize])
             }),
             triangles,
         };

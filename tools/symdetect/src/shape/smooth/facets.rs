@@ -152,7 +152,8 @@ impl<'a> Facets<'a> {
         })
     }
 
-    /// The vertices of each flat at which its border turns; the others only divide its sides or its inside. n log n.
+    /// The vertices of each flat of several triangles at which its border turns; the others only divide its sides or its
+    /// inside. n log n.
     pub fn turning_points(&self) -> Table {
         let mut sides: Vec<(u32, u32, DVec3)> = Vec::new();
         for e in 0..self.edges.len() {
@@ -163,9 +164,10 @@ impl<'a> Facets<'a> {
             let [a, b] = self.edges.ends[e];
             let along = self.vertices[b as usize] - self.vertices[a as usize];
             let along = along.normalize_or_zero();
-            for u in around {
-                sides.push((self.flat(u), a, along));
-                sides.push((self.flat(u), b, -along));
+            for flat in around.iter().map(|u| self.flat(u)) {
+                if !self.single[flat as usize] {
+                    sides.extend([(flat, a, along), (flat, b, -along)]);
+                }
             }
         }
         sides.sort_by_key(|s| (s.0, s.1));

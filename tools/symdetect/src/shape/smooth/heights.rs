@@ -141,7 +141,8 @@ pub fn patches(facets: &Facets<'_>, curvature: &[DMat3]) -> Vec<Heights> {
     }
     let heights = |(t, &flat): (usize, &u32)| {
         let turning = corners.of(flat);
-        let is_turning = facets.triangles[t].map(|v| turning.binary_search(&v).is_ok());
+        let is_turning = |v| facets.single[flat as usize] || turning.binary_search(&v).is_ok();
+        let is_turning = facets.triangles[t].map(is_turning);
         let (corners, h) = (facets.corners(t), curvature[flat as usize]);
         let side = |c: usize| {
             let e = corners[(c + 1) % 3] - corners[c];
