@@ -31,8 +31,13 @@ pub struct Overlay {
 
 /// Divides faces until none has anything within reach that it does not have in common with it. `solid` has the solid of
 /// each source. What touches the surfaces behind facets is related in the first round, up to a gap if one is given; a gap
-/// of zero leaves that out.
-pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, gap: Option<f64>) -> Overlay {
+/// of zero leaves that out. Solids that do not cross themselves are told by `crosses_itself`.
+pub fn overlay(
+    mut complex: Complex,
+    (solid, crosses_itself): (&[u32], &[bool]),
+    within: f64,
+    gap: Option<f64>,
+) -> Overlay {
     let points = complex.points.len();
     let mut overlay = Overlay {
         complex: Complex::default(),
@@ -58,9 +63,9 @@ pub fn overlay(mut complex: Complex, solid: &[u32], within: f64, gap: Option<f64
             edges: &edges,
             faces: &faces,
         };
-        let mut found = relate(&mut complex, incidence, solid_of, reach, |t| {
-            is_new[t as usize]
-        });
+        let is_sound = |solid: u32| round == 0 && !crosses_itself[solid as usize];
+        let which = (|t: u32| is_new[t as usize], is_sound);
+        let mut found = relate(&mut complex, incidence, solid_of, reach, which);
         if found.is_empty() {
             overlay.done = found.search == Search::Done;
             break;

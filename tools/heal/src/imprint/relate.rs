@@ -53,23 +53,28 @@ impl Reach<'_> {
 /// edges cross.
 ///
 /// Of triangles of different solids, what lies within reach is related. Of one solid, only what is at a place where two
-/// triangles meet: what is thin is not closed.
+/// triangles meet: what is thin is not closed. Nothing is within a solid that is `sound`.
 pub fn relate(
     complex: &mut Complex,
     incidence: Incidence<'_>,
     solid_of: impl Fn(u32) -> u32,
     reach: Reach<'_>,
-    is_new: impl Fn(u32) -> bool,
+    (is_new, is_sound): (impl Fn(u32) -> bool, impl Fn(u32) -> bool),
 ) -> Relations {
     let mut near = Vec::new();
-    let face = complex.face.clone();
     let all: Vec<u32> = (0..complex.triangles.len() as u32).collect();
-    // What is not new is one group: where there is nothing else, nothing is looked at.
+    // What is not new is one group, and so is a sound solid: where there is nothing else, nothing is looked at.
+    let faces = 1 + complex.face.iter().copied().max().unwrap_or(0);
     let not_new = u32::MAX - 1;
+    let group = |t: u32| match (is_new(t), solid_of(t)) {
+        (false, _) => not_new,
+        (true, solid) if is_sound(solid) => faces + solid,
+        (true, _) => complex.face[t as usize],
+    };
     let search = near_pairs(
         (complex, &all),
         reach,
-        |t| if is_new(t) { face[t as usize] } else { not_new },
+        group,
         |s, t| is_new(s) || is_new(t),
         |s, t| near.push([s, t]),
     );

@@ -68,7 +68,8 @@ fn attempt(
     crosses_itself: &[bool],
 ) -> Result<Imprinted, String> {
     let solid = &surface.solid;
-    let overlay = overlay(complex, solid, tolerance.equal(), contacts.gap);
+    let sound = (solid.as_slice(), crosses_itself);
+    let overlay = overlay(complex, sound, tolerance.equal(), contacts.gap);
     let complex = &overlay.complex;
     let met = meetings(&complex.points, &complex.triangles, |t| t, |_| true);
     if let Some(first) = met.lowest {
