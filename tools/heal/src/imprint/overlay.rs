@@ -31,10 +31,10 @@ pub struct Overlay {
 
 /// Divides faces until none has anything within reach that it does not have in common with it. `solid` has the solid of
 /// each source. What touches the surfaces behind facets is related in the first round, up to a gap if one is given; a gap
-/// of zero leaves that out. Solids that do not cross themselves are told by `crosses_itself`.
+/// of zero leaves that out. The pairs of triangles of one solid that meet away from common vertices and edges are given.
 pub fn overlay(
     mut complex: Complex,
-    (solid, crosses_itself): (&[u32], &[bool]),
+    (solid, meeting): (&[u32], &[[u32; 2]]),
     within: f64,
     gap: Option<f64>,
 ) -> Overlay {
@@ -63,8 +63,7 @@ pub fn overlay(
             edges: &edges,
             faces: &faces,
         };
-        let is_sound = |solid: u32| round == 0 && !crosses_itself[solid as usize];
-        let which = (|t: u32| is_new[t as usize], is_sound);
+        let which = (|t: u32| is_new[t as usize], (round == 0).then_some(meeting));
         let mut found = relate(&mut complex, incidence, solid_of, reach, which);
         if found.is_empty() {
             overlay.done = found.search == Search::Done;

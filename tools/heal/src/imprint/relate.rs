@@ -53,24 +53,26 @@ impl Reach<'_> {
 /// edges cross.
 ///
 /// Of triangles of different solids, what lies within reach is related. Of one solid, only what is at a place where two
-/// triangles meet: what is thin is not closed. Nothing is within a solid that is `sound`.
+/// triangles meet: what is thin is not closed. The pairs of one solid that meet may be `known`.
 pub fn relate(
     complex: &mut Complex,
     incidence: Incidence<'_>,
     solid_of: impl Fn(u32) -> u32,
     reach: Reach<'_>,
-    (is_new, is_sound): (impl Fn(u32) -> bool, impl Fn(u32) -> bool),
+    (is_new, known): (impl Fn(u32) -> bool, Option<&[[u32; 2]]>),
 ) -> Relations {
-    let mut near = Vec::new();
     let all: Vec<u32> = (0..complex.triangles.len() as u32).collect();
-    // What is not new is one group, and so is a sound solid: where there is nothing else, nothing is looked at.
-    let faces = 1 + complex.face.iter().copied().max().unwrap_or(0);
+    // What is not new is one group, and so is a solid within which everything is known: where there is nothing else,
+    // nothing is looked at.
     let not_new = u32::MAX - 1;
-    let group = |t: u32| match (is_new(t), solid_of(t)) {
+    let group = |t: u32| match (is_new(t), known) {
         (false, _) => not_new,
-        (true, solid) if is_sound(solid) => faces + solid,
-        (true, _) => complex.face[t as usize],
+        (true, Some(_)) => solid_of(t),
+        (true, None) => complex.face[t as usize],
     };
+    let face = |t: u32| complex.face[t as usize];
+    let known = known.unwrap_or_default().iter().copied();
+    let mut near: Vec<[u32; 2]> = known.filter(|&[s, t]| face(s) != face(t)).collect();
     let search = near_pairs(
         (complex, &all),
         reach,

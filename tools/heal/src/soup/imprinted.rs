@@ -41,8 +41,8 @@ pub fn imprinted(
 ) -> Result<Imprinted, String> {
     let mut reason = String::new();
     let mut complex = complex_of(surface, tolerance);
-    let (crosses_itself, folded) = crossing_themselves(surface, &complex);
-    complex.break_up(&folded);
+    let crossing = Crossing::of(surface, &complex);
+    complex.break_up(&crossing.folded);
     let flat = Contacts {
         gap: Some(0.0),
         ..contacts
@@ -52,7 +52,7 @@ pub fn imprinted(
             (surface, complex.clone()),
             tolerance,
             contacts,
-            &crosses_itself,
+            &crossing,
         ) {
             Ok(imprinted) => return Ok(imprinted),
             Err(why) => reason = why,
@@ -65,11 +65,11 @@ fn attempt(
     (surface, complex): (&Surface, Complex),
     tolerance: &Tolerance,
     contacts: Contacts,
-    crosses_itself: &[bool],
+    crossing: &Crossing,
 ) -> Result<Imprinted, String> {
     let solid = &surface.solid;
-    let sound = (solid.as_slice(), crosses_itself);
-    let overlay = overlay(complex, sound, tolerance.equal(), contacts.gap);
+    let (crosses_itself, meeting) = (&crossing.solids, crossing.pairs.as_slice());
+    let overlay = overlay(complex, (solid, meeting), tolerance.equal(), contacts.gap);
     let complex = &overlay.complex;
     let met = meetings(&complex.points, &complex.triangles, |t| t, |_| true);
     if let Some(first) = met.lowest {
@@ -189,27 +189,42 @@ impl Shared {
     }
 }
 
-/// Which solids have triangles that meet away from common vertices and edges, and which faces do.
-fn crossing_themselves(surface: &Surface, complex: &Complex) -> (Vec<bool>, FxHashSet<u32>) {
-    let mut crosses = vec![false; surface.solids.len()];
-    let mut folded = FxHashSet::default();
-    contacts(
-        &surface.points,
-        &surface.triangles,
-        |t| t,
-        |contact| {
-            let [a, b] = contact.triangles.map(|t| surface.solid[t as usize]);
-            if a == b {
-                crosses[a as usize] = true;
-            }
-            let [a, b] = contact.triangles.map(|t| complex.face[t as usize]);
-            if a == b {
-                folded.insert(a);
-            }
-            true
-        },
-    );
-    (crosses, folded)
+/// What meets away from common vertices and edges.
+struct Crossing {
+    /// Which solids have triangles that do.
+    solids: Vec<bool>,
+    /// The pairs of them, the lower one first.
+    pairs: Vec<[u32; 2]>,
+    /// Faces that have triangles which do.
+    folded: FxHashSet<u32>,
+}
+
+impl Crossing {
+    fn of(surface: &Surface, complex: &Complex) -> Self {
+        let mut crossing = Self {
+            solids: vec![false; surface.solids.len()],
+            pairs: Vec::new(),
+            folded: FxHashSet::default(),
+        };
+        contacts(
+            &surface.points,
+            &surface.triangles,
+            |t| t,
+            |contact| {
+                let [a, b] = contact.triangles.map(|t| surface.solid[t as usize]);
+                if a == b {
+                    crossing.solids[a as usize] = true;
+                    crossing.pairs.push(contact.triangles);
+                }
+                let [a, b] = contact.triangles.map(|t| complex.face[t as usize]);
+                if a == b {
+                    crossing.folded.insert(a);
+                }
+                true
+            },
+        );
+        crossing
+    }
 }
 
 fn sided(surface: &Surface, complex: &Complex, settled: &Settled) -> Surface {
