@@ -42,7 +42,9 @@ impl Query<'_> {
                 .filter_map(|d| Frame::from_axis(self.centre, *d, d.any_orthogonal_vector()))
                 .collect(),
         };
-        let centred = frames.iter().filter_map(|f| self.centred(f));
+        // What is found is where it is, whatever is missing.
+        let rough = if known.is_some() { &[] } else { &frames[..] };
+        let centred = rough.iter().filter_map(|f| self.centred(f));
         let about = (frames.iter().copied().chain(centred)).map(|frame| {
             let multiples = self.order_about(frame.rotation.z_axis, found);
             self.nearly_about(&frame, multiples)
@@ -79,7 +81,7 @@ impl Query<'_> {
         let radius = self.shape.radius(start);
         let fit = Fit {
             operations: &golden(),
-            samples: FIT,
+            samples: QUICK,
             reach: LOOSE_RANGE[1] * radius,
             bound: Bound::plain(self.limits.tolerance * radius),
         };
