@@ -48,12 +48,7 @@ pub fn imprinted(
         ..contacts
     };
     for contacts in [contacts, flat] {
-        match attempt(
-            (surface, complex.clone()),
-            tolerance,
-            contacts,
-            &crossing,
-        ) {
+        match attempt((surface, complex.clone()), tolerance, contacts, &crossing) {
             Ok(imprinted) => return Ok(imprinted),
             Err(why) => reason = why,
         }
