@@ -1,7 +1,7 @@
 //! The hierarchy of boxes.
 
 use arrayvec::ArrayVec;
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
 
 /// Children of a node: as many as fit into one vector instruction of single-precision numbers.
 pub const WIDTH: usize = 4;
@@ -61,20 +61,11 @@ impl Node {
     }
 
     fn set(&mut self, slot: usize, range: &Range, child: u32) {
-        let bounds = &range.bounds;
-        let down = |x: f64| {
-            let y = x as f32;
-            if f64::from(y) > x { y.next_down() } else { y }
-        };
-        let up = |x: f64| {
-            let y = x as f32;
-            if f64::from(y) < x { y.next_up() } else { y }
-        };
         for k in 0..3 {
-            self.low[k][slot] = down(bounds.low[k]);
-            self.high[k][slot] = up(bounds.high[k]);
+            self.low[k][slot] = range.bounds.low[k];
+            self.high[k][slot] = range.bounds.high[k];
         }
-        self.margin[slot] = up(range.margin);
+        self.margin[slot] = range.margin;
         self.child[slot] = child;
     }
 }
@@ -104,6 +95,33 @@ impl Bounds {
         points.into_iter().fold(Self::EMPTY, |b, &p| b.with(p))
     }
 
+}
+
+/// A box around another one, in single precision, in which a hierarchy is built: unions are vector instructions, and
+/// exact.
+#[derive(Clone, Copy)]
+struct Outer {
+    low: Vec3A,
+    high: Vec3A,
+}
+
+impl Outer {
+    const EMPTY: Self = Self {
+        low: Vec3A::INFINITY,
+        high: Vec3A::NEG_INFINITY,
+    };
+
+    fn of(bounds: Bounds) -> Self {
+        let down = |x: f64| {
+            let y = x as f32;
+            if f64::from(y) > x { y.next_down() } else { y }
+        };
+        Self {
+            low: Vec3A::from_array(bounds.low.to_array().map(down)),
+            high: Vec3A::from_array(bounds.high.to_array().map(up)),
+        }
+    }
+
     fn union(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -111,19 +129,31 @@ impl Bounds {
         }
     }
 
-    pub fn half_area(&self) -> f64 {
-        let e = (self.high - self.low).max(DVec3::ZERO);
-        e.x * e.y + e.y * e.z + e.z * e.x
+    fn with(self, p: Vec3A) -> Self {
+        Self {
+            low: self.low.min(p),
+            high: self.high.max(p),
+        }
     }
+
+    fn half_area(&self) -> f32 {
+        let e = (self.high - self.low).max(Vec3A::ZERO);
+        e.dot(Vec3A::new(e.y, e.z, e.x))
+    }
+}
+
+/// A number in single precision that is not smaller.
+fn up(x: f64) -> f32 {
+    let y = x as f32;
+    if f64::from(y) < x { y.next_up() } else { y }
 }
 
 /// A box to be put into a hierarchy.
 #[derive(Clone, Copy)]
 pub struct Item {
-    bounds: Bounds,
-    middle: DVec3,
+    bounds: Outer,
     /// How far beyond the box something still belongs to it.
-    margin: f64,
+    margin: f32,
     index: u32,
 }
 
@@ -136,11 +166,15 @@ impl Item {
     /// A box with a margin around it.
     pub fn with_margin(bounds: Bounds, margin: f64, index: u32) -> Self {
         Self {
-            bounds,
-            middle: 0.5 * (bounds.low + bounds.high),
-            margin,
+            bounds: Outer::of(bounds),
+            margin: up(margin),
             index,
         }
+    }
+
+    /// Twice the middle of the box.
+    fn middle(&self) -> Vec3A {
+        self.bounds.low + self.bounds.high
     }
 }
 
@@ -150,20 +184,20 @@ struct Range {
     first: usize,
     count: usize,
     depth: usize,
-    bounds: Bounds,
-    margin: f64,
+    bounds: Outer,
+    margin: f32,
 }
 
 impl Range {
     fn new(items: &[Item], first: usize, count: usize, depth: usize) -> Self {
         let items = &items[first..first + count];
-        let bounds = (items.iter()).fold(Bounds::EMPTY, |b, i| b.union(i.bounds));
+        let bounds = (items.iter()).fold(Outer::EMPTY, |b, i| b.union(i.bounds));
         Self {
             first,
             count,
             depth,
             bounds,
-            margin: items.iter().map(|i| i.margin).fold(0.0, f64::max),
+            margin: items.iter().map(|i| i.margin).fold(0.0, f32::max),
         }
     }
 }
@@ -237,7 +271,7 @@ fn build(items: &mut [Item]) -> Vec<Node> {
 
 /// Partitions a range of two or more; returns the size of its left part, neither zero nor all.
 fn split(range: &mut [Item], depth: usize) -> usize {
-    let middles = range.iter().fold(Bounds::EMPTY, |b, i| b.with(i.middle));
+    let middles = range.iter().fold(Outer::EMPTY, |b, i| b.with(i.middle()));
     let extent = middles.high - middles.low;
     let axis = (0..3).fold(0, |m, i| if extent[i] > extent[m] { i } else { m });
     let half = range.len() / 2;
@@ -246,8 +280,8 @@ fn split(range: &mut [Item], depth: usize) -> usize {
     }
     let halve = |range: &mut [Item]| {
         range.select_nth_unstable_by(half, |a, b| {
-            a.middle[axis]
-                .total_cmp(&b.middle[axis])
+            a.middle()[axis]
+                .total_cmp(&b.middle()[axis])
                 .then(a.index.cmp(&b.index))
         });
         half
@@ -255,26 +289,26 @@ fn split(range: &mut [Item], depth: usize) -> usize {
     if depth >= HALVING_DEPTH {
         return halve(range);
     }
-    let scale = BINS as f64 / extent[axis];
-    let bin = |i: &Item| (((i.middle[axis] - middles.low[axis]) * scale) as usize).min(BINS - 1);
-    let mut bins = [(Bounds::EMPTY, 0_usize); BINS];
+    let scale = BINS as f32 / extent[axis];
+    let bin = |i: &Item| (((i.middle()[axis] - middles.low[axis]) * scale) as usize).min(BINS - 1);
+    let mut bins = [(Outer::EMPTY, 0_usize); BINS];
     for item in range.iter() {
         let b = &mut bins[bin(item)];
         *b = (b.0.union(item.bounds), b.1 + 1);
     }
-    let mut right = [0.0; BINS];
-    let (mut bounds, mut count) = (Bounds::EMPTY, 0);
+    let mut right = [0.0_f32; BINS];
+    let (mut bounds, mut count) = (Outer::EMPTY, 0);
     for i in (1..BINS).rev() {
         bounds = bounds.union(bins[i].0);
         count += bins[i].1;
-        right[i] = bounds.half_area() * count as f64;
+        right[i] = bounds.half_area() * count as f32;
     }
-    let (mut bounds, mut count) = (Bounds::EMPTY, 0);
-    let mut best = (f64::INFINITY, 0);
+    let (mut bounds, mut count) = (Outer::EMPTY, 0);
+    let mut best = (f32::INFINITY, 0);
     for i in 1..BINS {
         bounds = bounds.union(bins[i - 1].0);
         count += bins[i - 1].1;
-        let cost = bounds.half_area() * count as f64 + right[i];
+        let cost = bounds.half_area() * count as f32 + right[i];
         if count > 0 && count < range.len() && cost < best.0 {
             best = (cost, i);
         }

@@ -278,23 +278,34 @@ impl Round<'_> {
     ) -> FxHashMap<u32, Sides> {
         let mut segments: FxHashMap<u32, Sides> = FxHashMap::default();
         let mut trees: FxHashMap<u32, Tree> = FxHashMap::default();
-        let all = |f: u32| -> FxHashSet<u32> {
-            let within = inside.get(&f).into_iter().flatten();
-            let border = borders[f as usize].iter().flatten();
-            border.chain(within).copied().collect()
-        };
+        // A face with hundreds of others on it is asked for its vertices and sides by each of them.
+        let mut vertices: FxHashMap<u32, FxHashSet<u32>> = FxHashMap::default();
+        let mut sides: FxHashMap<u32, FxHashSet<[u32; 2]>> = FxHashMap::default();
         let mut pairs: Vec<[u32; 2]> = self.found.pairs.iter().copied().collect();
         pairs.sort_unstable();
         for pair in pairs {
-            let [first, second] = pair.map(all);
-            let mut common: Vec<u32> = first.intersection(&second).copied().collect();
+            for f in pair {
+                vertices.entry(f).or_insert_with(|| {
+                    let within = inside.get(&f).into_iter().flatten();
+                    let border = borders[f as usize].iter().flatten();
+                    border.chain(within).copied().collect()
+                });
+            }
+            let [first, second] = pair.map(|f| &vertices[&f]);
+            let (few, many) = match first.len() <= second.len() {
+                true => (first, second),
+                false => (second, first),
+            };
+            let mut common: Vec<u32> = few.iter().filter(|v| many.contains(v)).copied().collect();
             if common.len() < 2 {
                 continue;
             }
             common.sort_unstable();
             let line = on_line(&complex.points, &common, self.within);
             for [own, other] in [pair, [pair[1], pair[0]]] {
-                let sides: FxHashSet<[u32; 2]> = borders[own as usize].iter().copied().collect();
+                let sides = sides
+                    .entry(own)
+                    .or_insert_with(|| borders[own as usize].iter().copied().collect());
                 let tree = trees.entry(own).or_insert_with(|| {
                     let triangles = self.incidence.faces.triangles[own as usize].iter();
                     Tree::new(triangles.map(|&t| complex.corners(t)))

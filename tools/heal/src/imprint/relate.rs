@@ -78,10 +78,13 @@ pub fn relate(
         reach,
         group,
         |s, t| is_new(s) || is_new(t),
-        |s, t| near.push([s, t]),
+        |s, t| {
+            if solid_of(s) != solid_of(t) || meets(complex, s, t) {
+                near.push([s, t]);
+            }
+        },
     );
     near.sort_unstable();
-    near.retain(|&[s, t]| solid_of(s) != solid_of(t) || meets(complex, s, t));
     let mut finder = Finder::new(complex, incidence, reach);
     finder.found.search = search;
     finder.run(&near, &solid_of);
@@ -139,9 +142,12 @@ fn near_pairs(
             if !wanted(s, t) {
                 return true;
             }
+            // What has a vertex in common is within any reach.
+            let ids = complex.triangles[t as usize];
+            let have_common = complex.triangles[s as usize].iter().any(|v| ids.contains(v));
             let [p, q] = [s, t].map(|t| complex.corners(t));
             let within = reach.of(s).max(reach.of(t));
-            if !(is_beside(&p, &q, within) || is_beside(&q, &p, within)) {
+            if have_common || !(is_beside(&p, &q, within) || is_beside(&q, &p, within)) {
                 visit(s, t);
             }
             true

@@ -66,7 +66,13 @@ fn attempt(
     let (crosses_itself, meeting) = (&crossing.solids, crossing.pairs.as_slice());
     let overlay = overlay(complex, (solid, meeting), tolerance.equal(), contacts.gap);
     let complex = &overlay.complex;
-    let met = meetings(&complex.points, &complex.triangles, |t| t, |_| true);
+    // What is as it was drawn and met nothing then meets nothing of its kind now.
+    let apart = u32::MAX - 1;
+    let group = |t: u32| match crossing.is_apart(surface, complex, t) {
+        true => apart,
+        false => t,
+    };
+    let met = meetings(&complex.points, &complex.triangles, group, |_| true);
     if let Some(first) = met.lowest {
         let (one, many) = ("pair of triangles is left", "pairs of triangles are left");
         return Err(format!(
@@ -192,6 +198,8 @@ struct Crossing {
     pairs: Vec<[u32; 2]>,
     /// Faces that have triangles which do.
     folded: FxHashSet<u32>,
+    /// Of each triangle, whether it meets any other one, of whatever solid.
+    meets: Vec<bool>,
 }
 
 impl Crossing {
@@ -200,12 +208,16 @@ impl Crossing {
             solids: vec![false; surface.solids.len()],
             pairs: Vec::new(),
             folded: FxHashSet::default(),
+            meets: vec![false; surface.triangles.len()],
         };
         contacts(
             &surface.points,
             &surface.triangles,
             |t| t,
             |contact| {
+                for t in contact.triangles {
+                    crossing.meets[t as usize] = true;
+                }
                 let [a, b] = contact.triangles.map(|t| surface.solid[t as usize]);
                 if a == b {
                     crossing.solids[a as usize] = true;
@@ -219,6 +231,14 @@ impl Crossing {
             },
         );
         crossing
+    }
+
+    /// Whether a triangle of a divided complex is one of the file, corner by corner, that met nothing.
+    fn is_apart(&self, surface: &Surface, complex: &Complex, t: u32) -> bool {
+        let source = complex.source[t as usize] as usize;
+        let (now, before) = (complex.triangles[t as usize], surface.triangles[source]);
+        let stays = |v: &u32| complex.points[*v as usize] == surface.points[*v as usize];
+        !self.meets[source] && now == before && now.iter().all(stays)
     }
 }
 
