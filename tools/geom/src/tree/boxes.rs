@@ -190,15 +190,55 @@ struct Range {
 
 impl Range {
     fn new(items: &[Item], first: usize, count: usize, depth: usize) -> Self {
-        let items = &items[first..first + count];
-        let bounds = (items.iter()).fold(Outer::EMPTY, |b, i| b.union(i.bounds));
+        let bin = Bin::of(&items[first..first + count]);
         Self {
             first,
             count,
             depth,
-            bounds,
-            margin: items.iter().map(|i| i.margin).fold(0.0, f32::max),
+            bounds: bin.bounds,
+            margin: bin.margin,
         }
+    }
+}
+
+/// Some items.
+#[derive(Clone, Copy)]
+struct Bin {
+    count: usize,
+    bounds: Outer,
+    margin: f32,
+}
+
+impl Bin {
+    const EMPTY: Self = Self {
+        count: 0,
+        bounds: Outer::EMPTY,
+        margin: 0.0,
+    };
+
+    fn of(items: &[Item]) -> Self {
+        items.iter().fold(Self::EMPTY, Self::with)
+    }
+
+    fn with(self, item: &Item) -> Self {
+        self.and(Self {
+            count: 1,
+            bounds: item.bounds,
+            margin: item.margin,
+        })
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            count: self.count + other.count,
+            bounds: self.bounds.union(other.bounds),
+            margin: self.margin.max(other.margin),
+        }
+    }
+
+    /// What all its items together add to the cost of a search.
+    fn cost(&self) -> f32 {
+        self.bounds.half_area() * self.count as f32
     }
 }
 
@@ -242,18 +282,9 @@ fn build(items: &mut [Item]) -> Vec<Node> {
                     area(i).total_cmp(&area(j)).then(j.cmp(&i))
                 });
             let Some(widest) = widest else { break };
-            let Range {
-                first,
-                count,
-                depth,
-                ..
-            } = parts[widest];
-            let left = split(&mut items[first..first + count], depth);
-            parts[widest] = Range::new(items, first, left, depth + 1);
-            parts.insert(
-                widest + 1,
-                Range::new(items, first + left, count - left, depth + 1),
-            );
+            let [left, right] = split(items, parts[widest]);
+            parts[widest] = left;
+            parts.insert(widest + 1, right);
         }
         let mut node = Node::EMPTY;
         for (slot, part) in parts.iter().enumerate() {
@@ -269,59 +300,90 @@ fn build(items: &mut [Item]) -> Vec<Node> {
     nodes
 }
 
-/// Partitions a range of two or more; returns the size of its left part, neither zero nor all.
-fn split(range: &mut [Item], depth: usize) -> usize {
-    let middles = range.iter().fold(Outer::EMPTY, |b, i| b.with(i.middle()));
+/// Partitions a range of two or more into two that are not empty.
+fn split(items: &mut [Item], range: Range) -> [Range; 2] {
+    let all = &mut items[range.first..range.first + range.count];
+    let [left, right] = match split_by_cost(all, range.depth) {
+        Some(parts) => parts,
+        None => {
+            let (left, right) = all.split_at(all.len() / 2);
+            [Bin::of(left), Bin::of(right)]
+        }
+    };
+    let part = |first, bin: Bin| Range {
+        first,
+        count: bin.count,
+        depth: range.depth + 1,
+        bounds: bin.bounds,
+        margin: bin.margin,
+    };
+    [
+        part(range.first, left),
+        part(range.first + left.count, right),
+    ]
+}
+
+/// Partitions items where that costs searches least or, if none of the places looked at is one, into halves; none where
+/// all middles are the same.
+fn split_by_cost(items: &mut [Item], depth: usize) -> Option<[Bin; 2]> {
+    let middles = items.iter().fold(Outer::EMPTY, |b, i| b.with(i.middle()));
     let extent = middles.high - middles.low;
     let axis = (0..3).fold(0, |m, i| if extent[i] > extent[m] { i } else { m });
-    let half = range.len() / 2;
     if extent[axis] <= 0.0 {
-        return half;
+        return None;
     }
-    let halve = |range: &mut [Item]| {
-        range.select_nth_unstable_by(half, |a, b| {
+    let low = middles.low[axis];
+    // No more bins than items.
+    let count = BINS.min(items.len());
+    let scale = count as f32 / extent[axis];
+    let bin = |i: &Item| (((i.middle()[axis] - low) * scale) as usize).min(count - 1);
+    let place = match depth {
+        HALVING_DEPTH.. => None,
+        _ => {
+            let mut bins = [Bin::EMPTY; BINS];
+            for item in items.iter() {
+                let b = &mut bins[bin(item)];
+                *b = b.with(item);
+            }
+            cheapest(&bins[..count])
+        }
+    };
+    let Some((place, parts)) = place else {
+        let half = items.len() / 2;
+        items.select_nth_unstable_by(half, |a, b| {
             a.middle()[axis]
                 .total_cmp(&b.middle()[axis])
                 .then(a.index.cmp(&b.index))
         });
-        half
+        let (left, right) = items.split_at(half);
+        return Some([Bin::of(left), Bin::of(right)]);
     };
-    if depth >= HALVING_DEPTH {
-        return halve(range);
-    }
-    let scale = BINS as f32 / extent[axis];
-    let bin = |i: &Item| (((i.middle()[axis] - middles.low[axis]) * scale) as usize).min(BINS - 1);
-    let mut bins = [(Outer::EMPTY, 0_usize); BINS];
-    for item in range.iter() {
-        let b = &mut bins[bin(item)];
-        *b = (b.0.union(item.bounds), b.1 + 1);
-    }
-    let mut right = [0.0_f32; BINS];
-    let (mut bounds, mut count) = (Outer::EMPTY, 0);
-    for i in (1..BINS).rev() {
-        bounds = bounds.union(bins[i].0);
-        count += bins[i].1;
-        right[i] = bounds.half_area() * count as f32;
-    }
-    let (mut bounds, mut count) = (Outer::EMPTY, 0);
-    let mut best = (f32::INFINITY, 0);
-    for i in 1..BINS {
-        bounds = bounds.union(bins[i - 1].0);
-        count += bins[i - 1].1;
-        let cost = bounds.half_area() * count as f32 + right[i];
-        if count > 0 && count < range.len() && cost < best.0 {
-            best = (cost, i);
-        }
-    }
-    if best.1 == 0 {
-        return halve(range);
-    }
     let mut left = 0;
-    for i in 0..range.len() {
-        if bin(&range[i]) < best.1 {
-            range.swap(left, i);
+    for i in 0..items.len() {
+        if bin(&items[i]) < place {
+            items.swap(left, i);
             left += 1;
         }
     }
-    left
+    Some(parts)
+}
+
+/// The first bin of the right part where that is best, with both parts; neither is empty.
+fn cheapest(bins: &[Bin]) -> Option<(usize, [Bin; 2])> {
+    let mut rights = [Bin::EMPTY; BINS];
+    let mut right = Bin::EMPTY;
+    for i in (1..bins.len()).rev() {
+        right = right.and(bins[i]);
+        rights[i] = right;
+    }
+    let mut left = Bin::EMPTY;
+    let mut best: Option<(f32, usize, [Bin; 2])> = None;
+    for i in 1..bins.len() {
+        left = left.and(bins[i - 1]);
+        let cost = left.cost() + rights[i].cost();
+        if left.count > 0 && rights[i].count > 0 && best.is_none_or(|b| cost < b.0) {
+            best = Some((cost, i, [left, rights[i]]));
+        }
+    }
+    best.map(|(_, place, parts)| (place, parts))
 }

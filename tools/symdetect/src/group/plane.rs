@@ -1,6 +1,6 @@
 //! A mirror plane of a body without rotation symmetry.
 
-use crate::budget::{FIT, SCAN};
+use crate::budget::{FIT, QUICK, SCAN};
 use crate::group::found::{Beside, Found};
 use crate::group::turned::Turned;
 use crate::rotation::{Canonical, OUTLIERS, Query, Rotation};
@@ -107,8 +107,12 @@ impl Query<'_> {
         if !self.can_be_adjusted(motion(&start), radius) {
             return None;
         }
-        let canonical = Canonical::new(mirror, Target::Any);
-        let adjusted = self.adjusted(start, radius, &[canonical], FIT);
+        let canonical = [Canonical::new(mirror, Target::Any)];
+        let rough = self.adjusted(start, radius, &canonical, QUICK);
+        // What a few equations bring no nearer than a candidate must be does not hold.
+        let loose = limits.loosely(shape.radius(&rough));
+        shape.verify_one(motion(&rough), loose, Depth::Quick).ok()?;
+        let adjusted = self.adjusted(rough, radius, &canonical, FIT);
         let frame = frame_of(adjusted.origin, adjusted.rotation.y_axis)?;
         let radius = shape.radius(&frame);
         let bound = limits.bound(radius);

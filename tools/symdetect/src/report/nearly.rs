@@ -118,8 +118,13 @@ impl Query<'_> {
         };
         let frame = self.adjusted(*start, self.shape.radius(start), &operations, FIT / 2);
         let bound = self.limits.bound(self.shape.radius(&frame));
-        let telling = self.telling(&frame, bound, FIT);
-        (self.in_the_way(&frame, order, bound, &telling)).filter(|n| n.share > 0.0)
+        // What many samples are in the way of, some tell already.
+        let nearly = |count| {
+            let telling = self.telling(&frame, bound, count);
+            self.in_the_way(&frame, order, bound, &telling)
+        };
+        nearly(QUICK)?;
+        nearly(FIT).filter(|n| n.share > 0.0)
     }
 
     /// Those of the first samples that tell one turn about a frame's axis from another.

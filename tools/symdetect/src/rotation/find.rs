@@ -1,6 +1,6 @@
 //! The highest rotation order about one axis.
 
-use crate::budget::{FIT, NEXT_BEST};
+use crate::budget::{FIT, NEXT_BEST, QUICK};
 use crate::rotation::limits::{Limits, OUTLIERS};
 use crate::rotation::refine::{Canonical, Fit, refine};
 use crate::shape::{Permutation, Shape, Target};
@@ -112,15 +112,16 @@ impl OrderSearch<'_> {
     fn adjusted(&self, start: Frame, radius: f64, as_is: Option<Rotation>) -> Option<Rotation> {
         let shape = self.shape;
         let bound = self.limits.loosely(radius);
-        let in_frame_for =
-            |operations: &[Canonical]| self.in_frame(&self.fitted(start, radius, operations));
+        let in_frame_for = |operations: &[Canonical]| {
+            self.in_frame(&self.fitted(start, radius, (operations, FIT)))
+        };
         if self.orders.end() > self.orders.start() {
             if shape.deviation_from_revolution(&start, bound).is_some() {
                 return self.better(as_is, in_frame_for(&golden()));
             }
             // About a rough axis, much of a round body that is drawn coarsely is off.
             if shape.off_revolution(&start, bound) <= 2.0 * OUTLIERS {
-                let frame = self.fitted(start, radius, &golden());
+                let frame = self.fitted(start, radius, (&golden(), FIT));
                 let bound = self.limits.bound(shape.radius(&frame));
                 if shape.deviation_from_revolution(&frame, bound).is_some() {
                     return self.better(as_is, self.in_frame(&frame));
@@ -134,16 +135,29 @@ impl OrderSearch<'_> {
             .into_iter()
             .filter(|n| *n <= told)
             .take(NEXT_BEST))
-        .map(|n| in_frame_for(&powers(n, &target)));
+        .map(|n| {
+            // What a few equations bring no nearer than a candidate must be does not hold.
+            let operations = powers(n, &target);
+            let rough = self.fitted(start, radius, (&operations, QUICK));
+            let loose = self.limits.loosely(shape.radius(&rough));
+            let may_hold = shape.verify_rotation(&rough, n, loose, Depth::Quick).is_ok();
+            let frame = may_hold.then(|| self.fitted(rough, radius, (&operations, FIT)))?;
+            self.in_frame(&frame)
+        });
         let found = found.find_map(|found| found);
         self.better(as_is, found)
     }
 
-    /// A candidate's frame adjusted to operations.
-    fn fitted(&self, start: Frame, radius: f64, operations: &[Canonical]) -> Frame {
+    /// A candidate's frame adjusted to operations, from up to so many equations.
+    fn fitted(
+        &self,
+        start: Frame,
+        radius: f64,
+        (operations, samples): (&[Canonical], usize),
+    ) -> Frame {
         let fit = Fit {
             operations,
-            samples: FIT,
+            samples,
             reach: self.limits.loosely(radius).limit,
             bound: self.limits.bound(radius),
         };

@@ -79,6 +79,11 @@ pub fn refine(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
         if !gain || step.mean_square == 0.0 {
             break;
         }
+        if step.promised >= GAIN * step.mean_square {
+            // Not worth another look.
+            best = step.frame;
+            break;
+        }
         frame = step.frame;
         // Outliers leave as the fit gets better, but never what a good fit would keep.
         reach = (FAR * step.mean_square.sqrt()).clamp(reach / FAR, reach);
@@ -132,7 +137,10 @@ pub fn explain(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
 
 struct Step {
     frame: Frame,
+    /// What is left before the frame moves.
     mean_square: f64,
+    /// What would be left of that where it moves to, if nothing bent.
+    promised: f64,
 }
 
 fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Option<Step> {
@@ -244,10 +252,12 @@ impl Equations {
         }
         let solution = eigen::symmetric(self.a);
         let mut x = [0.0; 6];
+        let mut gain = 0.0;
         for (value, vector) in solution.values.iter().zip(&solution.vectors) {
             // Motions that the operations do not see, such as a slide along the axis, are left out.
             if *value > VANISHING * solution.values[5] {
                 let along: f64 = vector.iter().zip(&self.b).map(|(v, b)| v * b).sum();
+                gain += along * along / value;
                 for (x, v) in x.iter_mut().zip(vector) {
                     *x += along / value * v;
                 }
@@ -259,6 +269,7 @@ impl Equations {
         Some(Step {
             frame: moved(frame, turn * scale, shift * scale),
             mean_square: self.sum / self.count,
+            promised: (self.sum - gain) / self.count,
         })
     }
 }

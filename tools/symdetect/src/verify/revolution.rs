@@ -39,7 +39,7 @@ impl Shape {
         let operations = golden_rotations(frame, TURNS, self.target_in_place());
         let samples = self.samples.mixed.iter().take(REPORTED);
         let allowed = samples.zip(&operations).filter_map(|(sample, operation)| {
-            let (value, passes) = self.test(sample, operation, bound);
+            let (value, passes) = self.test(sample, operation, bound, 0.0);
             passes.then_some(value)
         });
         // Beyond any number of facets where nothing is off.

@@ -13,10 +13,16 @@ const SHARE: usize = 512;
 
 impl Shape {
     /// Deviation of one test, and whether it passes. Beyond the bound, the distance to any triangle
-    /// that would do, or 1 when there is none.
-    pub(super) fn test(&self, sample: &Sample, operation: &Operation, bound: Bound) -> (f64, bool) {
+    /// that would do, or 1 when there is none. A deviation no larger than one that is `known` need not be exact.
+    pub(super) fn test(
+        &self,
+        sample: &Sample,
+        operation: &Operation,
+        bound: Bound,
+        known: f64,
+    ) -> (f64, bool) {
         let image = operation.motion.apply(sample.point);
-        let enough = ARITHMETIC.min(0.1 * bound.limit);
+        let enough = known.min(bound.limit).max(ARITHMETIC.min(0.1 * bound.limit));
         let (triangle, target) = (sample.triangle, &operation.target);
         let find = |within| self.near_enough((image, triangle), target, within, enough);
         // A little beyond the limit, so that what is found within it is found exactly.
@@ -67,11 +73,11 @@ impl Shape {
         bound: Bound,
         job: impl Fn(usize) -> (&'a Sample, &'a Operation) + Sync,
     ) -> Result<Deviation, Deviation> {
-        let run = |range: Range<usize>| {
-            let mut worst = Deviation::UNTESTED;
+        let run = |range: Range<usize>, known: Deviation| {
+            let mut worst = known;
             for i in range {
                 let (sample, operation) = job(i);
-                let (value, passes) = self.test(sample, operation, bound);
+                let (value, passes) = self.test(sample, operation, bound, worst.value);
                 let deviation = Deviation {
                     value,
                     at: sample.point,
@@ -87,7 +93,7 @@ impl Shape {
         };
         // What fails mostly fails early.
         let first = count.min(SHARE / 2);
-        let mut worst = run(0..first)?;
+        let begun = run(0..first, Deviation::UNTESTED)?;
         let shares: Vec<Range<usize>> = (first..count)
             .step_by(SHARE)
             .map(|i| i..(i + SHARE).min(count))
@@ -98,8 +104,9 @@ impl Shape {
             if share.start > failed.load(Ordering::Relaxed) {
                 return Ok(Deviation::UNTESTED);
             }
-            run(share.clone()).inspect_err(|_| _ = failed.fetch_min(share.start, Ordering::Relaxed))
+            run(share.clone(), begun).inspect_err(|_| _ = failed.fetch_min(share.start, Ordering::Relaxed))
         };
+        let mut worst = begun;
         for result in threads::map(&shares, unless_failed) {
             worst = worst.max(result?);
         }
