@@ -1,6 +1,6 @@
 //! Where parts of a surface meet that should not.
 
-use geom::contacts::{Contact, Search, contacts};
+use geom::contacts::{Contact, Search, contact, contacts};
 use glam::DVec3;
 
 /// Contacts between triangles of different groups.
@@ -13,6 +13,26 @@ pub struct Meetings {
     pub search: Search,
 }
 
+/// Triangles whose pairs are all looked at: as many as a tree would look at anyway, those around each one.
+const FEW: usize = 12;
+
+impl Meetings {
+    const NONE: Self = Self {
+        lowest: None,
+        count: 0,
+        search: Search::Done,
+    };
+
+    fn add(&mut self, contact: Contact) {
+        let key = |c: &Contact| (c.point.to_array(), c.triangles);
+        let is_lower = |known: &Contact| key(&contact) < key(known);
+        self.count += 1;
+        if self.lowest.as_ref().is_none_or(is_lower) {
+            self.lowest = Some(contact);
+        }
+    }
+}
+
 /// The contacts between triangles of different groups, among those that `matters` accepts.
 pub fn meetings(
     points: &[DVec3],
@@ -20,22 +40,54 @@ pub fn meetings(
     group: impl Fn(u32) -> u32,
     matters: impl Fn(&Contact) -> bool,
 ) -> Meetings {
-    let mut lowest: Option<Contact> = None;
-    let mut count = 0;
-    let search = contacts(points, triangles, group, |contact| {
+    let mut met = Meetings::NONE;
+    met.search = contacts(points, triangles, group, |contact| {
         if matters(&contact) {
-            count += 1;
-            let key = |c: &Contact| (c.point.to_array(), c.triangles);
-            let is_lower = |known: &Contact| key(&contact) < key(known);
-            if lowest.as_ref().is_none_or(is_lower) {
-                lowest = Some(contact);
-            }
+            met.add(contact);
         }
         true
     });
-    Meetings {
-        lowest,
-        count,
-        search,
+    met
+}
+
+/// The contacts between triangles of the same group, numbered from zero on.
+pub fn meetings_within(points: &[DVec3], triangles: &[[u32; 3]], group: &[u32]) -> Meetings {
+    let count = group.iter().max().map_or(0, |m| *m as usize + 1);
+    let mut members = vec![Vec::new(); count];
+    for (t, &g) in (0..).zip(group) {
+        members[g as usize].push(t);
     }
+    let mut met = Meetings::NONE;
+    for members in &members {
+        let own: Vec<[u32; 3]> = members.iter().map(|&t| triangles[t as usize]).collect();
+        let mut found = |[i, j]: [usize; 2], point| {
+            met.add(Contact {
+                triangles: [members[i], members[j]],
+                point,
+            });
+        };
+        if own.len() <= FEW {
+            for j in 1..own.len() {
+                for i in 0..j {
+                    if let Some(point) = contact(points, &own[i], &own[j]) {
+                        found([i, j], point);
+                    }
+                }
+            }
+            continue;
+        }
+        let search = contacts(
+            points,
+            &own,
+            |t| t,
+            |contact| {
+                found(contact.triangles.map(|t| t as usize), contact.point);
+                true
+            },
+        );
+        if search == Search::GaveUp {
+            met.search = search;
+        }
+    }
+    met
 }

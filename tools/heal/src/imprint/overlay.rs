@@ -25,7 +25,7 @@ pub struct Overlay {
     pub added: usize,
     /// The farthest that a point was moved, or an edge to a point.
     pub largest: f64,
-    /// Whether the rounds came to rest.
+    /// Whether the rounds came to rest: then triangles of different faces meet in common vertices and edges only.
     pub done: bool,
 }
 
@@ -193,7 +193,8 @@ impl Round<'_> {
                         divided.triangles.push(corners);
                         divided.source.push(source);
                         divided.face.push(count);
-                        is_new.push(!is_whole);
+                        let is_shifted = corners.iter().any(|v| self.found.shifted.contains(v));
+                        is_new.push(!is_whole || is_shifted);
                     }
                 }
                 count += 1;

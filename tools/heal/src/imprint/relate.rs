@@ -24,6 +24,8 @@ pub struct Relations {
     pub search: Search,
     /// The farthest that something is moved to what it is related to.
     pub largest: f64,
+    /// Vertices that were moved to a feature, with all that is at them.
+    pub shifted: FxHashSet<u32>,
 }
 
 impl Relations {
@@ -144,7 +146,9 @@ fn near_pairs(
             }
             // What has a vertex in common is within any reach.
             let ids = complex.triangles[t as usize];
-            let have_common = complex.triangles[s as usize].iter().any(|v| ids.contains(v));
+            let have_common = complex.triangles[s as usize]
+                .iter()
+                .any(|v| ids.contains(v));
             let [p, q] = [s, t].map(|t| complex.corners(t));
             let within = reach.of(s).max(reach.of(t));
             if have_common || !(is_beside(&p, &q, within) || is_beside(&q, &p, within)) {
@@ -185,6 +189,7 @@ impl<'a> Finder<'a> {
                 pairs: FxHashSet::default(),
                 search: Search::Done,
                 largest: 0.0,
+                shifted: FxHashSet::default(),
             },
             complex,
             edges,
@@ -495,7 +500,11 @@ impl<'a> Finder<'a> {
             .map(|(set, (_, v))| (set, self.complex.points[v as usize]))
             .collect();
         for (set, place) in moves {
-            self.complex.points[set as usize] = place;
+            let at = &mut self.complex.points[set as usize];
+            if *at != place {
+                *at = place;
+                self.found.shifted.insert(set);
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::contacts::{Changed, Claimed, Contacts, Joined, Overlap};
 use crate::imprint::{
     Complex, Curves, Faces, Incidence, Reach, Settled, is_related, overlay, settle,
 };
-use crate::meeting::meetings;
+use crate::meeting::{meetings, meetings_within};
 use crate::words::{place, short};
 use geom::contacts::contacts;
 use geom::edges::{EdgeUse, Edges};
@@ -66,13 +66,10 @@ fn attempt(
     let (crosses_itself, meeting) = (&crossing.solids, crossing.pairs.as_slice());
     let overlay = overlay(complex, (solid, meeting), tolerance.equal(), contacts.gap);
     let complex = &overlay.complex;
-    // What is as it was drawn and met nothing then meets nothing of its kind now.
-    let apart = u32::MAX - 1;
-    let group = |t: u32| match crossing.is_apart(surface, complex, t) {
-        true => apart,
-        false => t,
+    let met = match overlay.done {
+        true => meetings_within(&complex.points, &complex.triangles, &complex.face),
+        false => meetings(&complex.points, &complex.triangles, |t| t, |_| true),
     };
-    let met = meetings(&complex.points, &complex.triangles, group, |_| true);
     if let Some(first) = met.lowest {
         let (one, many) = ("pair of triangles is left", "pairs of triangles are left");
         return Err(format!(
@@ -198,8 +195,6 @@ struct Crossing {
     pairs: Vec<[u32; 2]>,
     /// Faces that have triangles which do.
     folded: FxHashSet<u32>,
-    /// Of each triangle, whether it meets any other one, of whatever solid.
-    meets: Vec<bool>,
 }
 
 impl Crossing {
@@ -208,16 +203,12 @@ impl Crossing {
             solids: vec![false; surface.solids.len()],
             pairs: Vec::new(),
             folded: FxHashSet::default(),
-            meets: vec![false; surface.triangles.len()],
         };
         contacts(
             &surface.points,
             &surface.triangles,
             |t| t,
             |contact| {
-                for t in contact.triangles {
-                    crossing.meets[t as usize] = true;
-                }
                 let [a, b] = contact.triangles.map(|t| surface.solid[t as usize]);
                 if a == b {
                     crossing.solids[a as usize] = true;
@@ -231,14 +222,6 @@ impl Crossing {
             },
         );
         crossing
-    }
-
-    /// Whether a triangle of a divided complex is one of the file, corner by corner, that met nothing.
-    fn is_apart(&self, surface: &Surface, complex: &Complex, t: u32) -> bool {
-        let source = complex.source[t as usize] as usize;
-        let (now, before) = (complex.triangles[t as usize], surface.triangles[source]);
-        let stays = |v: &u32| complex.points[*v as usize] == surface.points[*v as usize];
-        !self.meets[source] && now == before && now.iter().all(stays)
     }
 }
 
@@ -267,7 +250,7 @@ fn labels(settled: &Settled, notices: Vec<String>) -> Labels {
         turned: vec![false; settled.triangles.len()],
         notices,
         crosses: false,
-        is_apart: false,
+        is_apart: true,
     }
 }
 
