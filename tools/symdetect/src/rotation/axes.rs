@@ -19,7 +19,7 @@ impl Query<'_> {
         let principal = candidates::principal(self.shape, self.same_candidate());
         let mut all = principal.directions;
         if principal.degenerate {
-            all.extend(candidates::higher(self.shape));
+            all.extend(self.shape.critical_directions());
             log(&format!("{} candidate directions", all.len()));
         }
         distinct(all, self.same_candidate())
@@ -53,7 +53,7 @@ impl Query<'_> {
         let has_high = main.is_some() || found.iter().any(Rotation::is_high);
         if principal.isotropic || (principal.degenerate && !has_high) {
             let tried = directions.len();
-            directions.extend(candidates::higher(self.shape));
+            directions.extend(self.shape.critical_directions());
             directions = distinct(directions, self.same_candidate());
             directions.truncate(tried + DirectionalMoment::MOST_DIRECTIONS);
             found.extend(directions[tried..].iter().filter_map(find));

@@ -1,6 +1,6 @@
 //! Directions in which symmetry axes and normals of mirror planes can lie.
 
-use crate::shape::{DirectionalMoment, Shape};
+use crate::shape::Shape;
 use geom::eigen;
 use glam::DVec3;
 
@@ -43,11 +43,6 @@ pub fn principal(shape: &Shape, parallel: f64) -> Principal {
         degenerate,
         isotropic,
     }
-}
-
-/// Directions from moments of higher degree, for bodies whose second moments leave a choice.
-pub fn higher(shape: &Shape) -> Vec<DVec3> {
-    DirectionalMoment::new(shape.signed_triangles()).critical_directions()
 }
 
 /// Drops directions that are parallel to an earlier one up to the sine of an angle.

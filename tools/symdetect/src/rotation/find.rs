@@ -100,6 +100,15 @@ impl OrderSearch<'_> {
         centres.find_map(|centre| self.find(centre, direction, false))
     }
 
+    /// The same search for orders up to one.
+    pub fn up_to(&self, highest: u32) -> Self {
+        let (lowest, most) = (*self.orders.start(), *self.orders.end());
+        Self {
+            orders: lowest..=most.min(highest),
+            ..*self
+        }
+    }
+
     fn better(&self, one: Option<Rotation>, other: Option<Rotation>) -> Option<Rotation> {
         match (one, other) {
             (Some(a), Some(b)) if b.beats(&a, 0.5 * self.shape.precision) => Some(b),
@@ -129,18 +138,16 @@ impl OrderSearch<'_> {
             }
         }
         let target = shape.target_in_place();
-        let told = shape.highest_told(&start, radius, bound);
-        let candidates = self.scan(&start, bound, OUTLIERS, self.multiples);
-        let mut found = (candidates
-            .into_iter()
-            .filter(|n| *n <= told)
-            .take(NEXT_BEST))
-        .map(|n| {
+        let told = self.up_to(shape.highest_told(&start, radius, bound));
+        let candidates = told.scan(&start, bound, OUTLIERS, self.multiples);
+        let mut found = (candidates.into_iter().take(NEXT_BEST)).map(|n| {
             // What a few equations bring no nearer than a candidate must be does not hold.
             let operations = powers(n, &target);
             let rough = self.fitted(start, radius, (&operations, QUICK));
             let loose = self.limits.loosely(shape.radius(&rough));
-            let may_hold = shape.verify_rotation(&rough, n, loose, Depth::Quick).is_ok();
+            let may_hold = shape
+                .verify_rotation(&rough, n, loose, Depth::Quick)
+                .is_ok();
             let frame = may_hold.then(|| self.fitted(rough, radius, (&operations, FIT)))?;
             self.in_frame(&frame)
         });

@@ -85,16 +85,14 @@ impl OrderSearch<'_> {
         };
         let mut highest: Option<Rotation> = None;
         // Others are not told from any rotation, under which the body has been found to differ.
-        let told = self.shape.highest_told(frame, radius, bound);
+        let told = self.up_to(self.shape.highest_told(frame, radius, bound));
         // Near a body of revolution many orders fail at the same few places.
         let mut obstacles: Vec<Sample> = Vec::new();
-        for order in self.scan(frame, bound, 0.0, multiples) {
+        for order in told.scan(frame, bound, 0.0, multiples) {
             if highest.as_ref().is_some_and(|h| 2 * order <= h.order) {
                 break;
             }
-            if order > told
-                || (obstacles.iter()).any(|sample| self.stumbles(frame, order, sample, bound))
-            {
+            if (obstacles.iter()).any(|sample| self.stumbles(frame, order, sample, bound)) {
                 continue;
             }
             if own.as_ref().is_some_and(|own| own.order == order) {

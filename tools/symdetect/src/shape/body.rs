@@ -1,5 +1,6 @@
 //! The body, made ready for symmetry tests: centred, scaled to unit size, sampled, and searchable.
 
+use crate::shape::directional::DirectionalMoment;
 use crate::shape::flat::{Exactness, Faces, Surface};
 use crate::shape::interfaces::Interfaces;
 use crate::shape::moments::Moments;
@@ -40,6 +41,7 @@ pub struct Shape {
     /// Whether operations may exchange regions of one shape.
     pub may_exchange: bool,
     drawn: Trees,
+    critical: OnceLock<Vec<DVec3>>,
     behind: OnceLock<Behind>,
     faces: OnceLock<Option<Faces>>,
 }
@@ -92,6 +94,7 @@ impl Shape {
             samples,
             may_exchange: true,
             drawn,
+            critical: OnceLock::new(),
             behind: OnceLock::new(),
             faces: OnceLock::new(),
             vertices,
@@ -179,6 +182,12 @@ impl Shape {
             0.0 => cosine.abs() >= SMOOTH_COSINE,
             sign => sign * cosine >= SMOOTH_COSINE,
         }
+    }
+
+    /// Critical points of the directional moment of high degree.
+    pub fn critical_directions(&self) -> &[DVec3] {
+        self.critical
+            .get_or_init(|| DirectionalMoment::new(self.signed_triangles()).critical_directions())
     }
 
     fn behind(&self) -> &Behind {

@@ -22,7 +22,9 @@ impl Shape {
         known: f64,
     ) -> (f64, bool) {
         let image = operation.motion.apply(sample.point);
-        let enough = known.min(bound.limit).max(ARITHMETIC.min(0.1 * bound.limit));
+        let enough = known
+            .min(bound.limit)
+            .max(ARITHMETIC.min(0.1 * bound.limit));
         let (triangle, target) = (sample.triangle, &operation.target);
         let find = |within| self.near_enough((image, triangle), target, within, enough);
         // A little beyond the limit, so that what is found within it is found exactly.
@@ -104,7 +106,8 @@ impl Shape {
             if share.start > failed.load(Ordering::Relaxed) {
                 return Ok(Deviation::UNTESTED);
             }
-            run(share.clone(), begun).inspect_err(|_| _ = failed.fetch_min(share.start, Ordering::Relaxed))
+            run(share.clone(), begun)
+                .inspect_err(|_| _ = failed.fetch_min(share.start, Ordering::Relaxed))
         };
         let mut worst = begun;
         for result in threads::map(&shares, unless_failed) {
