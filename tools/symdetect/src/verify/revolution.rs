@@ -38,11 +38,11 @@ impl Shape {
     pub fn highest_told(&self, frame: &Frame, radius: f64, bound: Bound) -> u32 {
         let operations = golden_rotations(frame, TURNS, self.target_in_place());
         let samples = self.samples.mixed.iter().take(REPORTED);
-        let allowed = samples.zip(&operations).filter_map(|(sample, operation)| {
-            let (value, passes) = self.test(sample, operation, bound, 0.0);
-            passes.then_some(value)
+        let allowed = (samples.zip(&operations)).fold(0.0, |most: f64, (sample, operation)| {
+            let value = self.passing(sample, operation, bound, most);
+            most.max(value.unwrap_or(0.0))
         });
         // Beyond any number of facets where nothing is off.
-        (PI * radius / allowed.fold(0.0, f64::max)) as u32
+        (PI * radius / allowed) as u32
     }
 }

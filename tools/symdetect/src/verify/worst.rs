@@ -14,34 +14,25 @@ const SHARE: usize = 512;
 impl Shape {
     /// Deviation of one test, and whether it passes. Beyond the bound, the distance to any triangle
     /// that would do, or 1 when there is none. A deviation no larger than one that is `known` need not be exact.
-    pub(super) fn test(
+    fn test(
         &self,
         sample: &Sample,
         operation: &Operation,
         bound: Bound,
         known: f64,
     ) -> (f64, bool) {
+        let beyond = match self.passing(sample, operation, bound, known) {
+            Ok(value) => return (value, true),
+            Err(beyond) => beyond,
+        };
+        if let Some(value) = beyond {
+            return (value, false);
+        }
         let image = operation.motion.apply(sample.point);
-        let enough = known
-            .min(bound.limit)
-            .max(ARITHMETIC.min(0.1 * bound.limit));
         let (triangle, target) = (sample.triangle, &operation.target);
-        let find = |within| self.near_enough((image, triangle), target, within, enough);
-        // A little beyond the limit, so that what is found within it is found exactly.
-        if let Some(n) = find(1.01 * bound.limit)
-            && n.distance <= bound.limit
-        {
-            return (n.distance, true);
-        }
-        let most = self.most(bound);
-        if bound.facets
-            && let Some(n) = self.nearest_behind((image, None), triangle, target, bound.limit)
-        {
-            let passes = self.facets_explain(sample, operation, &n, bound);
-            return (n.distance, passes);
-        }
+        let find = |within| self.near_enough((image, triangle), target, within, ARITHMETIC);
         // Where many triangles are about equally far, an open search would visit them all.
-        let mut within = 4.0 * most.max(ARITHMETIC);
+        let mut within = 4.0 * self.most(bound).max(ARITHMETIC);
         while within < 2.0 {
             if let Some(n) = find(within) {
                 return (n.distance, false);
@@ -49,6 +40,38 @@ impl Shape {
             within *= 4.0;
         }
         (find(f64::INFINITY).map_or(1.0, |n| n.distance), false)
+    }
+
+    /// Deviation of a test that passes; of another one, as an error, if it was found. A deviation no larger than one that is
+    /// `known` need not be exact.
+    pub(super) fn passing(
+        &self,
+        sample: &Sample,
+        operation: &Operation,
+        bound: Bound,
+        known: f64,
+    ) -> Result<f64, Option<f64>> {
+        let image = operation.motion.apply(sample.point);
+        let (triangle, target) = (sample.triangle, &operation.target);
+        let enough = known
+            .min(bound.limit)
+            .max(ARITHMETIC.min(0.1 * bound.limit));
+        // A little beyond the limit, so that what is found within it is found exactly.
+        let within = 1.01 * bound.limit;
+        if let Some(n) = self.near_enough((image, triangle), target, within, enough)
+            && n.distance <= bound.limit
+        {
+            return Ok(n.distance);
+        }
+        if !bound.facets {
+            return Err(None);
+        }
+        let behind = self.nearest_behind((image, None), triangle, target, bound.limit);
+        let n = behind.ok_or(None)?;
+        match self.facets_explain(sample, operation, &n, bound) {
+            true => Ok(n.distance),
+            false => Err(Some(n.distance)),
+        }
     }
 
     /// Whether the image of a sample is on the surface.
