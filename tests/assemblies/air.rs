@@ -208,6 +208,50 @@ fn empty_space_within_is_air_too() {
 }
 
 #[test]
+fn what_flows_past_a_body_is_left_alone_of_it() {
+    let ratchet = Ratchet::default().build();
+    let helical = HelicalGear {
+        order: 6,
+        radius: 1.0,
+        bore: 0.3,
+        height: 0.5,
+        twist: 0.2,
+        layers: 2,
+    }
+    .build();
+    let ends = ["below", "above", "side"];
+    for (what, body, parts) in [
+        ("ratchet", ratchet, &ends[..]),
+        // Half turns take one end to the other.
+        ("helical gear", helical, &["ends", "side"]),
+    ] {
+        let around = ["--enclosure", "cylinder:1.5"];
+        let (both, _) = meshed(&body, &around);
+        let (found, mesh) = meshed(&body, &[&around[..], &["--fluid"]].concat());
+        let air = read(&both).regions.pop().and_then(|r| r.volume);
+        let air = air.expect("known");
+        let of_mesh = regions(&mesh);
+        assert_eq!(of_mesh.len(), 1, "{what}");
+        assert_eq!(of_mesh[0].0, "air", "{what}");
+        assert!((of_mesh[0].1 - air).abs() < 1e-9 * air, "{what}");
+        let document = read(&found);
+        let source = document.source.expect("known");
+        assert!((source.volume - air).abs() < 1e-9 * air, "{what}");
+        // The surface of the body, and the outer boundary by its parts.
+        let mut names = vec![body.materials[0].name.clone()];
+        names.extend(parts.iter().map(|part| format!("enclosure-{part}")));
+        let markers = document.markers.iter();
+        let (found, areas): (Vec<_>, Vec<_>) = markers
+            .map(|m| (m.name.clone(), m.area.expect("known")))
+            .unzip();
+        assert_eq!(found, names, "{what}");
+        let all: f64 = areas.iter().sum();
+        let boundary = source.boundary_area;
+        assert!((all - boundary).abs() < 1e-9 * boundary, "{what}");
+    }
+}
+
+#[test]
 fn enclosures_that_cannot_be_are_refused() {
     let motor = encode(&motor(6), EXACT_STL);
     let cases: [(&str, i32, &[&str]); 7] = [
@@ -236,6 +280,7 @@ fn enclosures_that_cannot_be_are_refused() {
         )
         .fails(code, parts);
     }
+    run("symdetect", &["--fluid"], &motor).fails(2, &["--enclosure"]);
     // As the message says.
     let arguments = ["--order", "2", "--enclosure", "box:2"];
     run("symdetect", &arguments, &motor).success();

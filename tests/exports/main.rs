@@ -38,13 +38,16 @@ fn via() -> bodies::Body {
     body
 }
 
+/// Angle of the blades of such an impeller over its height of one, radians.
+const TWIST: f64 = 0.8;
+
 /// An impeller whose blades turn so far that a seam between them is no plane.
 fn twisted_impeller(order: u32) -> bodies::Body {
     Impeller {
         order,
         bore: 0.2,
         height: 1.0,
-        twist: 0.8,
+        twist: TWIST,
         layers: 4,
         ..Impeller::default()
     }

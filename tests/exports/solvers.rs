@@ -2,12 +2,12 @@
 
 use crate::referee::{close, is_there, python};
 use crate::tools::{coarse_mesh, mesh, rotassemble};
-use crate::{BETWEEN_BLADES, off_plane, twisted_impeller, via};
+use crate::{BETWEEN_BLADES, TWIST, off_plane, twisted_impeller, via};
 use bodies::{Body, Prism, Ratchet};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
-use support::{EXACT_STL, encode};
+use support::{EXACT_STL, encode, run};
 
 const SCRIPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/exports/solvers.py");
 
@@ -177,6 +177,61 @@ fn cyclic_patches_of_a_curved_seam_are_images() {
     assert!(found["open"].as_f64() < Some(1e-12));
     let seventh = body.volume(0) / 7.0;
     close(&found["volume_by_faces"], seventh, 1e-6, "the sector");
+}
+
+#[test]
+fn a_passage_between_blades_has_cyclic_patches_that_follow_them() {
+    if !is_there() {
+        return;
+    }
+    let body = twisted_impeller(7);
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    // Turned as the blades are, to far beyond both ends of them.
+    let seam = folder.join("seam.txt");
+    let line = |r: f64, z: f64| format!("{r} {z} {}\n", TWIST.to_degrees() * z);
+    let rows: String = [0.0, 3.0]
+        .iter()
+        .flat_map(|&r| [line(r, -2.0), line(r, 3.0)])
+        .collect();
+    std::fs::write(&seam, rows).expect("a file");
+    let around = ["-q", "--enclosure", "cylinder:1.2", "--fluid"];
+    let passage = run("symdetect", &around, &encode(&body, EXACT_STL)).success();
+    let enclosed = tmesh::read(passage.as_slice()).expect("valid");
+    let along = ["--hub", "none", "--seam", seam.to_str().expect("text")];
+    let input = coarse_mesh(folder, &passage, &along);
+    let document = tmesh::read(std::fs::read(&input).expect("a file").as_slice()).expect("valid");
+    let off = off_plane(&document);
+    assert!(off > 0.2, "{off}");
+    let case = folder.join("case");
+    export(&input, &case.join("constant/polyMesh"), &["--sector"]);
+    let found = read("polymesh", &case);
+    let [a, b] = ["wall-a", "wall-b"].map(|name| &found["patches"][name]);
+    for (patch, other, turn) in [(a, "wall-b", 1.0 / 7.0), (b, "wall-a", -1.0 / 7.0)] {
+        assert_eq!(
+            (&patch["type"], &patch["other"]),
+            (&"cyclic".into(), &other.into())
+        );
+        close(&patch["turn"], turn, 1e-12, "the turn");
+    }
+    assert_eq!(a["faces"], b["faces"]);
+    let of_other = b["area"].as_f64().expect("an area");
+    close(&a["area"], of_other, 1e-12, "both faces");
+    assert!(found["off"].as_f64() < Some(1e-12), "{}", found["off"]);
+    assert!(found["open"].as_f64() < Some(1e-12));
+    // Blades, inlet, outlet and casing.
+    let blades = body.materials[0].name.as_str();
+    for name in [
+        blades,
+        "enclosure-below",
+        "enclosure-above",
+        "enclosure-side",
+    ] {
+        let seventh = area(&enclosed, name) / 7.0;
+        close(&found["patches"][name]["area"], seventh, 1e-6, name);
+    }
+    let all = enclosed.source.expect("known").volume;
+    close(&found["volume_by_faces"], all / 7.0, 1e-6, "the passage");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The command line of `symdetect`.
 
 use crate::detect::detect;
-use crate::enclosure::{self, Enclosure, Impossible};
+use crate::enclosure::{self, Content, Enclosure, Impossible};
 use crate::error::Error;
 use crate::params::Params;
 use crate::report::{Defects, Detection, FailureReport, Report, ReportGap, svg};
@@ -56,6 +56,12 @@ pub struct Cli {
     /// large as the body; both have the symmetry found
     #[arg(long, value_name = "cylinder|box:FACTOR", value_parser = Enclosure::parse)]
     enclosure: Option<Enclosure>,
+
+    /// Leave the body itself out: what goes on is the space around it, such as the passages between blades. Its outer boundary
+    /// is the surfaces `enclosure-below`, `enclosure-above` and `enclosure-side` (`enclosure-ends` where the symmetry
+    /// turns the axis over); the body's surfaces keep their names
+    #[arg(long, requires = "enclosure")]
+    fluid: bool,
 
     /// Direction of the axis, to be verified
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
@@ -370,7 +376,10 @@ impl Command for Cli {
         }
         let picture = (self.svg.as_ref()).map(|path| (path, svg(&document, &found, &self.title())));
         let mut symmetry = found.symmetry.clone();
-        if let Some(enclosure) = self.enclosure {
+        if let Some(mut enclosure) = self.enclosure {
+            if self.fluid {
+                enclosure.content = Content::Fluid;
+            }
             let filled = enclosure::fill(&mut document, &mut symmetry, enclosure);
             let note = filled.map_err(|impossible| {
                 let failure = Failure::from(impossible);

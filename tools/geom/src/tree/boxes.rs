@@ -94,7 +94,6 @@ impl Bounds {
     pub fn of<'a>(points: impl IntoIterator<Item = &'a DVec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, |b, &p| b.with(p))
     }
-
 }
 
 /// A box around another one, in single precision, in which a hierarchy is built: unions are vector instructions, and

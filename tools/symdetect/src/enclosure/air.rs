@@ -1,7 +1,9 @@
 //! The region between a body and its outer boundary.
 
-use super::outline::{Enclosure, Impossible, Outline};
-use geom::measure::{area_of_region, corners, tet_volume};
+use super::fluid::{keep_only, name_of};
+use super::outline::{Content, Enclosure, Impossible, Outline};
+use super::surface::Part;
+use geom::measure::{area_of_region, corners, double_area_vector, tet_volume};
 use glam::DVec3;
 use tmesh::{Document, Marker, OUTSIDE, Region, Symmetry, Triangle};
 
@@ -32,7 +34,7 @@ pub fn fill(
     heal::check_scale(&vertices).map_err(|_| Impossible::TooLarge(kit::number(largest)))?;
 
     let region = free_id(document.regions.iter().map(|r| r.id));
-    let marker = free_id(document.markers.iter().map(|m| m.id));
+    let marker_of = mark(document, symmetry, enclosure.content);
     let template = &mut document.templates[0];
     for t in &mut template.triangles {
         for side in [&mut t.front, &mut t.back] {
@@ -45,42 +47,90 @@ pub fn fill(
     template.vertices.extend(vertices);
     template
         .triangles
-        .extend(triangles.into_iter().map(|t| Triangle {
+        .extend(triangles.into_iter().map(|(t, part)| Triangle {
             vertices: t.map(|v| v + first),
-            marker,
+            marker: marker_of(part),
             front: OUTSIDE,
             back: region,
         }));
     let volume = volume_behind(&template.vertices, &template.triangles, region);
-    let area = area_of_region(&template.vertices, template.faces(), OUTSIDE);
-    if let Some(source) = &mut document.source {
-        source.triangles = template.triangles.len() as u64;
-        source.volume += volume;
-        source.boundary_area = area;
-    }
     document.regions.push(Region {
         id: region,
         name: AIR.to_owned(),
         max_volume: None,
         volume: Some(volume),
     });
-    let is_taken = document.markers.iter().any(|m| m.name == BOUNDARY);
-    document.markers.push(Marker {
-        id: marker,
-        name: match is_taken {
-            true => format!("{BOUNDARY}-{marker}"),
-            false => BOUNDARY.to_owned(),
-        },
-        area: Some(area),
-    });
     document.regions.sort_unstable_by_key(|r| r.id);
     document.markers.sort_unstable_by_key(|m| m.id);
+    if enclosure.content == Content::Fluid {
+        keep_only(document, symmetry, region);
+    }
+    measure(document, volume, enclosure.content);
     rescale(symmetry, &document.templates[0].vertices);
+    let place = match enclosure.content {
+        Content::Both => "in",
+        Content::Fluid => "left out of the",
+    };
     Ok(format!(
-        "in {AIR} up to {}: region '{AIR}' has the volume {}",
+        "{place} {AIR} up to {}: region '{AIR}' has the volume {}",
         outline.words(),
         kit::number(volume)
     ))
+}
+
+/// Adds the markers of the outer boundary: one, or those of its parts where flow is to enter and to leave; returns which
+/// part has which.
+fn mark(
+    document: &mut Document,
+    symmetry: &Symmetry,
+    content: Content,
+) -> impl Fn(Part) -> u32 + use<> {
+    let parts = [Part::Below, Part::Above, Part::Side];
+    let names = parts.map(|part| match content {
+        Content::Both => BOUNDARY.to_owned(),
+        Content::Fluid => format!("{BOUNDARY}-{}", name_of(part, symmetry.group)),
+    });
+    let mut ids = [0; 3];
+    for i in 0..3 {
+        if let Some(same) = (0..i).find(|&j| names[j] == names[i]) {
+            ids[i] = ids[same];
+            continue;
+        }
+        let id = free_id(document.markers.iter().map(|m| m.id));
+        let is_taken = document.markers.iter().any(|m| m.name == names[i]);
+        document.markers.push(Marker {
+            id,
+            name: match is_taken {
+                true => format!("{}-{id}", names[i]),
+                false => names[i].clone(),
+            },
+            area: None,
+        });
+        ids[i] = id;
+    }
+    move |part| ids[part as usize]
+}
+
+/// Writes down how much there is now of what has changed.
+fn measure(document: &mut Document, air: f64, content: Content) {
+    let template = &document.templates[0];
+    let boundary = area_of_region(&template.vertices, template.faces(), OUTSIDE);
+    if let Some(source) = &mut document.source {
+        source.triangles = template.triangles.len() as u64;
+        source.boundary_area = boundary;
+        source.volume = match content {
+            Content::Both => source.volume + air,
+            Content::Fluid => air,
+        };
+    }
+    for marker in document.markers.iter_mut().filter(|m| m.area.is_none()) {
+        let own = template.triangles.iter().filter(|t| t.marker == marker.id);
+        let area = own.map(|t| {
+            let [a, b, c] = corners(&template.vertices, t);
+            0.5 * double_area_vector(a, b, c).length()
+        });
+        marker.area = Some(area.sum());
+    }
 }
 
 /// An id that is not in a table: the one after the last, or the first that is free where there is none.

@@ -1,8 +1,9 @@
 //! Air around a body: a region between its surface and a simple outer boundary that has the symmetry found.
 
 mod air;
+mod fluid;
 mod outline;
 mod surface;
 
 pub use air::fill;
-pub use outline::{Enclosure, Impossible};
+pub use outline::{Content, Enclosure, Impossible};

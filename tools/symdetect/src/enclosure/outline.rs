@@ -11,6 +11,17 @@ pub struct Enclosure {
     pub kind: Kind,
     /// Its size, relative to that of the body; greater than 1.
     pub factor: f64,
+    /// What is kept of it all.
+    pub content: Content,
+}
+
+/// What is kept of a body and the space around it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// The body, and the space around it as one more region.
+    Both,
+    /// The space around it alone, which flows past the body: the passages between blades.
+    Fluid,
 }
 
 /// Shapes of outer boundaries.
@@ -36,7 +47,11 @@ impl Enclosure {
             _ => return Err(wanted.to_owned()),
         };
         match factor.parse::<f64>() {
-            Ok(factor) if factor > 1.0 && factor.is_finite() => Ok(Self { kind, factor }),
+            Ok(factor) if factor > 1.0 && factor.is_finite() => Ok(Self {
+                kind,
+                factor,
+                content: Content::Both,
+            }),
             Ok(_) => Err("the factor must be greater than 1".to_owned()),
             Err(e) => Err(format!("'{factor}': {e}")),
         }
@@ -111,7 +126,7 @@ impl Outline {
         symmetry: &Symmetry,
         enclosure: Enclosure,
     ) -> Result<Self, Impossible> {
-        let Enclosure { kind, factor } = enclosure;
+        let Enclosure { kind, factor, .. } = enclosure;
         let group = symmetry.group;
         let in_place = match (kind, group.is_trivial()) {
             // Nothing asks for other directions than those of the coordinates.

@@ -4,9 +4,20 @@ use super::outline::{Outline, Section};
 use glam::{DVec2, DVec3};
 use tmesh::Isometry;
 
+/// Where on an outer boundary something is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// Across the axis, at its lower end.
+    Below,
+    /// Across the axis, at its upper end.
+    Above,
+    /// Around the axis.
+    Side,
+}
+
 impl Outline {
     /// Vertices in world coordinates, and triangles with outward normals.
-    pub fn surface(&self) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    pub fn surface(&self) -> (Vec<DVec3>, Vec<([u32; 3], Part)>) {
         let corners = self.corners();
         let n = corners.len() as u32;
         let height = self.half_height;
@@ -19,7 +30,12 @@ impl Outline {
         let triangles = (0..n).flat_map(|a| {
             let b = (a + 1) % n;
             let (c, d) = (b + n, a + n);
-            [[a, b, c], [a, c, d], [bottom, b, a], [top, d, c]]
+            [
+                ([a, b, c], Part::Side),
+                ([a, c, d], Part::Side),
+                ([bottom, b, a], Part::Below),
+                ([top, d, c], Part::Above),
+            ]
         });
         (vertices, triangles.collect())
     }
