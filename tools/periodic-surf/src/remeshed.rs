@@ -25,6 +25,8 @@ pub struct Smoothed {
 pub struct Remeshing {
     /// At most so far, model units.
     pub deviation: f64,
+    /// What is less off a plane may be noise, model units.
+    pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
     pub flat: f64,
     /// Angle from which on an edge is a feature, degrees.
@@ -75,14 +77,12 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Opt
         links: &links,
         onto: &onto,
         deviation: remeshing.deviation,
+        noise: remeshing.noise,
         flat: remeshing.flat,
         feature: libm::cos(remeshing.feature_angle.to_radians()),
-        // Beside faces that stay as they were cut, edges of other lengths leave bad triangles: a blade of a fan that is cut by
-        // a seam got five million tetrahedra for forty thousand. With linked faces as well: the surface of a star of ten lobes
-        // that was cut at its half turns was divided into 56,230 points for 9,400.
-        sizes: match held.contains(&true) || !links.is_empty() {
-            true => remeshing.sizes.by_shape(),
-            false => remeshing.sizes,
+        sizes: match takes_lengths(document, index) {
+            true => remeshing.sizes,
+            false => remeshing.sizes.by_shape(),
         },
     };
     let done = remesh(&surface, &rules)?;
@@ -108,6 +108,14 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Opt
         triangles: done.triangles,
         told: done.told,
     })
+}
+
+/// Whether edges of a template get the length that is asked for. Beside faces that stay as they were cut, edges of other lengths
+/// leave bad triangles: a blade of a fan that is cut by a seam got five million tetrahedra for forty thousand. With linked faces
+/// as well: the surface of a star of ten lobes that was cut at its half turns was divided into 56,230 points for 9,400.
+pub fn takes_lengths(document: &Document, index: usize) -> bool {
+    let gluings = &document.templates[index].gluings;
+    !gluings.iter().any(|gluing| gluing.is_seam(index)) && !held(document, index).contains(&true)
 }
 
 /// The faces of a template that are glued to each other; `keys` has the face of each label.

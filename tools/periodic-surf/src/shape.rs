@@ -1,7 +1,9 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
-use crate::remeshed::{Remeshing, Smoothed, remeshed};
+use crate::apart::apart;
+use crate::remeshed::{Remeshing, Smoothed, remeshed, takes_lengths};
 use crate::surface::{same_body, same_size};
+use geom::tolerance::Tolerance;
 use kit::tolerance;
 use mesher::{Log, Params, Progress};
 use remesh::Sizes;
@@ -13,7 +15,8 @@ use tmesh::{Deviation, Document, Wishes};
 const NARROWER: f64 = 0.25;
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
-/// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for.
+/// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for. Where
+/// that is left to the length of edges that is asked for, the document's wishes say afterwards how far surfaces have moved.
 pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> Vec<String> {
     let tolerance = tolerance(document);
     let mut facts = Vec::new();
@@ -22,20 +25,13 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
     if !params.quality || deviation <= tolerance.equal() {
         return facts;
     }
-    // Nobody asked for more than the tolerance: then volume and area stay what they are within what the body is off its
-    // symmetry, or it is remeshed within that.
-    let attempts = match document.wishes.deviation() {
-        Deviation::Auto if deviation > tolerance.drift() => {
-            let drift = tolerance.drift();
-            let wider = std::iter::successors(Some(deviation), |d| Some(d * NARROWER));
-            let wider = wider.take_while(|d| *d > drift);
-            wider
-                .map(|d| (d, Some(drift)))
-                .chain([(drift, None)])
-                .collect()
-        }
-        _ => vec![(deviation, None)],
-    };
+    let within = attempts(document, &tolerance, deviation);
+    let by_length = by_length(document, radius).map(|wide| Attempt {
+        deviation: wide.max(deviation),
+        noise: deviation,
+        drift: None,
+    });
+    let mut farthest = 0.0_f64;
     for index in 0..document.templates.len() {
         log.progress(&Progress {
             template: index,
@@ -43,37 +39,108 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
             points: 0.0,
             tetrahedra: 0.0,
         });
-        for &(deviation, drift) in &attempts {
-            let remeshing = Remeshing {
-                deviation,
-                flat: tolerance.flat(),
-                feature_angle: document.wishes.feature_angle(),
-                sizes: sizes(&document.wishes),
-            };
-            let Some(smoothed) = remeshed(document, index, &remeshing) else {
-                continue;
-            };
+        let wide = by_length.filter(|_| takes_lengths(document, index));
+        for attempt in wide.iter().chain(&within) {
             let before = &document.templates[index];
-            let kept = same_body(before, &smoothed.template, (deviation, 0.0)).and_then(|()| {
-                drift.map_or(Ok(()), |d| {
-                    same_size((before, index), &smoothed.template, d)
-                })
-            });
-            if let Err(what) = kept {
-                log.detail(&format!(
-                    "template {index}: not remeshed within {deviation:.1e}, {what}"
-                ));
-                continue;
+            match attempt.remeshed(document, index, tolerance.flat()) {
+                None => {}
+                Some(Err(what)) => log.detail(&format!(
+                    "template {index}: not remeshed within {:.1e}, {what}",
+                    attempt.deviation
+                )),
+                Some(Ok(smoothed)) => {
+                    if wide.is_some() {
+                        farthest = farthest.max(apart(before, &smoothed.template));
+                    }
+                    facts.push(fact(
+                        index,
+                        &smoothed,
+                        before.triangles.len(),
+                        attempt.deviation,
+                    ));
+                    take(document, index, smoothed);
+                    break;
+                }
             }
-            facts.push(fact(index, &smoothed, before.triangles.len(), deviation));
-            take(document, index, smoothed);
-            break;
         }
     }
     if !facts.is_empty() {
         document.wishes.keep_surface = Some(true);
     }
+    if farthest > deviation {
+        document.wishes.deviation = Some(Deviation::Within(farthest / radius));
+    }
     facts
+}
+
+/// How far a surface may move, and what must not change.
+#[derive(Clone, Copy)]
+struct Attempt {
+    /// At most so far, model units.
+    deviation: f64,
+    /// What is less off a plane may be noise, model units.
+    noise: f64,
+    /// Volumes and areas stay what they are within what comes of a surface that is off by this, model units.
+    drift: Option<f64>,
+}
+
+impl Attempt {
+    /// A template's surface, or what is wrong with it; `None` where there is nothing to do.
+    fn remeshed(
+        &self,
+        document: &Document,
+        index: usize,
+        flat: f64,
+    ) -> Option<Result<Smoothed, String>> {
+        let remeshing = Remeshing {
+            deviation: self.deviation,
+            noise: self.noise,
+            flat,
+            feature_angle: document.wishes.feature_angle(),
+            sizes: sizes(&document.wishes),
+        };
+        let smoothed = remeshed(document, index, &remeshing)?;
+        let before = &document.templates[index];
+        let kept = same_body(before, &smoothed.template, (self.deviation, 0.0)).and_then(|()| {
+            self.drift.map_or(Ok(()), |drift| {
+                same_size((before, index), &smoothed.template, drift)
+            })
+        });
+        Some(kept.map(|()| smoothed))
+    }
+}
+
+/// What is tried one after the other. Where nobody asked for more than the tolerance, volume and area stay what they are
+/// within what the body is off its symmetry, or it is remeshed within that.
+fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<Attempt> {
+    let attempt = |deviation: f64, drift: Option<f64>| Attempt {
+        deviation,
+        noise: deviation,
+        drift,
+    };
+    match document.wishes.deviation() {
+        Deviation::Auto if deviation > tolerance.drift() => {
+            let drift = tolerance.drift();
+            let wider = std::iter::successors(Some(deviation), |d| Some(d * NARROWER));
+            let wider = wider.take_while(|d| *d > drift);
+            wider
+                .map(|d| attempt(d, Some(drift)))
+                .chain([attempt(drift, None)])
+                .collect()
+        }
+        _ => vec![attempt(deviation, None)],
+    }
+}
+
+/// How far surfaces may move for the sake of a length of edges, model units, where nobody says how far: a chord of that length on
+/// the tightest arc that it turns along by the angle wanted, a smaller one gets shorter chords, is its length times that angle
+/// over eight above it. Four times that, since remeshing takes a quarter of the deviation for the height of its chords.
+fn by_length(document: &Document, radius: f64) -> Option<f64> {
+    let wishes = &document.wishes;
+    let length = wishes
+        .edge_length()
+        .filter(|_| wishes.deviation() == Deviation::Auto)?;
+    Some((0.5 * length * sizes(wishes).turn).min(Deviation::LARGEST * radius))
 }
 
 /// How long the edges of surfaces are to be.

@@ -43,6 +43,8 @@ pub struct Rules<'a> {
     pub links: &'a [Link],
     /// How far the surface may move at most, model units.
     pub deviation: f64,
+    /// What is less than this off a plane, or away from each other, may be noise, model units; the deviation at most.
+    pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
     pub flat: f64,
     /// Cosine of the angle between the normals at a feature edge, from which on it is one.

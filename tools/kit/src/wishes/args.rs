@@ -20,7 +20,7 @@ pub struct WishArgs {
     #[arg(conflicts_with = "edge_length")]
     max_volume: Option<f64>,
 
-    /// Length of edges, model units: no tetrahedron is larger than the regular one with this edge, and where the surface of
+    /// Length of edges in the mean, model units: no tetrahedron is larger than a quarter of its cube, and where the surface of
     /// a wedge between mirror planes is remeshed, its edges get this length, up or down, as far as the deviation allows
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = positive)]
     edge_length: Option<f64>,
@@ -35,8 +35,8 @@ pub struct WishArgs {
     optimize: Option<f64>,
 
     /// How far the surface that is meshed may be from the input's, relative to the radius about the axis; 0 keeps every
-    /// triangle, `auto` allows the tolerance of the symmetry, or what the input is off it if that is more, and keeps all where
-    /// the input has its symmetry exactly [default: inherited, or auto]
+    /// triangle, `auto` allows the tolerance of the symmetry, or what the input is off it if that is more, or what chords of
+    /// the edge length asked for take, and keeps all where the input has its symmetry exactly [default: inherited, or auto]
     #[arg(long, value_name = "REL|auto", allow_negative_numbers = true, value_parser = deviation)]
     deviation: Option<Deviation>,
 
@@ -76,10 +76,6 @@ struct RegionSize {
 /// Dihedral angle of the regular tetrahedron, degrees, arccos(1/3): no tetrahedron's smallest one is
 /// larger, nor its largest one smaller.
 const REGULAR_DIHEDRAL: f64 = 70.528_779_365_509_31;
-
-/// Largest deviation, as that of the symmetry that `symdetect` searches for: a tenth of the radius leaves little of a
-/// body's shape.
-const LARGEST_DEVIATION: f64 = 0.1;
 
 impl WishArgs {
     /// The wishes of the command line alone.
@@ -190,10 +186,10 @@ fn deviation(text: &str) -> Result<Deviation, String> {
         return Ok(Deviation::Auto);
     }
     let x = number(text)?;
-    if (0.0..=LARGEST_DEVIATION).contains(&x) {
+    if (0.0..=Deviation::LARGEST).contains(&x) {
         Ok(Deviation::Within(x))
     } else {
-        Err(format!("must be from 0 to {LARGEST_DEVIATION}, or auto"))
+        Err(format!("must be from 0 to {}, or auto", Deviation::LARGEST))
     }
 }
 

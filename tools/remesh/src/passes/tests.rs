@@ -70,6 +70,7 @@ fn linked(
             links,
             onto: &nowhere,
             deviation,
+            noise: deviation,
             flat: 1e-10,
             feature: 0.75_f64.sqrt(),
             sizes: Sizes {

@@ -91,7 +91,7 @@ impl Allowance {
             let largest = corners.into_iter().fold(0.0, f64::max);
             match patches.planes[patches.of[t] as usize] {
                 Some(_) => rules.flat,
-                None if !bent[patches.of[t] as usize] => rules.deviation,
+                None if !bent[patches.of[t] as usize] => rules.noise,
                 None => largest.min(rules.deviation).max(rules.flat),
             }
         };
@@ -106,7 +106,7 @@ impl Allowance {
 }
 
 /// Of each patch, whether it bends: whether its triangles have directions that are apart by so much that, over its width, the
-/// surface is farther than the deviation from a plane. Flat faces do not.
+/// surface is farther than noise from a plane. Flat faces do not.
 fn bent(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
     let count = patches.planes.len();
     let (mut vector, mut area, mut border) =
@@ -135,7 +135,7 @@ fn bent(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
         // The height of a roof whose sides are off by that angle. What has no border is closed, and bends.
         let width = 4.0 * area[patch] / border[patch];
         let rise = 0.5 * width * angle[patch];
-        patches.planes[patch].is_none() && rise.is_nan() | (rise > rules.deviation)
+        patches.planes[patch].is_none() && rise.is_nan() | (rise > rules.noise)
     };
     (0..count).map(is_bent).collect()
 }

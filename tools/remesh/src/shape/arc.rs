@@ -21,7 +21,7 @@ impl Arc {
     }
 
     /// Length of chords that turn as far as is wanted and are as far from the arc as may be; at least as they are drawn, and
-    /// twice the deviation, as shorter ones may all be one point, unless shorter ones are asked for.
+    /// twice what may be noise, as shorter ones may all be one point, unless shorter ones are asked for.
     pub fn size(&self, rules: &Rules<'_>) -> f64 {
         let sizes = &rules.sizes;
         let turned = sizes.turn / self.curvature;
@@ -30,7 +30,7 @@ impl Arc {
         // from a CAD kernel: with half of it the first percentile of the angles is 13.5 and 14.5 degrees, with a quarter 16.0 and
         // 19.6, for a tenth more elements at most; parts with mirror walls get up to 1.8 times as many.
         let near = (2.0 * rules.deviation / self.curvature).sqrt();
-        let drawn = self.width().max(2.0 * rules.deviation);
+        let drawn = self.width().max(2.0 * rules.noise);
         let asked = match sizes.turn_is_asked {
             true => turned.min(sizes.longest()),
             false => sizes.longest(),
