@@ -299,7 +299,7 @@ fn vase_of(around: u32) -> Vec<u8> {
 fn fine_drawings_get_as_many_elements_as_coarse_ones() {
     let made = [24, 48, 120].map(|around| {
         let found = run("symdetect", &["-q"], &vase_of(around)).success();
-        let cut = run("wedgecut", &["-q", "--edge-length", "0.3"], &found).success();
+        let cut = run("wedgecut", &["-q", "--edge-length", "0.12"], &found).success();
         let filled = run("tetwedge", &["-q"], &cut).success();
         let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
         run("meshqual", &["-q", "--check"], &whole).success();

@@ -60,7 +60,7 @@ fn bounds_are_met_with_fewer_elements() {
 fn edges_have_the_length_asked_for_in_the_mean() {
     for (body, edges) in [
         (bodies::cube(1.0, Tessellation::Symmetric), [0.2, 0.1, 0.05]),
-        (bodies()[0].1.clone(), [0.4, 0.2, 0.1]),
+        (bodies()[0].1.clone(), [0.3, 0.2, 0.1]),
     ] {
         let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();
         for edge in edges {

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 /// Bounds and sizes of elements. The first tool that is told writes them into the document, the
-/// others inherit them, and each may be told otherwise. Limits of single regions are in
-/// [`crate::Region::max_volume`].
+/// others inherit them, and each may be told otherwise. Sizes of single regions are in
+/// [`crate::Region::size`].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Wishes {
     /// Whether elements are improved at all; false asks for a plain constrained tetrahedralization.
@@ -35,6 +35,9 @@ pub struct Wishes {
     /// Largest ratio of the lengths of edges that follow each other where a surface is remeshed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gradation: Option<f64>,
+    /// Elements across walls, at least.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layers_across: Option<u32>,
     /// Time limit of the mesher for each template, seconds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
@@ -81,13 +84,21 @@ impl Size {
     /// the bound is split, which leaves elements of a third to half of it in the mean: 0.31 to 0.37 with three to five edges across
     /// the body, 0.42 with twenty, 0.50 with ninety. In the middle of that is 0.38, and 0.094 / 0.38 is a quarter. So
     /// edges are up to a seventh shorter than wanted in coarse meshes, and up to a tenth longer in fine ones.
-    const OF_CUBE: f64 = 0.25;
+    pub const OF_CUBE: f64 = 0.25;
 
     /// Largest volume of an element: of an edge length, that for which edges have this length in the mean.
     pub fn max_volume(self) -> f64 {
         match self {
             Self::MaxVolume(volume) => volume,
             Self::EdgeLength(edge) => Self::OF_CUBE * edge * edge * edge,
+        }
+    }
+
+    /// Length of edges, model units, if that is what is asked for.
+    pub fn edge_length(self) -> Option<f64> {
+        match self {
+            Self::EdgeLength(length) => Some(length),
+            Self::MaxVolume(_) => None,
         }
     }
 }
@@ -131,6 +142,7 @@ impl Wishes {
             feature_angle: self.feature_angle.or(earlier.feature_angle),
             segments_per_turn: self.segments_per_turn.or(earlier.segments_per_turn),
             gradation: self.gradation.or(earlier.gradation),
+            layers_across: self.layers_across.or(earlier.layers_across),
             timeout: self.timeout.or(earlier.timeout),
             keep_surface: self.keep_surface.or(earlier.keep_surface),
         }
@@ -178,10 +190,7 @@ impl Wishes {
 
     /// Length of edges that is wanted, model units.
     pub fn edge_length(&self) -> Option<f64> {
-        match self.size? {
-            Size::EdgeLength(length) => Some(length),
-            Size::MaxVolume(_) => None,
-        }
+        self.size?.edge_length()
     }
 
     /// Largest ratio of the lengths of edges that follow each other where a surface is remeshed.

@@ -1,14 +1,12 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
 use crate::apart::apart;
-use crate::remeshed::{Remeshing, Smoothed, remeshed, takes_lengths};
+use crate::remeshed::{Remeshing, Smoothed, remeshed, takes_lengths, turn};
 use crate::surface::{same_body, same_size};
 use geom::tolerance::Tolerance;
 use kit::tolerance;
-use mesher::{Log, Params, Progress};
-use remesh::Sizes;
-use std::f64::consts::TAU;
-use tmesh::{Deviation, Document, Wishes};
+use mesher::{Error, Log, Params, Progress, Sizes};
+use tmesh::{Deviation, Document};
 
 /// What a deviation is multiplied by where it changes volumes by too much. A choice: what a deviation changes of them is at most
 /// proportional to it, so that a few steps of this size are enough, and none gives up much more than needed.
@@ -17,16 +15,24 @@ const NARROWER: f64 = 0.25;
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
 /// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for. Where
 /// that is left to the length of edges that is asked for, the document's wishes say afterwards how far surfaces have moved.
-pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> Vec<String> {
+///
+/// # Errors
+/// Walls with more elements across than can be made.
+pub fn follow_shape(
+    document: &mut Document,
+    params: &Params,
+    log: Log<'_>,
+) -> Result<Vec<String>, Error> {
     let tolerance = tolerance(document);
     let mut facts = Vec::new();
     let radius = tolerance.extent().radius;
     let deviation = radius * document.deviation(tolerance.equal() / radius);
     if !params.quality || deviation <= tolerance.equal() {
-        return facts;
+        return Ok(facts);
     }
+    let sizes = Sizes::new(document)?;
     let within = attempts(document, &tolerance, deviation);
-    let by_length = by_length(document, radius).map(|wide| Attempt {
+    let by_length = by_length(document, &sizes, radius).map(|wide| Attempt {
         deviation: wide.max(deviation),
         noise: deviation,
         drift: None,
@@ -42,7 +48,7 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
         let wide = by_length.filter(|_| takes_lengths(document, index));
         for attempt in wide.iter().chain(&within) {
             let before = &document.templates[index];
-            match attempt.remeshed(document, index, tolerance.flat()) {
+            match attempt.remeshed(document, index, (&sizes, tolerance.flat())) {
                 None => {}
                 Some(Err(what)) => log.detail(&format!(
                     "template {index}: not remeshed within {:.1e}, {what}",
@@ -70,7 +76,7 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
     if farthest > deviation {
         document.wishes.deviation = Some(Deviation::Within(farthest / radius));
     }
-    facts
+    Ok(facts)
 }
 
 /// How far a surface may move, and what must not change.
@@ -90,14 +96,13 @@ impl Attempt {
         &self,
         document: &Document,
         index: usize,
-        flat: f64,
+        (sizes, flat): (&Sizes, f64),
     ) -> Option<Result<Smoothed, String>> {
         let remeshing = Remeshing {
             deviation: self.deviation,
             noise: self.noise,
             flat,
-            feature_angle: document.wishes.feature_angle(),
-            sizes: sizes(&document.wishes),
+            sizes,
         };
         let smoothed = remeshed(document, index, &remeshing)?;
         let before = &document.templates[index];
@@ -135,23 +140,12 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
 /// How far surfaces may move for the sake of a length of edges, model units, where nobody says how far: a chord of that length on
 /// the tightest arc that it turns along by the angle wanted, a smaller one gets shorter chords, is its length times that angle
 /// over eight above it. Four times that, since remeshing takes a quarter of the deviation for the height of its chords.
-fn by_length(document: &Document, radius: f64) -> Option<f64> {
+fn by_length(document: &Document, sizes: &Sizes, radius: f64) -> Option<f64> {
     let wishes = &document.wishes;
-    let length = wishes
-        .edge_length()
-        .filter(|_| wishes.deviation() == Deviation::Auto)?;
-    Some((0.5 * length * sizes(wishes).turn).min(Deviation::LARGEST * radius))
-}
-
-/// How long the edges of surfaces are to be.
-fn sizes(wishes: &Wishes) -> Sizes {
-    let segments = wishes.segments_per_turn;
-    Sizes {
-        turn: TAU / segments.unwrap_or(Wishes::SEGMENTS_PER_TURN),
-        turn_is_asked: segments.is_some(),
-        length: wishes.edge_length(),
-        growth: wishes.gradation() - 1.0,
-    }
+    let lengths = sizes.lengths.iter().flatten().copied();
+    let length = lengths.chain(wishes.edge_length()).reduce(f64::max);
+    let length = length.filter(|_| wishes.deviation() == Deviation::Auto)?;
+    Some((0.5 * length * turn(wishes)).min(Deviation::LARGEST * radius))
 }
 
 fn fact(index: usize, smoothed: &Smoothed, before: usize, deviation: f64) -> String {

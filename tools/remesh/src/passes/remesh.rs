@@ -126,10 +126,11 @@ fn once(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
         true => Rows::new(mesh),
         false => Rows::unknown(),
     };
-    let active = match is_sized {
-        true => mesh.planes.iter().map(Option::is_none).collect(),
-        false => sharp(&mesh),
-    };
+    let mut active = sharp(&mesh);
+    for (&patch, &label) in patches.of.iter().zip(&surface.labels) {
+        let is_curved = mesh.planes[patch as usize].is_none();
+        active[patch as usize] |= is_curved && rules.sizes.are_asked_at(label);
+    }
     told.flipped += flip_all(&mut mesh, &active);
     for round in 0..ROUNDS {
         if round + 2 < ROUNDS {

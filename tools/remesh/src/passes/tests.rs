@@ -76,7 +76,8 @@ fn linked(
             sizes: Sizes {
                 turn: std::f64::consts::TAU / 12.0,
                 turn_is_asked: false,
-                length,
+                lengths: &vec![length.unwrap_or(f64::INFINITY); 2],
+                local: None,
                 growth: 0.5,
             },
         },

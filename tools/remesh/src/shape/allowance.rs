@@ -75,14 +75,15 @@ impl Allowance {
             }
         }
         std::mem::swap(&mut bends, &mut around);
-        let mut size = vec![f64::INFINITY; bends.len()];
-        let mut width = size.clone();
+        let longest = rules.sizes.longest(surface);
+        let mut size = longest.clone();
+        let mut width = vec![f64::INFINITY; bends.len()];
         let mut height = vec![0.0_f64; bends.len()];
         for (v, bend) in bends.iter().enumerate() {
             let arc = bend.read();
-            height[v] = arc.map_or(0.0, |arc| arc.height(rules));
+            height[v] = arc.map_or(0.0, |arc| arc.height(rules, longest[v]));
             for arc in arc.into_iter().chain(curves.arcs[v]) {
-                size[v] = size[v].min(arc.size(rules));
+                size[v] = size[v].min(arc.size(rules, longest[v]));
                 width[v] = width[v].min(arc.width());
             }
         }
@@ -97,9 +98,7 @@ impl Allowance {
         };
         Self {
             reach: (0..surface.triangles.len()).map(reach).collect(),
-            size: (graded(surface, rules, patches, size).into_iter())
-                .map(|size| size.min(rules.sizes.longest()))
-                .collect(),
+            size: graded(surface, rules, patches, size),
             width: graded(surface, rules, patches, width),
         }
     }

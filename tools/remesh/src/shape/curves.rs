@@ -142,10 +142,12 @@ impl Curves {
                 self.arcs[v as usize] = Some(Arc { angle, curvature });
             }
         }
+        let longest = rules.sizes.longest(surface);
         self.reach = (self.ends.iter())
             .map(|ends| {
-                let arcs = ends.iter().filter_map(|&v| self.arcs[v as usize]);
-                let heights = arcs.map(|arc| arc.height(rules));
+                let arcs = ends.iter().map(|&v| v as usize);
+                let arcs = arcs.filter_map(|v| Some((self.arcs[v]?, longest[v])));
+                let heights = arcs.map(|(arc, longest)| arc.height(rules, longest));
                 heights
                     .fold(0.0, f64::max)
                     .min(rules.deviation)

@@ -61,7 +61,7 @@ pub fn fill(
     document.regions.push(Region {
         id: region,
         name: AIR.to_owned(),
-        max_volume: None,
+        size: None,
         volume: Some(volume),
     });
     let is_taken = document.markers.iter().any(|m| m.name == BOUNDARY);
