@@ -11,7 +11,7 @@ ORDER ?= 16
 THICKNESS ?= 5e-3
 
 # The size of elements, which the later stages take from the document.
-WEDGECUT_FLAGS = --edge-length 0.1
+WEDGECUT_FLAGS = --edge-length 0.08
 
 # Anywhere in space: the pipe finds the axis by itself.
 tsv.stl:

@@ -47,7 +47,7 @@ fn pyramid() -> Document {
     document.regions = vec![Region {
         id: 3,
         name: "quartz".to_owned(),
-        max_volume: None,
+        size: None,
         volume: None,
     }];
     document

@@ -129,7 +129,7 @@ fn a_surface_mesh_is_watched_too() {
 
 #[test]
 fn elements_are_forecast_within_a_factor_of_two() {
-    let size = ["--edge-length", "0.1"];
+    let size = ["--edge-length", "0.07"];
     for (body, wishes) in [
         ("prism --order 16", &size[..]),
         ("cube", &size),

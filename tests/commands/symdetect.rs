@@ -49,7 +49,7 @@ fn wheel(n: usize, lean: bool) -> Document {
     document.regions = vec![Region {
         id: 3,
         name: "steel".to_owned(),
-        max_volume: None,
+        size: None,
         volume: None,
     }];
     document

@@ -147,8 +147,9 @@ fn several_inputs_are_one_body_with_a_region_each() {
             ["cube", "copper bar"],
         ),
     ];
-    for (inputs, names) in cases {
-        let size = format!("--region={}:max-volume=0.01", names[1]);
+    let sizes = ["max-volume=0.01", "edge-length=0.3"];
+    for ((inputs, names), size) in cases.into_iter().zip(sizes) {
+        let size = format!("--region={}:{size}", names[1]);
         let arguments = [inputs, &["-q", "-o", "out.tmesh", "--to", "tmesh", &size]].concat();
         let output = symtet(&inner, &arguments);
         assert_eq!(output.status.code(), Some(0), "{}", said(&output));

@@ -61,7 +61,7 @@ fn wedge() -> Document {
     document.regions.push(Region {
         id: 3,
         name: "copper".to_owned(),
-        max_volume: None,
+        size: None,
         volume: None,
     });
     assert_eq!(tmesh::validate(&document), []);

@@ -279,6 +279,44 @@ fn edges_of_curved_surfaces_get_the_length_asked_for() {
     }
 }
 
+/// A vase drawn with so many points around it at least.
+fn vase_of(around: u32) -> Vec<u8> {
+    let levels = around / 8;
+    let rings = (0..=levels).map(|i| {
+        let rhythm = (around + 3 * (i % 4), 0.37 * f64::from(i));
+        ring(
+            rhythm,
+            2.0 * f64::from(i) / f64::from(levels) - 1.0,
+            [0.0; 2],
+        )
+    });
+    written(&rings.collect::<Vec<_>>(), 1.0)
+}
+
+/// Where edges are asked for, as many elements come of a fine drawing as of a coarse one, without a number for the deviation; the
+/// document says how far the surface is from the drawing's. A fine one got five times as many.
+#[test]
+fn fine_drawings_get_as_many_elements_as_coarse_ones() {
+    let made = [24, 48, 120].map(|around| {
+        let found = run("symdetect", &["-q"], &vase_of(around)).success();
+        let cut = run("wedgecut", &["-q", "--edge-length", "0.12"], &found).success();
+        let filled = run("tetwedge", &["-q"], &cut).success();
+        let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+        run("meshqual", &["-q", "--check"], &whole).success();
+        let [cut, filled, whole] = [&cut, &filled, &whole].map(|bytes| read(bytes));
+        let [old, new] = [&cut, &filled].map(|document| outer(&document.templates[0]));
+        let off = farthest(&new, &old).max(farthest(&old, &new));
+        let allowed = filled.deviation(0.0) * cut.symmetry.expect("a symmetry").radius;
+        assert!(
+            off <= 1.05 * allowed && off > 0.0,
+            "{around}: {off} {allowed}"
+        );
+        whole.templates[0].tets.len()
+    });
+    let [least, most] = [made.iter().min(), made.iter().max()].map(|n| *n.expect("some") as f64);
+    assert!(most < 1.3 * least, "{made:?}");
+}
+
 /// The faces of seams and half turns are remeshed with the surface beside them, as images of each other to the bit: where they
 /// kept every vertex of the file, they had 200 and 214 pairs when they were settled, and the D4 body a first percentile below 20.
 #[test]

@@ -54,3 +54,24 @@ fn bounds_are_met_with_fewer_elements() {
         }
     }
 }
+
+/// Edges are as long as asked for in the mean, in meshes of hundreds of elements and of tens of thousands.
+#[test]
+fn edges_have_the_length_asked_for_in_the_mean() {
+    for (body, edges) in [
+        (bodies::cube(1.0, Tessellation::Symmetric), [0.2, 0.1, 0.05]),
+        (bodies()[0].1.clone(), [0.3, 0.2, 0.1]),
+    ] {
+        let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();
+        for edge in edges {
+            let asked = ["-q", "--edge-length", &edge.to_string()];
+            let cut = run("wedgecut", &asked, &found).success();
+            let filled = run("tetwedge", &["-q"], &cut).success();
+            let report = run("meshqual", &["-q", "--json", "-"], &filled).success();
+            let report: Value = serde_json::from_slice(&report).expect("JSON");
+            let mean = &report["metrics"]["edge_length"]["mean"];
+            let mean = mean.as_f64().expect("a length") / edge;
+            assert!((mean - 1.0).abs() < 0.15, "{edge}: {mean}");
+        }
+    }
+}

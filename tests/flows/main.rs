@@ -14,4 +14,5 @@ mod pipe;
 mod referee;
 mod seams;
 mod sections;
+mod sizes;
 mod touching;

@@ -1,6 +1,8 @@
 //! The document model.
 
-use crate::{Deviation, Frame, Gluing, Isometry, Promise, RegionMap, Search, Symmetry, Wishes};
+use crate::{
+    Deviation, Frame, Gluing, Isometry, Promise, RegionMap, Search, Size, Symmetry, Wishes,
+};
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
@@ -73,9 +75,9 @@ pub struct Region {
     pub id: u32,
     /// Name, as the input gives it.
     pub name: String,
-    /// Largest tetrahedron volume wanted, model units cubed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub max_volume: Option<f64>,
+    /// Size of its elements wanted, in place of that of the wishes.
+    #[serde(default, flatten, skip_serializing_if = "Option::is_none")]
+    pub size: Option<Size>,
     /// Volume in the input body, model units cubed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub volume: Option<f64>,

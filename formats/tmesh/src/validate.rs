@@ -137,10 +137,14 @@ fn check_numbers(document: &Document, found: &mut Collector) {
     };
     for region in &document.regions {
         let name = &region.name;
-        if let Some(limit) = region.max_volume {
-            check(limit, true, &|| {
+        match region.size {
+            Some(crate::Size::MaxVolume(limit)) => check(limit, true, &|| {
                 format!("the volume limit of region '{name}'")
-            });
+            }),
+            Some(crate::Size::EdgeLength(length)) => check(length, true, &|| {
+                format!("the length of edges in region '{name}'")
+            }),
+            None => {}
         }
         if let Some(volume) = region.volume {
             check(volume, false, &|| format!("the volume of region '{name}'"));
@@ -171,6 +175,10 @@ fn check_numbers(document: &Document, found: &mut Collector) {
         (wishes.feature_angle, "angle of features"),
         (wishes.segments_per_turn, "number of edges in a turn"),
         (wishes.gradation, "gradation"),
+        (
+            wishes.layers_across.map(f64::from),
+            "number of elements across walls",
+        ),
         (size, "size of elements"),
         (wishes.timeout, "time limit"),
     ] {

@@ -150,7 +150,7 @@ fn document(body: &Body) -> Document {
         .map(|(index, material)| Region {
             id: index as u32 + 1,
             name: material.name.clone(),
-            max_volume: None,
+            size: None,
             volume: Some(body.volume(index)),
         })
         .collect();

@@ -59,7 +59,7 @@ impl Structured {
             .map(|(id, name)| Region {
                 id,
                 name: name.to_owned(),
-                max_volume: None,
+                size: None,
                 volume: None,
             })
             .to_vec();

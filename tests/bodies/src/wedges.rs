@@ -240,7 +240,7 @@ pub fn name_regions(document: &mut Document) {
         .map(|id| Region {
             id,
             name: format!("material-{id}"),
-            max_volume: None,
+            size: None,
             volume: None,
         })
         .collect();

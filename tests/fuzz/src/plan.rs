@@ -151,7 +151,7 @@ impl Edit {
             7 => document.regions.push(Region {
                 id: value.integer(),
                 name: "region".repeat(usize::from(self.part % 3)),
-                max_volume: Some(value.number()),
+                size: Some(tmesh::Size::MaxVolume(value.number())),
                 volume: None,
             }),
             8 => remove(&mut document.regions, place),

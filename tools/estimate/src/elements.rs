@@ -78,8 +78,12 @@ impl Estimate {
             extent = extent.max(p.x.hypot(p.y)).max(p.z.abs());
         }
         let mut samples = edge_samples(wedge);
+        let edges = samples.len();
         for section in &sections {
             Outline::new(section).thickness(extent, wedge.is_sliced(), &mut samples);
+        }
+        for across in &mut samples[edges..] {
+            across.size /= wedge.layers;
         }
         let samples = thinned(samples, extent, RESOLUTION as f64);
         let caps = sections.iter().flatten();

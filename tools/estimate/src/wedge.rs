@@ -16,6 +16,8 @@ pub struct Wedge<'a> {
     pub is_cut: Vec<bool>,
     /// The cut faces that each vertex is on, a bit each.
     pub faces: Vec<u8>,
+    /// Elements asked for across walls, at least.
+    pub layers: f64,
     /// The image of a vertex on the partner of its cut face.
     pub partner: FxHashMap<u32, u32>,
 }
@@ -29,6 +31,7 @@ impl<'a> Wedge<'a> {
             sections: Vec::new(),
             is_cut: vec![false; template.triangles.len()],
             faces: vec![0; template.vertices.len()],
+            layers: 1.0,
             partner: FxHashMap::default(),
         };
         let mut bits = (0..8).cycle().map(|i| 1_u8 << i);

@@ -341,13 +341,8 @@ fn poly_nested_boxes() {
         let imported = good(text.as_bytes(), Poly);
         assert_eq!(regions(&imported), [(0, "0", 8.0), (3, "3", 152.0)]);
         assert_eq!(markers(&imported), [(7, "7", 216.0 + 96.0 + 24.0)]);
-        let limits: Vec<_> = imported
-            .document
-            .regions
-            .iter()
-            .map(|r| r.max_volume)
-            .collect();
-        assert_eq!(limits, [None, Some(0.25)]);
+        let limits: Vec<_> = imported.document.regions.iter().map(|r| r.size).collect();
+        assert_eq!(limits, [None, Some(tmesh::Size::MaxVolume(0.25))]);
         assert!(imported.notices.is_empty());
         // A hole stays one, whatever region points are in it.
         let both =

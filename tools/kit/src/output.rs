@@ -273,7 +273,7 @@ impl Session {
             ));
         } else if let Some(symmetry) = &document.symmetry {
             if format.keeps_symmetry() && document.is_plain() {
-                let sized = document.regions.iter().any(|r| r.max_volume.is_some());
+                let sized = document.regions.iter().any(|r| r.size.is_some());
                 if sized || !document.wishes.is_empty() {
                     self.note(&format!(
                         "{name} holds the mesh and its symmetry, not what is asked of the elements: the next tool \

@@ -79,6 +79,9 @@ pub enum Error {
         /// How many there may be.
         limit: f64,
     },
+    /// The walls of a template mean more elements than can be held.
+    #[error(transparent)]
+    Walls(#[from] sizing::TooMany),
     /// The mesher did not deliver.
     #[error("{failure}{place}; {advice}")]
     Mesher {
@@ -122,7 +125,9 @@ impl Error {
             | Self::Open { .. }
             | Self::MixedCell { .. }
             | Self::Unbounded { .. } => Fault::Input,
-            Self::TooMany { .. } | Self::Mesher { .. } | Self::Unusable { .. } => Fault::Impossible,
+            Self::TooMany { .. } | Self::Walls(_) | Self::Mesher { .. } | Self::Unusable { .. } => {
+                Fault::Impossible
+            }
         }
     }
 

@@ -26,6 +26,7 @@ pub use failure::{Failure, FailureKind};
 pub use ladder::{Answer, Asks, Attempt, Change, Climb, EASING, Ending, IN_CUBE, LADDER, Rung};
 pub use log::{Log, Progress};
 pub use mesher::{Elements, Limits, Mesh, Mesher, Task};
-pub use params::{Params, Sizes};
+pub use params::Params;
 pub use piece::Piece;
+pub use sizing::{Sizes, TooMany};
 pub use tetgen::TetGen;

@@ -13,8 +13,10 @@ fn main() {
     for file in [
         "shim/tetgen_shim.cpp",
         "shim/tetgen_shim.h",
-        "shim/counts.cpp",
-        "shim/counts.h",
+        "shim/watch.cpp",
+        "shim/watch.h",
+        "shim/sizes.cpp",
+        "shim/sizes.h",
         "shim/result.cpp",
         "shim/result.h",
     ] {
@@ -53,7 +55,8 @@ fn main() {
 
     build
         .file("shim/tetgen_shim.cpp")
-        .file("shim/counts.cpp")
+        .file("shim/watch.cpp")
+        .file("shim/sizes.cpp")
         .file("shim/result.cpp")
         .compile("tetgen_shim");
     println!("cargo:rustc-link-lib=dylib=tet");

@@ -477,7 +477,7 @@ mod tests {
         document.regions.push(Region {
             id: 1,
             name: "a".to_owned(),
-            max_volume: None,
+            size: None,
             volume: None,
         });
         // Three copies, but a third of a turn cannot be multiplied with their placements.

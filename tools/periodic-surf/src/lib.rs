@@ -5,6 +5,7 @@
 //! each other, so their triangulation must be settled before the wedge is filled. A hub follows
 //! its wedge: once the wedge's surface is made, the hub is given the face they share.
 
+mod apart;
 mod cli;
 mod error;
 mod memory;

@@ -30,7 +30,7 @@ pub fn prepare(
     if tets > 0 {
         return Err(SurfaceError::AlreadyFilled(tets));
     }
-    let mut facts = follow_shape(&mut document, params, log);
+    let mut facts = follow_shape(&mut document, params, log)?;
     let (document, report) = settle_faces(document, params, log)?;
     facts.extend(report.facts);
     Ok((document, Report { facts, ..report }))
@@ -45,7 +45,6 @@ pub fn settle_faces(
     params: &Params,
     log: Log<'_>,
 ) -> Result<(Document, Report), SurfaceError> {
-    let sizes = Sizes::new(&document);
     let mut report = Report::default();
     let seams: Vec<bool> = document
         .templates
@@ -53,6 +52,11 @@ pub fn settle_faces(
         .enumerate()
         .map(|(index, template)| has_seam(template, index))
         .collect();
+    // Without a seam nobody asks.
+    let sizes = match seams.contains(&true) {
+        true => Sizes::new(&document).map_err(mesher::Error::from)?,
+        false => Sizes::of_regions(&document),
+    };
     let remake = |document: &Document, template: usize| {
         make(&Climb {
             piece: Piece::of(document, template),

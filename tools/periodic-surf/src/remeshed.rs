@@ -4,7 +4,8 @@ use glam::DVec3;
 use mesher::{Faces, Piece};
 use remesh::{Link, Remeshed, Rules, Sizes, Surface, Told, remesh};
 use rustc_hash::FxHashMap;
-use tmesh::{Document, FixedSet, Gluing, Template, Triangle};
+use std::f64::consts::TAU;
+use tmesh::{Document, FixedSet, Gluing, Template, Triangle, Wishes};
 
 /// The bit of the axis; mirror walls have those below.
 const AXIS: u32 = u32::BITS - 1;
@@ -21,22 +22,22 @@ pub struct Smoothed {
     pub told: Told,
 }
 
-/// How far a surface may move.
-pub struct Remeshing {
+/// How far a surface may move, and what is asked of it.
+pub struct Remeshing<'a> {
     /// At most so far, model units.
     pub deviation: f64,
+    /// What is less off a plane may be noise, model units.
+    pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
     pub flat: f64,
-    /// Angle from which on an edge is a feature, degrees.
-    pub feature_angle: f64,
     /// How long edges are to be.
-    pub sizes: Sizes,
+    pub sizes: &'a mesher::Sizes,
 }
 
 /// Remeshes the surface of a template; vertices stay on mirror walls, faces glued to each other stay images of each other, and
 /// those glued to another template stay as they are.
 /// `None` where there is nothing to do.
-pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Option<Smoothed> {
+pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) -> Option<Smoothed> {
     let template = &document.templates[index];
     let faces = Faces::new(Piece::of(document, index));
     let mut labels: FxHashMap<(u32, u32, u32, u32), u32> = FxHashMap::default();
@@ -69,20 +70,36 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Opt
         AXIS => FixedSet::Axis.nearest(p),
         bit => sets[bit as usize].nearest(p),
     };
+    let lengths: Vec<f64> = kinds
+        .iter()
+        .map(|t| length(document, remeshing.sizes, t))
+        .collect();
+    let graded = remeshing.sizes.local[index]
+        .as_ref()
+        .map(|local| &local.graded);
+    let local = graded.map(|graded| |p: DVec3| graded.at(p));
+    let segments = document.wishes.segments_per_turn;
+    let sizes = Sizes {
+        turn: turn(&document.wishes),
+        turn_is_asked: segments.is_some(),
+        lengths: &lengths,
+        local: local
+            .as_ref()
+            .map(|local| local as &(dyn Fn(DVec3) -> f64 + Sync)),
+        growth: document.wishes.gradation() - 1.0,
+    };
     let rules = Rules {
         held: &held,
         bound: &bound,
         links: &links,
         onto: &onto,
         deviation: remeshing.deviation,
+        noise: remeshing.noise,
         flat: remeshing.flat,
-        feature: libm::cos(remeshing.feature_angle.to_radians()),
-        // Beside faces that stay as they were cut, edges of other lengths leave bad triangles: a blade of a fan that is cut by
-        // a seam got five million tetrahedra for forty thousand. With linked faces as well: the surface of a star of ten lobes
-        // that was cut at its half turns was divided into 56,230 points for 9,400.
-        sizes: match held.contains(&true) || !links.is_empty() {
-            true => remeshing.sizes.by_shape(),
-            false => remeshing.sizes,
+        feature: libm::cos(document.wishes.feature_angle().to_radians()),
+        sizes: match takes_lengths(document, index) {
+            true => sizes,
+            false => sizes.by_shape(),
         },
     };
     let done = remesh(&surface, &rules)?;
@@ -108,6 +125,31 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing) -> Opt
         triangles: done.triangles,
         told: done.told,
     })
+}
+
+/// The angle by which edges turn along a curved surface, radians.
+pub fn turn(wishes: &Wishes) -> f64 {
+    TAU / wishes
+        .segments_per_turn
+        .unwrap_or(Wishes::SEGMENTS_PER_TURN)
+}
+
+/// The length of edges at a triangle, model units: the shorter one of both sides; infinite where none is asked for.
+fn length(document: &Document, sizes: &mesher::Sizes, t: &Triangle) -> f64 {
+    let of = |id: u32| {
+        let at = document.regions.binary_search_by_key(&id, |r| r.id).ok()?;
+        sizes.lengths[at]
+    };
+    let lengths = [t.front, t.back].into_iter().filter_map(of);
+    lengths.fold(f64::INFINITY, f64::min)
+}
+
+/// Whether edges of a template get the length that is asked for. Beside faces that stay as they were cut, edges of other lengths
+/// leave bad triangles: a blade of a fan that is cut by a seam got five million tetrahedra for forty thousand. With linked faces
+/// as well: the surface of a star of ten lobes that was cut at its half turns was divided into 56,230 points for 9,400.
+pub fn takes_lengths(document: &Document, index: usize) -> bool {
+    let gluings = &document.templates[index].gluings;
+    !gluings.iter().any(|gluing| gluing.is_seam(index)) && !held(document, index).contains(&true)
 }
 
 /// The faces of a template that are glued to each other; `keys` has the face of each label.

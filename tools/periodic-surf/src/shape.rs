@@ -1,41 +1,43 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
-use crate::remeshed::{Remeshing, Smoothed, remeshed};
+use crate::apart::apart;
+use crate::remeshed::{Remeshing, Smoothed, remeshed, takes_lengths, turn};
 use crate::surface::{same_body, same_size};
+use geom::tolerance::Tolerance;
 use kit::tolerance;
-use mesher::{Log, Params, Progress};
-use remesh::Sizes;
-use std::f64::consts::TAU;
-use tmesh::{Deviation, Document, Wishes};
+use mesher::{Error, Log, Params, Progress, Sizes};
+use tmesh::{Deviation, Document};
 
 /// What a deviation is multiplied by where it changes volumes by too much. A choice: what a deviation changes of them is at most
 /// proportional to it, so that a few steps of this size are enough, and none gives up much more than needed.
 const NARROWER: f64 = 0.25;
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
-/// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for.
-pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> Vec<String> {
+/// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for. Where
+/// that is left to the length of edges that is asked for, the document's wishes say afterwards how far surfaces have moved.
+///
+/// # Errors
+/// Walls with more elements across than can be made.
+pub fn follow_shape(
+    document: &mut Document,
+    params: &Params,
+    log: Log<'_>,
+) -> Result<Vec<String>, Error> {
     let tolerance = tolerance(document);
     let mut facts = Vec::new();
     let radius = tolerance.extent().radius;
     let deviation = radius * document.deviation(tolerance.equal() / radius);
     if !params.quality || deviation <= tolerance.equal() {
-        return facts;
+        return Ok(facts);
     }
-    // Nobody asked for more than the tolerance: then volume and area stay what they are within what the body is off its
-    // symmetry, or it is remeshed within that.
-    let attempts = match document.wishes.deviation() {
-        Deviation::Auto if deviation > tolerance.drift() => {
-            let drift = tolerance.drift();
-            let wider = std::iter::successors(Some(deviation), |d| Some(d * NARROWER));
-            let wider = wider.take_while(|d| *d > drift);
-            wider
-                .map(|d| (d, Some(drift)))
-                .chain([(drift, None)])
-                .collect()
-        }
-        _ => vec![(deviation, None)],
-    };
+    let sizes = Sizes::new(document)?;
+    let within = attempts(document, &tolerance, deviation);
+    let by_length = by_length(document, &sizes, radius).map(|wide| Attempt {
+        deviation: wide.max(deviation),
+        noise: deviation,
+        drift: None,
+    });
+    let mut farthest = 0.0_f64;
     for index in 0..document.templates.len() {
         log.progress(&Progress {
             template: index,
@@ -43,48 +45,107 @@ pub fn follow_shape(document: &mut Document, params: &Params, log: Log<'_>) -> V
             points: 0.0,
             tetrahedra: 0.0,
         });
-        for &(deviation, drift) in &attempts {
-            let remeshing = Remeshing {
-                deviation,
-                flat: tolerance.flat(),
-                feature_angle: document.wishes.feature_angle(),
-                sizes: sizes(&document.wishes),
-            };
-            let Some(smoothed) = remeshed(document, index, &remeshing) else {
-                continue;
-            };
+        let wide = by_length.filter(|_| takes_lengths(document, index));
+        for attempt in wide.iter().chain(&within) {
             let before = &document.templates[index];
-            let kept = same_body(before, &smoothed.template, (deviation, 0.0)).and_then(|()| {
-                drift.map_or(Ok(()), |d| {
-                    same_size((before, index), &smoothed.template, d)
-                })
-            });
-            if let Err(what) = kept {
-                log.detail(&format!(
-                    "template {index}: not remeshed within {deviation:.1e}, {what}"
-                ));
-                continue;
+            match attempt.remeshed(document, index, (&sizes, tolerance.flat())) {
+                None => {}
+                Some(Err(what)) => log.detail(&format!(
+                    "template {index}: not remeshed within {:.1e}, {what}",
+                    attempt.deviation
+                )),
+                Some(Ok(smoothed)) => {
+                    if wide.is_some() {
+                        farthest = farthest.max(apart(before, &smoothed.template));
+                    }
+                    facts.push(fact(
+                        index,
+                        &smoothed,
+                        before.triangles.len(),
+                        attempt.deviation,
+                    ));
+                    take(document, index, smoothed);
+                    break;
+                }
             }
-            facts.push(fact(index, &smoothed, before.triangles.len(), deviation));
-            take(document, index, smoothed);
-            break;
         }
     }
     if !facts.is_empty() {
         document.wishes.keep_surface = Some(true);
     }
-    facts
+    if farthest > deviation {
+        document.wishes.deviation = Some(Deviation::Within(farthest / radius));
+    }
+    Ok(facts)
 }
 
-/// How long the edges of surfaces are to be.
-fn sizes(wishes: &Wishes) -> Sizes {
-    let segments = wishes.segments_per_turn;
-    Sizes {
-        turn: TAU / segments.unwrap_or(Wishes::SEGMENTS_PER_TURN),
-        turn_is_asked: segments.is_some(),
-        length: wishes.edge_length(),
-        growth: wishes.gradation() - 1.0,
+/// How far a surface may move, and what must not change.
+#[derive(Clone, Copy)]
+struct Attempt {
+    /// At most so far, model units.
+    deviation: f64,
+    /// What is less off a plane may be noise, model units.
+    noise: f64,
+    /// Volumes and areas stay what they are within what comes of a surface that is off by this, model units.
+    drift: Option<f64>,
+}
+
+impl Attempt {
+    /// A template's surface, or what is wrong with it; `None` where there is nothing to do.
+    fn remeshed(
+        &self,
+        document: &Document,
+        index: usize,
+        (sizes, flat): (&Sizes, f64),
+    ) -> Option<Result<Smoothed, String>> {
+        let remeshing = Remeshing {
+            deviation: self.deviation,
+            noise: self.noise,
+            flat,
+            sizes,
+        };
+        let smoothed = remeshed(document, index, &remeshing)?;
+        let before = &document.templates[index];
+        let kept = same_body(before, &smoothed.template, (self.deviation, 0.0)).and_then(|()| {
+            self.drift.map_or(Ok(()), |drift| {
+                same_size((before, index), &smoothed.template, drift)
+            })
+        });
+        Some(kept.map(|()| smoothed))
     }
+}
+
+/// What is tried one after the other. Where nobody asked for more than the tolerance, volume and area stay what they are
+/// within what the body is off its symmetry, or it is remeshed within that.
+fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<Attempt> {
+    let attempt = |deviation: f64, drift: Option<f64>| Attempt {
+        deviation,
+        noise: deviation,
+        drift,
+    };
+    match document.wishes.deviation() {
+        Deviation::Auto if deviation > tolerance.drift() => {
+            let drift = tolerance.drift();
+            let wider = std::iter::successors(Some(deviation), |d| Some(d * NARROWER));
+            let wider = wider.take_while(|d| *d > drift);
+            wider
+                .map(|d| attempt(d, Some(drift)))
+                .chain([attempt(drift, None)])
+                .collect()
+        }
+        _ => vec![attempt(deviation, None)],
+    }
+}
+
+/// How far surfaces may move for the sake of a length of edges, model units, where nobody says how far: a chord of that length on
+/// the tightest arc that it turns along by the angle wanted, a smaller one gets shorter chords, is its length times that angle
+/// over eight above it. Four times that, since remeshing takes a quarter of the deviation for the height of its chords.
+fn by_length(document: &Document, sizes: &Sizes, radius: f64) -> Option<f64> {
+    let wishes = &document.wishes;
+    let lengths = sizes.lengths.iter().flatten().copied();
+    let length = lengths.chain(wishes.edge_length()).reduce(f64::max);
+    let length = length.filter(|_| wishes.deviation() == Deviation::Auto)?;
+    Some((0.5 * length * turn(wishes)).min(Deviation::LARGEST * radius))
 }
 
 fn fact(index: usize, smoothed: &Smoothed, before: usize, deviation: f64) -> String {

@@ -43,31 +43,41 @@ pub struct Rules<'a> {
     pub links: &'a [Link],
     /// How far the surface may move at most, model units.
     pub deviation: f64,
+    /// What is less than this off a plane, or away from each other, may be noise, model units; the deviation at most.
+    pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
     pub flat: f64,
     /// Cosine of the angle between the normals at a feature edge, from which on it is one.
     pub feature: f64,
     /// How long edges are to be.
-    pub sizes: Sizes,
+    pub sizes: Sizes<'a>,
 }
 
 /// How long edges are to be.
-#[derive(Clone, Copy, Debug)]
-pub struct Sizes {
+#[derive(Clone, Copy)]
+pub struct Sizes<'a> {
     /// The angle by which edges turn along a curved surface, radians; less where the surface has to stay nearer.
     pub turn: f64,
     /// Whether that angle was asked for: then edges get as short as that even where the input's are longer.
     pub turn_is_asked: bool,
-    /// Longest edge, model units, if one was asked for.
-    pub length: Option<f64>,
+    /// Of each label, the length of edges asked for at its triangles, model units; infinite, or not there, for none.
+    pub lengths: &'a [f64],
+    /// The length of edges asked for at a point, if that changes from place to place.
+    pub local: Option<&'a (dyn Fn(DVec3) -> f64 + Sync)>,
     /// By how much lengths of edges grow over a distance, relative to it.
     pub growth: f64,
 }
 
-impl Sizes {
-    /// Whether lengths were asked for, so that all curved patches are to have them.
+impl Sizes<'_> {
+    /// Whether lengths were asked for anywhere.
     pub fn are_asked(&self) -> bool {
-        self.turn_is_asked || self.length.is_some()
+        let somewhere = self.lengths.iter().any(|length| length.is_finite());
+        self.turn_is_asked || self.local.is_some() || somewhere
+    }
+
+    /// Whether lengths were asked for at triangles of a label, so that its curved patches are to have them.
+    pub fn are_asked_at(&self, label: u32) -> bool {
+        self.turn_is_asked || self.local.is_some() || self.length(label).is_finite()
     }
 
     /// These sizes without what was asked for.
@@ -75,14 +85,32 @@ impl Sizes {
     pub fn by_shape(self) -> Self {
         Self {
             turn_is_asked: false,
-            length: None,
+            lengths: &[],
+            local: None,
             ..self
         }
     }
 
-    /// Longest edge.
-    pub fn longest(&self) -> f64 {
-        self.length.unwrap_or(f64::INFINITY)
+    /// Longest edge at triangles of a label.
+    fn length(&self, label: u32) -> f64 {
+        let length = self.lengths.get(label as usize);
+        length.copied().unwrap_or(f64::INFINITY)
+    }
+
+    /// Longest edge at a point.
+    pub fn at(&self, p: DVec3) -> f64 {
+        self.local.map_or(f64::INFINITY, |local| local(p))
+    }
+
+    /// Longest edge at each vertex of a surface.
+    pub fn longest(&self, surface: &Surface) -> Vec<f64> {
+        let mut longest: Vec<f64> = surface.points.iter().map(|&p| self.at(p)).collect();
+        for (corners, &label) in surface.triangles.iter().zip(&surface.labels) {
+            for &v in corners {
+                longest[v as usize] = longest[v as usize].min(self.length(label));
+            }
+        }
+        longest
     }
 }
 

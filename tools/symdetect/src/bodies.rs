@@ -35,7 +35,7 @@ pub fn region(id: u32) -> Region {
     Region {
         id,
         name: format!("r{id}"),
-        max_volume: None,
+        size: None,
         volume: None,
     }
 }

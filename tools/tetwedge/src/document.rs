@@ -53,7 +53,7 @@ fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (
         facts: settled,
         remeshed,
     } = settle(document, params, log).map_err(|error| (error, true))?;
-    let sizes = Sizes::new(&document);
+    let sizes = Sizes::new(&document).map_err(|error| (error.into(), remeshed))?;
     let leaders: Vec<Option<usize>> = (0..document.templates.len())
         .map(|index| leader(&document, index))
         .collect();

@@ -24,7 +24,7 @@ pub fn forecast(document: &Document, params: &Params, threads: usize) -> Option<
         return None;
     }
     let model = CostModel::CALIBRATED;
-    let sizes = Sizes::new(document);
+    let sizes = Sizes::of_regions(document);
     let mut tetrahedra = 0.0;
     let mut seconds = 0.0;
     for index in 0..document.templates.len() {
@@ -56,7 +56,8 @@ fn expected(document: &Document, index: usize, sizes: &Sizes, threads: usize) ->
     // Those that are turned over are beyond the sections of this one.
     let upright = |i: &&Instance| i.template as usize == index && !i.isometry.flipped();
     let copies = document.instances.iter().filter(upright).count();
-    let wedge = Wedge::new(template, index, copies);
+    let mut wedge = Wedge::new(template, index, copies);
+    wedge.layers = f64::from(document.wishes.layers_across.unwrap_or(1));
     if wedge.sections.is_empty() {
         let by_size = regions(template).map(|region| Some(volume_of(region) / cube(region)?));
         return by_size.sum::<Option<f64>>().map(|cubes| IN_CUBE * cubes);

@@ -47,7 +47,7 @@ pub fn settle(mut document: Document, params: &Params, log: Log<'_>) -> Result<S
         true => Log::new(&detail).with_progress(&progress),
         false => log,
     };
-    let mut facts = follow_shape(&mut document, &surface, of_surface);
+    let mut facts = follow_shape(&mut document, &surface, of_surface)?;
     facts.iter().for_each(|fact| log.detail(fact));
     match settle_faces(document.clone(), &surface, of_surface) {
         Ok((document, report)) => Ok(Settled {

@@ -204,7 +204,7 @@ fn coatings_keep_their_region_and_may_have_a_size() {
 
     // Optimization moves vertices after the sizes were met, and may exceed them.
     let mut small = coated_ring(16, 0.2);
-    small.regions[1].max_volume = Some(2e-6);
+    small.regions[1].size = Some(Size::MaxVolume(2e-6));
     for (optimize, limit) in [(180.0, 2e-6), (130.0, 4e-6)] {
         let wishes = Wishes {
             optimize: Some(optimize),
@@ -506,7 +506,7 @@ fn described(document: &Document, description: Description, take: impl Fn(&Climb
     let mut document = document.clone();
     document.wishes = sized(1e-3);
     let document = &document;
-    let sizes = Sizes::new(document);
+    let sizes = Sizes::of_regions(document);
     let rungs = [Rung {
         after: Ending::Chance,
         change: Change::Describe(description),

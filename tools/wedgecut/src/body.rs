@@ -8,7 +8,7 @@ use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use tmesh::{Document, Frame, OUTSIDE, Symmetry, Template, Triangle};
+use tmesh::{Document, Frame, OUTSIDE, Size, Symmetry, Template, Triangle};
 
 /// The body to be cut.
 pub struct Body<'a> {
@@ -72,8 +72,8 @@ impl<'a> Body<'a> {
     pub fn max_volume(&self, region: u32) -> Option<f64> {
         let regions = &self.document.regions;
         let at = regions.binary_search_by_key(&region, |r| r.id).ok()?;
-        let wished = self.document.wishes.max_volume();
-        regions[at].max_volume.or(wished)
+        let size = regions[at].size.or(self.document.wishes.size);
+        size.map(Size::max_volume)
     }
 
     /// The size of elements beside a triangle, model units: as asked for, at most that of the body.

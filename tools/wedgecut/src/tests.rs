@@ -161,7 +161,7 @@ impl Body {
             .map(|r| Region {
                 id: r as u32 + 1,
                 name: format!("r{r}"),
-                max_volume: None,
+                size: None,
                 volume: None,
             })
             .collect();

@@ -88,6 +88,13 @@ fn optional(x: Option<f64>) -> String {
     x.map_or_else(|| "-".to_owned(), number)
 }
 
+fn size(size: Size) -> String {
+    match size {
+        Size::MaxVolume(volume) => format!("volume {}", number(volume)),
+        Size::EdgeLength(edge) => format!("edges {}", number(edge)),
+    }
+}
+
 fn listing(document: &Document, chunks: &[ChunkInfo]) -> String {
     let mut text = format!("tmesh document, format version {VERSION_MAJOR}.{VERSION_MINOR}\n");
     list_chunks(chunks, &mut text);
@@ -332,13 +339,7 @@ fn list_wishes(wishes: &Wishes, text: &mut String) {
     add("radius-edge ratio", wishes.radius_edge.map(number));
     add("smallest dihedral angle", wishes.min_dihedral.map(number));
     add("optimized above", wishes.optimize.map(number));
-    add(
-        "size",
-        wishes.size.map(|size| match size {
-            Size::MaxVolume(volume) => format!("volume {}", number(volume)),
-            Size::EdgeLength(edge) => format!("edges {}", number(edge)),
-        }),
-    );
+    add("size", wishes.size.map(size));
     add(
         "deviation of the surface",
         wishes.deviation.map(|deviation| match deviation {
@@ -349,6 +350,8 @@ fn list_wishes(wishes: &Wishes, text: &mut String) {
     add("features from", wishes.feature_angle.map(number));
     add("edges in a turn", wishes.segments_per_turn.map(number));
     add("gradation", wishes.gradation.map(number));
+    let layers = wishes.layers_across.map(|n| n.to_string());
+    add("elements across walls", layers);
     add(
         "shared faces settled",
         wishes.keep_surface.map(|k| yes(k).to_owned()),
@@ -362,9 +365,12 @@ fn list_wishes(wishes: &Wishes, text: &mut String) {
 fn list_tables(document: &Document, text: &mut String) {
     let _ = writeln!(text, "\nregions: {}", document.regions.len());
     if !document.regions.is_empty() {
-        let mut table = Table::new(&["id", "name", "volume of the body", "largest tetrahedron"]);
+        let mut table = Table::new(&["id", "name", "volume of the body", "size of elements"]);
         for r in &document.regions {
-            let (volume, max) = (optional(r.volume), optional(r.max_volume));
+            let (volume, max) = (
+                optional(r.volume),
+                r.size.map_or_else(|| "-".to_owned(), size),
+            );
             table.row(vec![r.id.to_string(), r.name.clone(), volume, max]);
         }
         table.print(text);
@@ -485,7 +491,7 @@ frame, canonical axes in the world
 symmetry: not determined
 
 regions: 1
-  id  name    volume of the body  largest tetrahedron
+  id  name    volume of the body  size of elements
    7  copper  -                   -
 
 markers: 1

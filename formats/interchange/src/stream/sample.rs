@@ -31,7 +31,7 @@ pub fn test_document() -> Document {
     document.regions.push(Region {
         id: 7,
         name: "copper".to_owned(),
-        max_volume: None,
+        size: None,
         volume: None,
     });
     document.markers.push(Marker {

@@ -3,7 +3,8 @@
 use crate::samples::{bytes, column, pyramid};
 use std::io::{self, Read};
 use tmesh::{
-    ChunkWriter, DecodeError, Document, Gluing, Group, Isometry, Kind, RegionMap, Violation, read,
+    ChunkWriter, DecodeError, Document, Gluing, Group, Isometry, Kind, RegionMap, Size, Violation,
+    read,
 };
 
 fn error(bytes: &[u8]) -> DecodeError {
@@ -626,14 +627,22 @@ fn names_with_control_characters() {
 #[test]
 fn numbers_of_the_tables_that_are_none() {
     type Change = fn(&mut Document);
-    let cases: [(Change, &str); 7] = [
+    let cases: [(Change, &str); 9] = [
         (
-            |d| d.regions[0].max_volume = Some(f64::NAN),
+            |d| d.regions[0].size = Some(Size::MaxVolume(f64::NAN)),
             "the volume limit of region 'copper' is NaN, and must be a finite positive number",
         ),
         (
-            |d| d.regions[0].max_volume = Some(0.0),
+            |d| d.regions[0].size = Some(Size::MaxVolume(0.0)),
             "the volume limit of region 'copper' is 0, and must be a finite positive number",
+        ),
+        (
+            |d| d.regions[0].size = Some(Size::EdgeLength(-1.0)),
+            "the length of edges in region 'copper' is -1, and must be a finite positive number",
+        ),
+        (
+            |d| d.wishes.layers_across = Some(0),
+            "the number of elements across walls wished for is 0, and must be a finite positive number",
         ),
         (
             |d| d.regions[1].volume = Some(f64::INFINITY),

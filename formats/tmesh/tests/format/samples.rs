@@ -28,7 +28,7 @@ fn region(id: u32, name: &str) -> Region {
     Region {
         id,
         name: name.to_owned(),
-        max_volume: None,
+        size: None,
         volume: None,
     }
 }
@@ -179,7 +179,7 @@ pub fn column() -> Document {
         },
         regions: vec![
             Region {
-                max_volume: Some(0.125),
+                size: Some(Size::MaxVolume(0.125)),
                 ..region(1, "copper")
             },
             Region {

@@ -252,7 +252,7 @@ fn region(id: u32, name: &str, volume: f64) -> Region {
     Region {
         id,
         name: name.to_owned(),
-        max_volume: None,
+        size: None,
         volume: Some(volume),
     }
 }

@@ -94,7 +94,7 @@ fn placed(group: Group, template: Template) -> Document {
         .map(|(id, name)| Region {
             id,
             name: name.to_owned(),
-            max_volume: None,
+            size: None,
             volume: None,
         })
         .to_vec();

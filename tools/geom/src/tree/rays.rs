@@ -191,16 +191,22 @@ impl<'a> Rays<'a> {
     /// Distance along `direction` (in units of its length) from `origin` to the nearest triangle
     /// that is neither `except` nor parallel to the ray; `None` when there is none.
     pub fn first(&self, origin: DVec3, direction: DVec3, except: u32) -> Option<f64> {
-        let mut best = f64::INFINITY;
+        self.met(origin, direction, except).map(|met| met.0)
+    }
+
+    /// The same with that triangle; of those that are as far, the one of the lowest number.
+    pub fn met(&self, origin: DVec3, direction: DVec3, except: u32) -> Option<(f64, u32)> {
+        let mut best = (f64::INFINITY, u32::MAX);
         self.each_near(origin, direction, |t| {
             if t != except
                 && let Some(distance) = self.crossing(t, origin, direction)
+                && (distance, t) < best
             {
-                best = best.min(distance);
+                best = (distance, t);
             }
-            best
+            best.0
         });
-        best.is_finite().then_some(best)
+        best.0.is_finite().then_some(best)
     }
 
     /// Möller and Trumbore's intersection. Barycentric coordinates may be outside by what computing may lose, so that no

@@ -24,7 +24,7 @@ pub fn assemble(mut parts: Vec<Part>, repairing: Repairing) -> Result<Imported, 
     }
     let mut imported = label_mended(join(all), &formats.join(", "), repairing)?;
     for (region, wish) in imported.document.regions.iter_mut().zip(wishes) {
-        region.max_volume = wish;
+        region.size = wish;
     }
     imported.document.history = history;
     Ok(imported)

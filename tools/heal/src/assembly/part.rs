@@ -2,7 +2,7 @@
 
 use crate::soup::Mended;
 use interchange::Format;
-use tmesh::HistoryEntry;
+use tmesh::{HistoryEntry, Size};
 
 /// What the regions of a file are called.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub struct Part {
     pub(super) mended: Mended,
     pub(super) naming: Naming,
     /// Largest element volume that the file asks for in each solid; empty where it asks for none.
-    pub(super) wishes: Vec<Option<f64>>,
+    pub(super) wishes: Vec<Option<Size>>,
     pub(super) format: Format,
     pub(super) history: Vec<HistoryEntry>,
 }

@@ -8,7 +8,7 @@ use crate::soup::{Mended, Mending, NONE, Solids, Surface};
 use crate::words::unique_names;
 use interchange::Format;
 use interchange::text::counted;
-use tmesh::{Document, OUTSIDE, Region, Template};
+use tmesh::{Document, OUTSIDE, Region, Size, Template};
 
 /// The surfaces of the regions of what was read.
 ///
@@ -95,7 +95,7 @@ struct Bounded {
     /// Index of the region behind each triangle.
     region: Vec<u32>,
     names: Vec<String>,
-    wishes: Vec<Option<f64>>,
+    wishes: Vec<Option<Size>>,
 }
 
 fn bounded_by_region(template: &Template, mut regions: Vec<Region>) -> Bounded {
@@ -128,6 +128,6 @@ fn bounded_by_region(template: &Template, mut regions: Vec<Region>) -> Bounded {
         triangles,
         region,
         names: unique_names(regions.iter().map(|r| r.name.as_str()), "region"),
-        wishes: regions.iter().map(|r| r.max_volume).collect(),
+        wishes: regions.iter().map(|r| r.size).collect(),
     }
 }

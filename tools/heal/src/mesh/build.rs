@@ -36,7 +36,7 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
     let regions = mesh.regions.into_iter().map(|(id, name)| Region {
         id,
         name,
-        max_volume: None,
+        size: None,
         volume: None,
     });
     let template = Template {

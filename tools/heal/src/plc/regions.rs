@@ -8,7 +8,7 @@ use interchange::parsed::{Plc, Seed};
 use interchange::text::counted;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
-use tmesh::{OUTSIDE, Region};
+use tmesh::{OUTSIDE, Region, Size};
 
 /// What the points of the file say of a cell.
 #[derive(Clone, Copy)]
@@ -68,10 +68,12 @@ pub fn regions(
             .entry(ids[i])
             .or_insert_with(|| region(ids[i], seed.attribute.clone()));
         // The stricter limit, where seeds of one region disagree.
-        region.max_volume = match (region.max_volume, seed.max_volume) {
-            (Some(a), Some(b)) => Some(a.min(b)),
-            (a, b) => a.or(b),
-        };
+        let known = region.size.map(Size::max_volume);
+        let stricter = [known, seed.max_volume]
+            .into_iter()
+            .flatten()
+            .reduce(f64::min);
+        region.size = stricter.map(Size::MaxVolume);
     }
     let mut next = 1;
     let mut named = 0;
@@ -106,7 +108,7 @@ fn region(id: u32, name: String) -> Region {
     Region {
         id,
         name,
-        max_volume: None,
+        size: None,
         volume: None,
     }
 }

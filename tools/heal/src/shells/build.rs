@@ -173,7 +173,7 @@ fn contents(shells: &Shells, cells: &Cells<'_>, pieces: &[i64]) -> Contents {
         regions.entry(id).or_insert(Region {
             id,
             name,
-            max_volume: None,
+            size: None,
             volume: None,
         });
         id

@@ -35,7 +35,7 @@ pub fn two_tets(
     let region = |(id, name): (u32, &str)| Region {
         id,
         name: name.to_owned(),
-        max_volume: None,
+        size: None,
         volume: None,
     };
     let marker = |(id, name): (u32, &str)| Marker {

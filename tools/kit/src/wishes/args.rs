@@ -20,14 +20,20 @@ pub struct WishArgs {
     #[arg(conflicts_with = "edge_length")]
     max_volume: Option<f64>,
 
-    /// Length of edges, model units: no tetrahedron is larger than the regular one with this edge, and where the surface of
+    /// Length of edges in the mean, model units: no tetrahedron is larger than a quarter of its cube, and where the surface of
     /// a wedge between mirror planes is remeshed, its edges get this length, up or down, as far as the deviation allows
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = positive)]
     edge_length: Option<f64>,
 
-    /// Largest tetrahedron volume in one region, by its name or id; repeatable
+    /// Largest tetrahedron volume in one region, by its name or id, or, `NAME:edge-length=H`, length of its edges, in place of
+    /// those asked for elsewhere; of the faces between two regions the shorter one holds; repeatable
     #[arg(long, value_name = "NAME:max-volume=V", value_parser = region_size)]
     region: Vec<RegionSize>,
+
+    /// Elements across walls, at least: sizes are at most this part of the distance through the material to the opposite
+    /// face, and grow from there by the gradation
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = layers)]
+    layers_across: Option<u32>,
 
     /// Dihedral angle, degrees, above which tetrahedra are optimized away, and half of what it leaves of 180
     /// the angle below which they are; `off` removes only the nearly flat ones [default: inherited, or 130]
@@ -35,8 +41,8 @@ pub struct WishArgs {
     optimize: Option<f64>,
 
     /// How far the surface that is meshed may be from the input's, relative to the radius about the axis; 0 keeps every
-    /// triangle, `auto` allows the tolerance of the symmetry, or what the input is off it if that is more, and keeps all where
-    /// the input has its symmetry exactly [default: inherited, or auto]
+    /// triangle, `auto` allows the tolerance of the symmetry, or what the input is off it if that is more, or what chords of
+    /// the edge length asked for take, and keeps all where the input has its symmetry exactly [default: inherited, or auto]
     #[arg(long, value_name = "REL|auto", allow_negative_numbers = true, value_parser = deviation)]
     deviation: Option<Deviation>,
 
@@ -64,22 +70,17 @@ pub struct WishArgs {
     timeout: Option<f64>,
 }
 
-/// A size limit for one region.
+/// The size of elements in one region.
 #[derive(Clone, Debug, PartialEq)]
 struct RegionSize {
     /// Name or id.
     region: String,
-    /// Model units cubed.
-    max_volume: f64,
+    size: Size,
 }
 
 /// Dihedral angle of the regular tetrahedron, degrees, arccos(1/3): no tetrahedron's smallest one is
 /// larger, nor its largest one smaller.
 const REGULAR_DIHEDRAL: f64 = 70.528_779_365_509_31;
-
-/// Largest deviation, as that of the symmetry that `symdetect` searches for: a tenth of the radius leaves little of a
-/// body's shape.
-const LARGEST_DEVIATION: f64 = 0.1;
 
 impl WishArgs {
     /// The wishes of the command line alone.
@@ -95,6 +96,7 @@ impl WishArgs {
             feature_angle: self.feature_angle,
             segments_per_turn: self.segments_per_turn,
             gradation: self.gradation,
+            layers_across: self.layers_across,
             timeout: self.timeout,
             keep_surface: None,
         }
@@ -127,7 +129,7 @@ impl WishArgs {
                     known.join(", ")
                 )));
             };
-            document.regions[index].max_volume = Some(size.max_volume);
+            document.regions[index].size = Some(size.size);
         }
         Ok(())
     }
@@ -190,10 +192,10 @@ fn deviation(text: &str) -> Result<Deviation, String> {
         return Ok(Deviation::Auto);
     }
     let x = number(text)?;
-    if (0.0..=LARGEST_DEVIATION).contains(&x) {
+    if (0.0..=Deviation::LARGEST).contains(&x) {
         Ok(Deviation::Within(x))
     } else {
-        Err(format!("must be from 0 to {LARGEST_DEVIATION}, or auto"))
+        Err(format!("must be from 0 to {}, or auto", Deviation::LARGEST))
     }
 }
 
@@ -224,16 +226,28 @@ fn gradation(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Elements across walls. More than a thousand are more than a mesh can have across anything.
+fn layers(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(n @ 1..=1000) => Ok(n),
+        _ => Err("must be a whole number from 1 to 1000".to_owned()),
+    }
+}
+
 fn region_size(text: &str) -> Result<RegionSize, String> {
-    let Some((region, volume)) = text.rsplit_once(":max-volume=") else {
-        return Err("expected NAME:max-volume=V".to_owned());
+    let volume = text.rsplit_once(":max-volume=");
+    let edges = text.rsplit_once(":edge-length=");
+    let (region, size) = match (volume, edges) {
+        (Some((region, volume)), _) => (region, Size::MaxVolume(positive(volume)?)),
+        (None, Some((region, edge))) => (region, Size::EdgeLength(positive(edge)?)),
+        (None, None) => return Err("expected NAME:max-volume=V or NAME:edge-length=H".to_owned()),
     };
     if region.is_empty() {
         return Err("the region's name is missing".to_owned());
     }
     Ok(RegionSize {
         region: region.to_owned(),
-        max_volume: positive(volume)?,
+        size,
     })
 }
 
@@ -306,7 +320,7 @@ mod tests {
             document.regions.push(Region {
                 id,
                 name: name.to_owned(),
-                max_volume: None,
+                size: None,
                 volume: None,
             });
         }
@@ -316,8 +330,16 @@ mod tests {
             .unwrap()
             .apply(&mut document)
             .unwrap();
-        let limits: Vec<_> = document.regions.iter().map(|r| r.max_volume).collect();
-        assert_eq!(limits, [Some(4.0), Some(0.1), Some(1e-3)]);
+        let sizes = |document: &Document| -> Vec<Option<Size>> {
+            document.regions.iter().map(|r| r.size).collect()
+        };
+        let volume = |v: f64| Some(Size::MaxVolume(v));
+        assert_eq!(sizes(&document), [volume(4.0), volume(0.1), volume(1e-3)]);
+        parse(&["--region", "core:edge-length=0.5"])
+            .unwrap()
+            .apply(&mut document)
+            .unwrap();
+        assert_eq!(sizes(&document)[0], Some(Size::EdgeLength(0.5)));
         let unknown = parse(&["--region", "copper:max-volume=1"]).unwrap();
         let text = unknown.apply(&mut document).unwrap_err().to_string();
         assert!(
@@ -342,6 +364,11 @@ mod tests {
             ["--region", "copper"],
             ["--region", ":max-volume=1"],
             ["--region", "copper:max-volume=x"],
+            ["--region", "copper:edge-length=-1"],
+            ["--region", "copper:length=1"],
+            ["--layers-across", "0"],
+            ["--layers-across", "2.5"],
+            ["--layers-across", "1001"],
             ["--timeout", "0"],
         ] {
             let error = parse(&bad).unwrap_err();

@@ -88,12 +88,13 @@ impl Bound {
         bounds.extend(everywhere(Measure::RadiusEdge, wishes.radius_edge));
         bounds.extend(wishes.size.map(|size| Self::of_size(document, size)));
         for region in &document.regions {
-            if let Some(asked) = region.max_volume {
+            if let Some(size) = region.size {
+                let asked = size.max_volume();
                 bounds.push(Self {
                     measure: Measure::Volume,
                     asked,
                     limit: asked,
-                    words: format!("{} asked for in '{}'", number(asked), region.name),
+                    words: format!("{} in '{}'", asked_for(size), region.name),
                     regions: Some(vec![region.id]),
                 });
             }
@@ -104,14 +105,9 @@ impl Bound {
     /// The general bound of the size, for regions that have none of their own.
     fn of_size(document: &Document, size: Size) -> Self {
         let asked = size.max_volume();
-        let words = match size {
-            Size::MaxVolume(_) => format!("{} asked for", number(asked)),
-            Size::EdgeLength(edge) => {
-                format!("{} asked for by edges of {}", number(asked), number(edge))
-            }
-        };
-        let own = document.regions.iter().any(|r| r.max_volume.is_some());
-        let without = document.regions.iter().filter(|r| r.max_volume.is_none());
+        let words = asked_for(size);
+        let own = document.regions.iter().any(|r| r.size.is_some());
+        let without = document.regions.iter().filter(|r| r.size.is_none());
         Self {
             measure: Measure::Volume,
             asked,
@@ -135,5 +131,14 @@ impl Bound {
     pub fn holds_for(&self, region: u32) -> bool {
         let regions = self.regions.as_ref();
         regions.is_none_or(|regions| regions.contains(&region))
+    }
+}
+
+/// The volume of a size, as a message says it.
+fn asked_for(size: Size) -> String {
+    let volume = number(size.max_volume());
+    match size {
+        Size::MaxVolume(_) => format!("{volume} asked for"),
+        Size::EdgeLength(edge) => format!("{volume} asked for by edges of {}", number(edge)),
     }
 }

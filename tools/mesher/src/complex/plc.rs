@@ -9,6 +9,7 @@ use crate::{Error, Piece, Sizes};
 use geom::edges::Edges;
 use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
+use sizing::Graded;
 use tmesh::{Document, OUTSIDE, Template};
 
 /// A point in a cell, with the size wanted there.
@@ -58,6 +59,8 @@ pub struct Plc {
     pub max_volume: Option<f64>,
     /// Whether seeds carry limits for single regions.
     pub per_region: bool,
+    /// Length of edges that changes from place to place, scaled.
+    pub graded: Option<Graded>,
 }
 
 impl Plc {
@@ -172,6 +175,8 @@ impl Plc {
         self.per_region = sizes.differ(&present);
         let cube = self.scale * self.scale * self.scale;
         self.max_volume = sizes.loosest(&present).map(|v| v * cube);
+        let local = sizes.local.get(self.template).and_then(Option::as_ref);
+        self.graded = local.map(|local| local.graded.scaled(self.scale));
         for seed in seeds {
             let point = (seed.point * self.scale).to_array();
             if seed.region == OUTSIDE {

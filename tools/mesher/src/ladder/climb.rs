@@ -116,9 +116,9 @@ impl Climb<'_> {
         let prepared = Instant::now();
         let preserve = self.preserve && plc.faces.preserve();
         if self.params.quality && !self.params.switches.contains('S') {
-            // The user's own limit counts, and the user's own bounds do. Faces that are preserved get no points, however
-            // thin layers are.
-            let yields = self.params.default_bounds && !preserve;
+            // The user's own limit counts, and the user's own bounds do, as do elements across walls. Faces that are preserved get
+            // no points, however thin layers are.
+            let yields = self.params.default_bounds && !preserve && plc.graded.is_none();
             let layers = || yields.then(|| Layers::of(&plc)).flatten();
             attempt.limit(|| Room::new(self.piece, self.sizes, &plc), layers, &plc);
         }

@@ -8,6 +8,7 @@ use super::rungs::Ending;
 use crate::{Elements, Piece, Plc, Sizes};
 use geom::measure::volume_of_region;
 use glam::DVec3;
+use tmesh::Size;
 
 /// Points that may be added at first, at least. A choice: a second or two of work, so that a small surface whose mesh is to be
 /// large is rarely meshed twice, and a heap is soon noticed.
@@ -36,6 +37,9 @@ impl Room {
                 Some(volume_of_region(&template.vertices, template.faces(), r.id) / (*limit)?)
             })
             .sum();
+        // A cube holds as many elements as their volumes, less than half of what is allowed, fit into it.
+        let local = sizes.local.get(piece.index).and_then(Option::as_ref);
+        let by_size = by_size + local.map_or(0.0, |l| 2.0 * l.cubes / Size::OF_CUBE);
         // What is as fine inside as on its surface has the power 3/2 of the points there.
         let points = plc.points.len() as f64;
         Self(LEAST.max(points * points.sqrt()).max(by_size))

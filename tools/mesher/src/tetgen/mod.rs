@@ -9,7 +9,8 @@ use chatter::Chatter;
 use intersections::pairs;
 use std::time::Duration;
 use switches::switches;
-use tetgen_sys::{Complex, Error, News, RegionSeed, tetrahedralize};
+use tetgen_sys::{Complex, Error, News, RegionSeed, SizeNode, Sizes, tetrahedralize};
+use tmesh::Size;
 
 /// Time from one word of progress to the next. A choice: people see a line move, and reading the counts takes nothing.
 const TOLD_EVERY: Duration = Duration::from_millis(200);
@@ -30,20 +31,21 @@ impl Mesher for TetGen {
             plc.holes.len(),
         ));
         let mut chatter = Chatter::new(log, plc.template);
-        let seeds = seeds(plc);
+        let (seeds, nodes) = (seeds(plc), nodes(plc));
         let limits = tetgen_sys::Limits {
             counted_every: log.has_progress().then_some(TOLD_EVERY),
             ..limits.into()
         };
-        let made = tetrahedralize(
-            &complex(plc, &seeds),
-            &told,
-            limits,
-            &mut |news| match news {
-                News::Printed(bytes) => chatter.take(bytes),
-                News::Counted(counts) => chatter.count(counts),
-            },
-        );
+        let made =
+            tetrahedralize(
+                &complex(plc, &seeds, &nodes),
+                &told,
+                limits,
+                &mut |news| match news {
+                    News::Printed(bytes) => chatter.take(bytes),
+                    News::Counted(counts) => chatter.count(counts),
+                },
+            );
         match made {
             Ok(arrays) => Ok(Box::new(Tetrahedra { arrays, told })),
             Err(error) => Err(failure(&error, chatter.step)),
@@ -54,11 +56,16 @@ impl Mesher for TetGen {
         let mut text = Vec::new();
         let seeds = seeds(plc);
         // Only what it prints is of interest: at most a line for each pair that it looks at in the time given.
-        let _ = tetrahedralize(&complex(plc, &seeds), "pd", limits.into(), &mut |news| {
-            if let News::Printed(bytes) = news {
-                text.extend_from_slice(bytes);
-            }
-        });
+        let _ = tetrahedralize(
+            &complex(plc, &seeds, &[]),
+            "pd",
+            limits.into(),
+            &mut |news| {
+                if let News::Printed(bytes) = news {
+                    text.extend_from_slice(bytes);
+                }
+            },
+        );
         pairs(String::from_utf8_lossy(&text).lines(), plc.triangles.len())
     }
 }
@@ -82,13 +89,33 @@ fn seeds(plc: &Plc) -> Vec<RegionSeed> {
     seeds.collect()
 }
 
-fn complex<'a>(plc: &'a Plc, seeds: &'a [RegionSeed]) -> Complex<'a> {
+fn nodes(plc: &Plc) -> Vec<SizeNode> {
+    let nodes = plc.graded.iter().flat_map(|graded| &graded.nodes);
+    let nodes = nodes.map(|node| SizeNode {
+        size: node.size,
+        first: node.first,
+        padding: 0,
+    });
+    nodes.collect()
+}
+
+fn complex<'a>(plc: &'a Plc, seeds: &'a [RegionSeed], nodes: &'a [SizeNode]) -> Complex<'a> {
     Complex {
         points: &plc.points,
         triangles: &plc.triangles,
         markers: &plc.markers,
         holes: &plc.holes,
         regions: seeds,
+        sizes: plc
+            .graded
+            .as_ref()
+            .filter(|_| !nodes.is_empty())
+            .map(|graded| Sizes {
+                origin: graded.origin.to_array(),
+                width: graded.width,
+                volume: Size::OF_CUBE,
+                nodes,
+            }),
     }
 }
 

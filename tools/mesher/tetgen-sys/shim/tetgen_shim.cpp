@@ -16,7 +16,7 @@
 
 #include <tetgen.h>
 
-#include "counts.h"
+#include "watch.h"
 #include "result.h"
 
 namespace {
@@ -103,7 +103,7 @@ void *mesh(void *argument) {
   behavior->meditview = 0;
   behavior->voroout = 0;
   fill(*input, in);
-  count_into(in.counts, *input);
+  watch(in, *input);
   tetrahedralize(behavior, input, output, nullptr, nullptr);
   finish(output->numberofcorners == 4 ? 0 : TETGEN_SHIM_NOT_LINEAR, output);
 }

@@ -15,6 +15,13 @@ struct tetgen_shim_counts {
   uint64_t points;          /* distinct corners of them, estimated */
 };
 
+/* A node of an octree of sizes. */
+struct tetgen_shim_size {
+  double size;              /* in a leaf */
+  uint32_t first;           /* the first of eight children, which follow each other, x first; 0 for a leaf */
+  uint32_t padding;
+};
+
 /* A piecewise linear complex of triangles. */
 struct tetgen_shim_input {
   const char *switches;     /* NUL-terminated */
@@ -29,6 +36,10 @@ struct tetgen_shim_input {
   int32_t region_count;
   uint64_t memory;          /* bytes the child may allocate; 0 for no limit */
   struct tetgen_shim_counts *counts; /* in memory shared with the child, or null */
+  const struct tetgen_shim_size *size_nodes; /* the root first, or null where sizes are the same everywhere */
+  double size_origin[3];    /* least coordinates of the cube that it divides */
+  double size_width;        /* its width */
+  double size_volume;       /* largest volume of a tetrahedron over the cube of the size at its middle */
 };
 
 /* Begins the memory file; the arrays follow, each at a multiple of 8 bytes, in the order of the

@@ -2,7 +2,7 @@
 
 use crate::counts::Counters;
 use crate::ffi::{self, tetgen_shim_start};
-use crate::{Complex, Error, Failure, Limits, Mesh, News};
+use crate::{Complex, Error, Failure, Limits, Mesh, News, SizeNode};
 use std::ffi::CString;
 use std::fs::File;
 use std::io::{ErrorKind, PipeReader, Read};
@@ -45,6 +45,7 @@ impl Child {
         let count = |n: usize, what: &str| {
             i32::try_from(n).map_err(|_| Error::Unfit(format!("{n} {what} are too many")))
         };
+        let sizes = complex.sizes.as_ref();
         let counters = limits.counted_every.map(|_| Counters::new()).transpose()?;
         let input = ffi::Input {
             switches: text.as_ptr(),
@@ -59,6 +60,10 @@ impl Child {
             region_count: count(complex.regions.len(), "regions")?,
             memory: limits.memory.map_or(0, |bytes| bytes.max(1)),
             counts: counters.as_ref().map_or(std::ptr::null(), Counters::as_ptr),
+            size_nodes: sizes.map_or(std::ptr::null(), |sizes| sizes.nodes.as_ptr()),
+            size_origin: sizes.map_or([0.0; 3], |sizes| sizes.origin),
+            size_width: sizes.map_or(1.0, |sizes| sizes.width),
+            size_volume: sizes.map_or(0.0, |sizes| sizes.volume),
         };
         let result = memory_file()?;
         let (chatter, printing) = std::io::pipe().map_err(|error| Error::System {
@@ -268,6 +273,22 @@ fn check(complex: &Complex<'_>) -> Result<(), Error> {
             complex.triangles.len(),
             complex.markers.len()
         )));
+    }
+    let nodes = complex.sizes.map_or(&[][..], |sizes| sizes.nodes);
+    let is_odd = |&(i, node): &(usize, &SizeNode)| {
+        let first = node.first as usize;
+        // Children lie behind their node, so that the way down ends.
+        first != 0 && (first <= i || first.saturating_add(8) > nodes.len())
+    };
+    if let Some((i, node)) = nodes.iter().enumerate().find(is_odd) {
+        return Err(Error::Unfit(format!(
+            "node {i} of {} has children from {} on",
+            nodes.len(),
+            node.first
+        )));
+    }
+    if complex.sizes.is_some() && nodes.is_empty() {
+        return Err(Error::Unfit("an octree without nodes".to_owned()));
     }
     let seeds = complex.regions.iter().map(|r| &r.point);
     let positions = complex.points.iter().chain(complex.holes).chain(seeds);

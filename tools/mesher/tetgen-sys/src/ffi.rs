@@ -1,5 +1,6 @@
 //! Declarations of `shim/tetgen_shim.h`.
 
+use crate::SizeNode;
 use std::ffi::{c_char, c_int};
 use std::sync::atomic::AtomicU64;
 
@@ -24,6 +25,10 @@ pub(crate) struct Input {
     pub region_count: i32,
     pub memory: u64,
     pub counts: *const SharedCounts,
+    pub size_nodes: *const SizeNode,
+    pub size_origin: [f64; 3],
+    pub size_width: f64,
+    pub size_volume: f64,
 }
 
 #[derive(Clone, Copy, Debug, Default)]

@@ -27,6 +27,33 @@ pub struct Complex<'a> {
     pub holes: &'a [[f64; 3]],
     /// Seeds of cells; only used under the switches `A` and `a`.
     pub regions: &'a [RegionSeed],
+    /// How large tetrahedra may be from place to place, if that is bounded; only used under the switch `q`.
+    pub sizes: Option<Sizes<'a>>,
+}
+
+/// An octree of sizes.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes<'a> {
+    /// Least coordinates of the cube that it divides.
+    pub origin: [f64; 3],
+    /// Width of the cube.
+    pub width: f64,
+    /// Largest volume of a tetrahedron over the cube of the size at its middle.
+    pub volume: f64,
+    /// Nodes, the root first. Not empty.
+    pub nodes: &'a [SizeNode],
+}
+
+/// A node of an octree of sizes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct SizeNode {
+    /// Size in a leaf.
+    pub size: f64,
+    /// The first of eight children, which follow each other, x first, then y; 0 for a leaf.
+    pub first: u32,
+    /// Unused.
+    pub padding: u32,
 }
 
 /// Bounds on a run, and how it is watched.

@@ -17,7 +17,7 @@ mod news;
 pub use child::Child;
 pub use counts::Counts;
 pub use error::{Error, Failure};
-pub use input::{Complex, Limits, RegionSeed};
+pub use input::{Complex, Limits, RegionSeed, SizeNode, Sizes};
 pub use mesh::Mesh;
 pub use news::News;
 

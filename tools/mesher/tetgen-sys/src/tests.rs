@@ -1,4 +1,7 @@
-use crate::{Child, Complex, Counts, Error, Failure, Limits, News, RegionSeed, tetrahedralize};
+use crate::{
+    Child, Complex, Counts, Error, Failure, Limits, News, RegionSeed, SizeNode, Sizes,
+    tetrahedralize,
+};
 use std::time::{Duration, Instant};
 
 struct Body {
@@ -15,6 +18,7 @@ impl Body {
             markers: &self.markers,
             holes: &[],
             regions: &[],
+            sizes: None,
         }
     }
 
@@ -154,6 +158,52 @@ fn holes_stay_empty_and_seeds_bound_volumes() {
     for (&t, &a) in mesh.tetrahedra().iter().zip(mesh.attributes()) {
         assert!(a == 8.0 || volume(mesh.points(), t) < 1e-4);
     }
+}
+
+#[test]
+fn sizes_may_change_from_place_to_place() {
+    let body = cube();
+    let leaf = |size: f64| SizeNode {
+        size,
+        first: 0,
+        padding: 0,
+    };
+    let root = SizeNode {
+        first: 1,
+        ..leaf(0.0)
+    };
+    let mut nodes = vec![root];
+    // Fine where x is below a half.
+    nodes.extend((0..8).map(|child| leaf(if child % 2 == 0 { 0.1 } else { 0.5 })));
+    let sizes = |nodes: &[SizeNode]| {
+        let complex = Complex {
+            sizes: Some(Sizes {
+                origin: [0.0; 3],
+                width: 1.0,
+                volume: 0.25,
+                nodes,
+            }),
+            ..body.complex()
+        };
+        run(&complex, "pq", 60.0).0
+    };
+    let mesh = sizes(&nodes).unwrap();
+    let points = mesh.points();
+    let mut most = [0.0_f64; 2];
+    for &t in mesh.tetrahedra() {
+        let middle = t.iter().map(|&v| 0.25 * points[v as usize][0]).sum::<f64>();
+        let side = usize::from(middle >= 0.5);
+        most[side] = most[side].max(volume(points, t));
+    }
+    // Optimization moves vertices after the sizes were met, and may exceed them.
+    assert!(most[0] <= 1.5 * 0.25e-3, "{most:?}");
+    assert!(most[1] > 1e-3 && most[1] <= 1.5 * 0.25 * 0.125, "{most:?}");
+    // What leads back would never end.
+    nodes[8].first = 8;
+    assert!(matches!(sizes(&nodes), Err(Error::Unfit(_))));
+    nodes[8].first = 2;
+    assert!(matches!(sizes(&nodes), Err(Error::Unfit(_))));
+    assert!(matches!(sizes(&[]), Err(Error::Unfit(_))));
 }
 
 #[test]

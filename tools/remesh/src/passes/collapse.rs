@@ -3,8 +3,9 @@
 use super::worth::{GOOD, LONG};
 use crate::mesh::{Change, Mesh};
 
-/// Collapses an edge into its second end, if that keeps to the rules and leaves no worse triangles.
-pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2]) -> bool {
+/// Collapses an edge into its second end, if that keeps to the rules and leaves no worse triangles. What is `spare` goes even if
+/// others get longer than is wanted by it.
+pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool {
     let Some(orbit) = mesh.collapsing([from, to]) else {
         return false;
     };
@@ -20,7 +21,7 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2]) -> bool {
     if after.fold(1.0, f64::min) < before.min(GOOD) {
         return false;
     }
-    if before >= GOOD {
+    if before >= GOOD && !spare {
         // Of good triangles none gets longer than those to be split.
         let lengthened = |&[from, to]: &[u32; 2]| {
             let longer = |&w: &u32| {

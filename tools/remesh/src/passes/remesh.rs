@@ -3,6 +3,7 @@
 use super::collapse::collapse;
 use super::flip::flip;
 use super::relocate::relocate;
+use super::rows::Rows;
 use super::split::split;
 use super::worth::{LONG, SHORT};
 use crate::input::{Rules, Surface};
@@ -119,25 +120,32 @@ fn once(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     let mut told = Told::default();
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
     let none = vec![false; patches.planes.len()];
-    told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL]);
+    told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL], Rows::unknown());
     let is_sized = rules.sizes.are_asked();
-    let active = match is_sized {
-        true => mesh.planes.iter().map(Option::is_none).collect(),
-        false => sharp(&mesh),
+    let rows = |mesh: &Mesh<'_>| match is_sized {
+        true => Rows::new(mesh),
+        false => Rows::unknown(),
     };
+    let mut active = sharp(&mesh);
+    for (&patch, &label) in patches.of.iter().zip(&surface.labels) {
+        let is_curved = mesh.planes[patch as usize].is_none();
+        active[patch as usize] |= is_curved && rules.sizes.are_asked_at(label);
+    }
     told.flipped += flip_all(&mut mesh, &active);
     for round in 0..ROUNDS {
         if round + 2 < ROUNDS {
             // Lengths that are asked for may be many halvings away.
             loop {
-                let split = split_all(&mut mesh, &active);
+                let known = rows(&mesh);
+                let split = split_all(&mut mesh, &active, known);
                 told.split += split;
                 if split == 0 || !is_sized {
                     break;
                 }
             }
         }
-        told.collapsed += collapse_all(&mut mesh, &active, [SHORT, DETAIL]);
+        let known = rows(&mesh);
+        told.collapsed += collapse_all(&mut mesh, &active, [SHORT, DETAIL], known);
         told.flipped += flip_all(&mut mesh, &active);
         told.moved += move_all(&mut mesh, &active);
     }
@@ -184,34 +192,59 @@ fn ordered(mesh: &Mesh<'_>, wanted: impl Fn([u32; 2]) -> Option<f64>) -> Vec<[u3
     found.into_iter().map(|f| f.1).collect()
 }
 
-fn collapse_all(mesh: &mut Mesh<'_>, active: &[bool], [short, detail]: [f64; 2]) -> usize {
-    let is_short = |mesh: &Mesh<'_>, edge: [u32; 2]| {
-        let (limit, relative) = match is_active(mesh, active, edge) {
-            true => (short, mesh.relative(edge)),
-            false => (detail, mesh.relative_to_drawn(edge)),
+fn collapse_all(
+    mesh: &mut Mesh<'_>,
+    active: &[bool],
+    [short, detail]: [f64; 2],
+    mut rows: Rows,
+) -> usize {
+    let is_short = |mesh: &Mesh<'_>, rows: &Rows, [a, b]: [u32; 2]| {
+        let (limit, relative) = match is_active(mesh, active, [a, b]) {
+            true => (short, mesh.relative([a, b])),
+            false => (detail, mesh.relative_to_drawn([a, b])),
         };
-        (relative < limit).then_some(relative)
+        let curve = mesh.curve(a, b).filter(|_| relative < 1.0);
+        let spare = curve.is_some_and(|curve| rows.has_too_many(curve));
+        (spare || relative < limit).then_some((relative, spare))
     };
-    let edges = ordered(mesh, |e| is_short(mesh, e));
+    let edges = ordered(mesh, |e| Some(is_short(mesh, &rows, e)?.0));
     let mut done = 0;
     for [a, b] in edges {
-        if mesh.at_edge(a, b).is_empty() || is_short(mesh, [a, b]).is_none() {
+        if mesh.at_edge(a, b).is_empty() {
             continue;
         }
-        done += usize::from(collapse(mesh, [a, b]) || collapse(mesh, [b, a]));
+        let Some((_, spare)) = is_short(mesh, &rows, [a, b]) else {
+            continue;
+        };
+        let curve = mesh.curve(a, b);
+        if collapse(mesh, [a, b], spare) || collapse(mesh, [b, a], spare) {
+            done += 1;
+            curve.iter().for_each(|&curve| rows.change(curve, -1.0));
+        }
     }
     done
 }
 
-fn split_all(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
+fn split_all(mesh: &mut Mesh<'_>, active: &[bool], mut rows: Rows) -> usize {
+    // Of a curve that has enough edges, those are moved that are not twice as long as they should be.
+    let is_long = |mesh: &Mesh<'_>, rows: &Rows, [a, b]: [u32; 2], relative: f64| {
+        let enough = mesh.curve(a, b).is_some_and(|curve| rows.has_enough(curve));
+        relative > if enough { 2.0 } else { LONG }
+    };
     let edges = ordered(mesh, |e| {
         let relative = mesh.relative(e);
-        (relative > LONG && is_active(mesh, active, e)).then_some(-relative)
+        (is_long(mesh, &rows, e, relative) && is_active(mesh, active, e)).then_some(-relative)
     });
-    let still = |mesh: &Mesh<'_>, [a, b]: [u32; 2]| !mesh.at_edge(a, b).is_empty();
     let mut done = 0;
-    for edge in edges {
-        done += usize::from(still(mesh, edge) && split(mesh, edge));
+    for [a, b] in edges {
+        if mesh.at_edge(a, b).is_empty() || !is_long(mesh, &rows, [a, b], mesh.relative([a, b])) {
+            continue;
+        }
+        let curve = mesh.curve(a, b);
+        if split(mesh, [a, b]) {
+            done += 1;
+            curve.iter().for_each(|&curve| rows.change(curve, 1.0));
+        }
     }
     done
 }

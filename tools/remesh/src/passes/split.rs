@@ -81,6 +81,7 @@ fn halved(mesh: &mut Mesh<'_>, [a, b]: [u32; 2], place: DVec3) -> Change {
     let first = at_edge.first().map(|&t| mesh.patch[t as usize]);
     let wanted = first.and_then(|patch| mesh.envelope.at(patch, place));
     let wanted = wanted.map_or(size, |at| at.1.min(size));
+    let wanted = wanted.min(mesh.rules.sizes.at(place));
     let new = mesh.add(place, bound, wanted);
     let halves = at_edge.iter().flat_map(|&t| {
         let corners = mesh.triangles[t as usize];

@@ -75,14 +75,15 @@ impl Allowance {
             }
         }
         std::mem::swap(&mut bends, &mut around);
-        let mut size = vec![f64::INFINITY; bends.len()];
-        let mut width = size.clone();
+        let longest = rules.sizes.longest(surface);
+        let mut size = longest.clone();
+        let mut width = vec![f64::INFINITY; bends.len()];
         let mut height = vec![0.0_f64; bends.len()];
         for (v, bend) in bends.iter().enumerate() {
             let arc = bend.read();
-            height[v] = arc.map_or(0.0, |arc| arc.height(rules));
+            height[v] = arc.map_or(0.0, |arc| arc.height(rules, longest[v]));
             for arc in arc.into_iter().chain(curves.arcs[v]) {
-                size[v] = size[v].min(arc.size(rules));
+                size[v] = size[v].min(arc.size(rules, longest[v]));
                 width[v] = width[v].min(arc.width());
             }
         }
@@ -91,22 +92,20 @@ impl Allowance {
             let largest = corners.into_iter().fold(0.0, f64::max);
             match patches.planes[patches.of[t] as usize] {
                 Some(_) => rules.flat,
-                None if !bent[patches.of[t] as usize] => rules.deviation,
+                None if !bent[patches.of[t] as usize] => rules.noise,
                 None => largest.min(rules.deviation).max(rules.flat),
             }
         };
         Self {
             reach: (0..surface.triangles.len()).map(reach).collect(),
-            size: (graded(surface, rules, patches, size).into_iter())
-                .map(|size| size.min(rules.sizes.longest()))
-                .collect(),
+            size: graded(surface, rules, patches, size),
             width: graded(surface, rules, patches, width),
         }
     }
 }
 
 /// Of each patch, whether it bends: whether its triangles have directions that are apart by so much that, over its width, the
-/// surface is farther than the deviation from a plane. Flat faces do not.
+/// surface is farther than noise from a plane. Flat faces do not.
 fn bent(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
     let count = patches.planes.len();
     let (mut vector, mut area, mut border) =
@@ -135,7 +134,7 @@ fn bent(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
         // The height of a roof whose sides are off by that angle. What has no border is closed, and bends.
         let width = 4.0 * area[patch] / border[patch];
         let rise = 0.5 * width * angle[patch];
-        patches.planes[patch].is_none() && rise.is_nan() | (rise > rules.deviation)
+        patches.planes[patch].is_none() && rise.is_nan() | (rise > rules.noise)
     };
     (0..count).map(is_bent).collect()
 }

@@ -116,12 +116,13 @@ impl Curves {
         // A turn beside an edge that is shorter than those around it moves the curve by less, and counts for less.
         let own = |v: u32, mean: f64| -> [f64; 3] {
             let here = || at[v as usize].iter().map(|&i| length(i));
+            // What ends at a corner does not turn there, and other curves that end there are none of its length.
+            if self.corner[v as usize] {
+                return [0.0; 3];
+            }
             let lengths = here().map(|length| 0.5 * length).sum();
             let counts = (here().fold(f64::INFINITY, f64::min) / mean).min(1.0);
-            let turn = match self.corner[v as usize] {
-                true => 0.0,
-                false => counts * turns.get(&v).copied().unwrap_or(0.0),
-            };
+            let turn = counts * turns.get(&v).copied().unwrap_or(0.0);
             [turn, turn * turn, lengths]
         };
         for (v, here) in (0..).zip(at) {
@@ -141,10 +142,12 @@ impl Curves {
                 self.arcs[v as usize] = Some(Arc { angle, curvature });
             }
         }
+        let longest = rules.sizes.longest(surface);
         self.reach = (self.ends.iter())
             .map(|ends| {
-                let arcs = ends.iter().filter_map(|&v| self.arcs[v as usize]);
-                let heights = arcs.map(|arc| arc.height(rules));
+                let arcs = ends.iter().map(|&v| v as usize);
+                let arcs = arcs.filter_map(|v| Some((self.arcs[v]?, longest[v])));
+                let heights = arcs.map(|(arc, longest)| arc.height(rules, longest));
                 heights
                     .fold(0.0, f64::max)
                     .min(rules.deviation)

@@ -57,7 +57,7 @@ pub fn fill(
     document.regions.push(Region {
         id: region,
         name: AIR.to_owned(),
-        max_volume: None,
+        size: None,
         volume: Some(volume),
     });
     document.regions.sort_unstable_by_key(|r| r.id);

@@ -20,7 +20,8 @@ pub struct Choice {
 /// Orders what is left of the groups by the cost that a first wedge tells.
 pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> Option<Choice> {
     let needles = estimate::needles(body.surface, body.element_size());
-    let wedge = estimate::Wedge::new(&first.templates[0], 0, first.wedges);
+    let mut wedge = estimate::Wedge::new(&first.templates[0], 0, first.wedges);
+    wedge.layers = f64::from(body.document.wishes.layers_across.unwrap_or(1));
     let max_volume = |region| body.max_volume(region);
     let model = CostModel::CALIBRATED;
     let estimate = Estimate::new(model, &wedge, needles, max_volume, body.params.threads);

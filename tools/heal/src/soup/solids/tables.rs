@@ -46,7 +46,7 @@ pub fn tables(surface: Surface, labels: Labels) -> Labelled {
     let regions = (1..).zip(surface.solids).map(|(id, name)| Region {
         id,
         name,
-        max_volume: None,
+        size: None,
         volume: None,
     });
     Labelled {

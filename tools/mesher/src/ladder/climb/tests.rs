@@ -87,7 +87,7 @@ fn document() -> Document {
     document.regions.push(Region {
         id: 1,
         name: "all".to_owned(),
-        max_volume: None,
+        size: None,
         volume: None,
     });
     document
@@ -100,7 +100,7 @@ fn climb(mesher: &Scripted, rungs: &[Rung], timeout: Option<Duration>) -> Result
         timeout,
         ..Params::default()
     };
-    let sizes = Sizes::new(&document);
+    let sizes = Sizes::of_regions(&document);
     let climb = Climb {
         piece: Piece::of(&document, 0),
         params: &params,
@@ -194,7 +194,7 @@ fn thin_layers_are_meshed_coarsely_unless_bounds_are_asked_for() {
         .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
         .map(|vertices| Triangle { vertices, ..first })
         .collect();
-    let sizes = Sizes::new(&document);
+    let sizes = Sizes::of_regions(&document);
     let bounds = |radius_edge: Option<f64>| {
         let wishes = Wishes {
             radius_edge,

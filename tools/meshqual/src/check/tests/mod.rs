@@ -277,7 +277,7 @@ fn wrong_regions() {
         .map(|(id, r)| tmesh::Region {
             id,
             name: format!("{r}"),
-            max_volume: None,
+            size: None,
             volume: None,
         })
         .collect();
@@ -563,7 +563,7 @@ fn region_maps_count() {
         .map(|id| tmesh::Region {
             id,
             name: format!("part {id}"),
-            max_volume: None,
+            size: None,
             volume: None,
         })
         .collect();

@@ -1,8 +1,10 @@
-#include "counts.h"
+#include "watch.h"
 
 #include <unordered_set>
 
 #include <tetgen.h>
+
+#include "sizes.h"
 
 namespace {
 
@@ -21,23 +23,33 @@ bool is_remembered(const REAL *point) {
   return uint64_t(reinterpret_cast<uintptr_t>(point)) * 0x9e3779b97f4a7c15u >> (64 - SHARE_BITS) == 0;
 }
 
-// TetGen asks this of each tetrahedron that it has checked for its volume, whether it is to be split for a reason of
-// ours. None is.
-bool count(REAL *a, REAL *b, REAL *c, REAL *d, REAL *, REAL) {
+void count(REAL *a, REAL *b, REAL *c, REAL *d) {
   for (const REAL *point : {a, b, c, d}) {
     if (is_remembered(point) && remembered.insert(point).second) {
       __atomic_store_n(&counted->points, uint64_t(remembered.size()) << SHARE_BITS, __ATOMIC_RELAXED);
     }
   }
   __atomic_store_n(&counted->tetrahedra, ++checked, __ATOMIC_RELAXED);
+}
+
+// TetGen asks this of each tetrahedron that it has checked for its volume, whether it is to be split for a reason of
+// ours.
+bool is_to_be_split(REAL *a, REAL *b, REAL *c, REAL *d, REAL *, REAL) {
+  if (is_too_large(a, b, c, d)) {
+    return true;
+  }
+  if (counted != nullptr) {
+    count(a, b, c, d);
+  }
   return false;
 }
 
 } // namespace
 
-void count_into(tetgen_shim_counts *counts, tetgenio &input) {
-  if (counts != nullptr) {
-    counted = counts;
-    input.tetunsuitable = count;
+void watch(const tetgen_shim_input &in, tetgenio &input) {
+  counted = in.counts;
+  bound_sizes(in);
+  if (in.counts != nullptr || in.size_nodes != nullptr) {
+    input.tetunsuitable = is_to_be_split;
   }
 }
