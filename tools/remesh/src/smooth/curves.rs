@@ -146,9 +146,14 @@ impl Bent<'_> {
             };
             let mut planes = around.iter().filter_map(|u| plane(u.triangle));
             if let Some(normal) = planes.next() {
-                bow = bow.map(|b| b - normal * b.dot(normal));
+                // What is left of a part is rounding.
+                let rounding = f64::EPSILON.sqrt();
+                bow = bow.map(|b| match b - normal * b.dot(normal) {
+                    rest if rest.length() > rounding * b.length() => rest,
+                    _ => DVec3::ZERO,
+                });
                 // What is in two planes is a straight line.
-                let apart = |other: DVec3| normal.cross(other).length() > f64::EPSILON.sqrt();
+                let apart = |other: DVec3| normal.cross(other).length() > rounding;
                 if planes.any(apart) {
                     bow = STRAIGHT;
                 }
