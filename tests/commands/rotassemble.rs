@@ -538,7 +538,14 @@ fn elements_of_second_order() {
                 edges.insert([v[i].min(v[j]), v[i].max(v[j])]);
             }
         }
-        let text = succeeds(&["--to", "msh2", "--ascii", "--second-order"], &input);
+        let straight = [
+            "--to",
+            "msh2",
+            "--ascii",
+            "--second-order",
+            "--straight-edges",
+        ];
+        let text = succeeds(&straight, &input);
         let text = String::from_utf8(text).unwrap();
         let after = |section: &str| text.split_once(section).unwrap().1.lines();
         let count: usize = after("$Nodes\n").next().unwrap().parse().unwrap();

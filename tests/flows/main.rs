@@ -1,6 +1,7 @@
 //! The tools as their users run them: real processes, real pipes, real files.
 
 mod bounds;
+mod curved_elements;
 mod curved_seams;
 mod determinism;
 mod deviation;

@@ -11,6 +11,8 @@ mod input;
 mod mesh;
 mod passes;
 mod shape;
+mod smooth;
 
 pub use input::{Link, Rules, Sizes, Surface};
 pub use passes::{Remeshed, Told, remesh};
+pub use smooth::{Drawing, Reading, Redrawn, Sheets, SmoothShape};

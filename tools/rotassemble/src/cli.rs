@@ -1,5 +1,6 @@
 //! The command line of `rotassemble`.
 
+use crate::curved::follow_shape;
 use crate::mesh::Assembled;
 use crate::numbering::NumberingError;
 use crate::sector::{sector, sort_by_region};
@@ -50,10 +51,14 @@ pub struct Cli {
     #[arg(long, value_name = "WHICH", default_value = "boundary")]
     surface: SurfaceArg,
 
-    /// Elements with a point in the middle of each edge; edges stay straight (vtk, vtu, pvtu, msh,
-    /// msh2, inp)
+    /// Elements with a point on each edge, on the smooth shape that the facets of curved faces stand for; edges at
+    /// the feature angle and more, and flat faces, stay as they are (vtk, vtu, pvtu, msh, msh2, inp, bdf)
     #[arg(long, conflicts_with = "instances")]
     second_order: bool,
+
+    /// With `--second-order`, the points are in the middle of straight edges, and the surface stays that of the facets
+    #[arg(long, requires = "second_order")]
+    straight_edges: bool,
 
     /// Write numbers as text (msh, msh2)
     #[arg(long)]
@@ -126,16 +131,16 @@ impl Command for Cli {
         let mut document = session.read()?;
         let short = self.strict.judge(session, &document)?;
         document.history.push(session.history_entry(short));
-        if self.sector {
-            document = sector(document);
-        }
         if format.entry().by_region {
             sort_by_region(&mut document);
         }
         let mut middles = None;
         if self.second_order {
-            let added = second_order(document).map_err(|e| Failure::Impossible(e.to_string()))?;
+            let added = self.of_second_order(session, document)?;
             (document, middles) = (added.0, Some(added.1));
+        }
+        if self.sector {
+            document = sector(document);
         }
         if self.is_listed(format) && self.pairs.is_none() {
             return session.write_in(&document, format);
@@ -145,6 +150,23 @@ impl Command for Cli {
 }
 
 impl Cli {
+    /// Adds points on edges, on the shape unless edges are to be straight.
+    fn of_second_order(
+        &self,
+        session: &Session,
+        document: Document,
+    ) -> Result<(Document, Middles), Failure> {
+        let added = second_order(document).map_err(|e| Failure::Impossible(e.to_string()))?;
+        let (mut document, middles) = added;
+        if !self.straight_edges {
+            let bends = follow_shape(&mut document, &middles).map_err(numbering)?;
+            if let Some(told) = bends.told() {
+                session.note(&told);
+            }
+        }
+        Ok((document, middles))
+    }
+
     /// Whether the document is written as it is, without being assembled.
     fn is_listed(&self, format: Format) -> bool {
         self.instances || format == Format::Text
@@ -194,10 +216,7 @@ impl Cli {
         document: &Document,
         middles: Option<&Middles>,
     ) -> Result<(), Failure> {
-        let mesh = Assembled::of_order(document, middles).map_err(|error| match error {
-            NumberingError::TooManyPoints { .. } => Failure::Impossible(error.to_string()),
-            error => Failure::Input(error.to_string()),
-        })?;
+        let mesh = Assembled::of_order(document, middles).map_err(numbering)?;
         let mut options = self.write_options();
         if matches!(format.entry().writer, Writer::Pieces) {
             return write_pvtu(session, &mesh, document, &options);
@@ -240,6 +259,14 @@ impl Cli {
             });
         }
         write_mesh(session, &mesh, format, &options)
+    }
+}
+
+/// What points that cannot be numbered are.
+fn numbering(error: NumberingError) -> Failure {
+    match error {
+        NumberingError::TooManyPoints { .. } => Failure::Impossible(error.to_string()),
+        error => Failure::Input(error.to_string()),
     }
 }
 

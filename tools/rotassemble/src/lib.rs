@@ -4,6 +4,7 @@
 //! ([`Assembled`]) that the writers of `interchange` and [`write_expanded`] take block by block.
 
 mod cli;
+mod curved;
 mod mesh;
 mod numbering;
 mod promise;

@@ -7,11 +7,6 @@
 use rustc_hash::FxHashMap;
 use tmesh::{Document, Gluing, Template};
 
-/// Edges of a tetrahedron in the order of [`crate::TetBlock::middles`].
-const TET_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
-/// Edges of a triangle in the order of [`crate::TriangleBlock::middles`].
-const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
-
 /// The points in the middle of edges, by template.
 #[derive(Clone, Debug, Default)]
 pub struct Middles {
@@ -22,6 +17,11 @@ pub struct Middles {
 }
 
 impl Middles {
+    /// Edges of a tetrahedron in the order of [`crate::TetBlock::middles`].
+    pub const TET_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+    /// Edges of a triangle in the order of [`crate::TriangleBlock::middles`].
+    pub const TRIANGLE_EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
     /// Middles of a tetrahedron whose vertices come in the order 0 1 3 2.
     pub fn reversed([ab, bc, ac, ad, bd, cd]: [u32; 6]) -> [u32; 6] {
         [ab, bd, ad, ac, bc, cd]
@@ -59,7 +59,7 @@ pub fn second_order(mut document: Document) -> Result<(Document, Middles), TooMa
         for i in 0..template.tets.len() {
             let v = template.tets[i].vertices;
             let mut ids = [0; 6];
-            for (id, [a, b]) in ids.iter_mut().zip(TET_EDGES) {
+            for (id, [a, b]) in ids.iter_mut().zip(Middles::TET_EDGES) {
                 *id = middle(template, &mut of_edge, v[a], v[b])?;
             }
             tets.push(ids);
@@ -68,7 +68,7 @@ pub fn second_order(mut document: Document) -> Result<(Document, Middles), TooMa
         for i in 0..template.triangles.len() {
             let v = template.triangles[i].vertices;
             let mut ids = [0; 3];
-            for (id, [a, b]) in ids.iter_mut().zip(TRIANGLE_EDGES) {
+            for (id, [a, b]) in ids.iter_mut().zip(Middles::TRIANGLE_EDGES) {
                 *id = middle(template, &mut of_edge, v[a], v[b])?;
             }
             triangles.push(ids);
@@ -150,7 +150,7 @@ fn edge_pairs(
     let mut pairs = Vec::new();
     for i in gluing.triangles_here() {
         let corners = templates[from].triangles[i as usize].vertices;
-        for ([a, b], id) in TRIANGLE_EDGES
+        for ([a, b], id) in Middles::TRIANGLE_EDGES
             .iter()
             .zip(middles.triangles[from][i as usize])
         {

@@ -120,6 +120,14 @@ pub struct Across {
 const NONE: u32 = u32::MAX;
 
 impl Across {
+    /// The triangle beyond each edge of each triangle, by the corner that the edge begins at, where there is one.
+    pub fn over(beyond: Vec<[Option<u32>; 3]>) -> Self {
+        let numbers = beyond.into_iter();
+        Self {
+            beyond: numbers.map(|t| t.map(|t| t.unwrap_or(NONE))).collect(),
+        }
+    }
+
     /// Number of triangles.
     pub fn len(&self) -> usize {
         self.beyond.len()

@@ -5,10 +5,12 @@ mod allowance;
 mod arc;
 mod curves;
 mod envelope;
+mod facets;
 mod patches;
 
 pub use allowance::Allowance;
 pub use arc::LONG;
 pub use curves::Curves;
 pub use envelope::{Envelope, Near};
-pub use patches::Patches;
+pub use facets::{Beside, Facets};
+pub use patches::{ALIKE, Patches};

@@ -1,5 +1,6 @@
 //! Patches: connected triangles without a feature between them. A flat face is a patch of its own.
 
+use super::facets::{Beside, Facets};
 use crate::input::{Rules, Surface};
 use geom::edges::{EdgeUse, Edges, apex_of};
 use geom::flat::{Flatness, Flats, Plane};
@@ -24,10 +25,7 @@ pub struct Patches {
 /// Share of the border of a flat face, beside which other facets go on as in a smooth surface with facets like it, from
 /// which on it is one of these facets: strips around a cylinder have it along both of their long sides, and what
 /// is as long as wide, on a sphere, along all. A face in which roundings of its own width end would need half.
-const ALIKE: f64 = 0.25;
-
-/// Cosine of a degree: what is bent by less is the same face, however wide.
-const SHALLOW: f64 = 0.999_847_695_156_391_2;
+pub const ALIKE: f64 = 0.25;
 
 impl Patches {
     /// Divides a surface. n log n.
@@ -119,50 +117,23 @@ impl Patches {
     /// Of each coplanar group, whether it is a flat face and not a facet of something curved: it is where hardly anything
     /// beside it goes on smoothly with facets of at least half its width.
     fn faces(&self, surface: &Surface, rules: &Rules<'_>, count: usize) -> Vec<bool> {
-        let mut members = vec![Vec::new(); count];
-        for (t, &facet) in self.facet.iter().enumerate() {
-            members[facet as usize].extend(surface.triangles[t]);
-        }
-        let mut border = vec![0.0; count];
-        let mut like = vec![0.0; count];
-        let mut smooth = vec![0.0; count];
-        for edge in 0..self.edges.len() {
-            let [a, b] = self.edges.ends[edge].map(|v| surface.points[v as usize]);
-            let length = a.distance(b);
-            let along = (b - a).normalize_or_zero();
-            let width = |facet: u32| {
-                let points = members[facet as usize].iter();
-                let off = points.map(|&v: &u32| (surface.points[v as usize] - a).cross(along));
-                off.map(DVec3::length).fold(0.0, f64::max)
-            };
-            match self.smooth(surface, rules, edge) {
-                Some([u, v]) => {
-                    let [f, g] = [u, v].map(|u| self.facet[u.triangle as usize]);
-                    if f != g {
-                        let (w, x) = (width(f), width(g));
-                        let shallow = self.normals[u.triangle as usize]
-                            .dot(self.normals[v.triangle as usize])
-                            >= SHALLOW;
-                        for (facet, like_it) in [(f, w <= 2.0 * x), (g, x <= 2.0 * w)] {
-                            let like_it = like_it || shallow;
-                            border[facet as usize] += length;
-                            smooth[facet as usize] += length;
-                            like[facet as usize] += if like_it { length } else { 0.0 };
-                        }
-                    }
-                }
-                None => {
-                    for u in self.edges.around(edge) {
-                        border[self.facet[u.triangle as usize] as usize] += length;
-                    }
-                }
-            }
-        }
-        // A single triangle is one of the facets of whatever goes on smoothly beside it.
-        let is_face = |f: usize| match members[f].len() {
-            0..=3 => smooth[f] == 0.0,
-            _ => like[f] <= ALIKE * border[f],
+        let mate = |edge: usize, u: &EdgeUse| {
+            let [a, b] = self.smooth(surface, rules, edge)?;
+            Some(if a == *u { b } else { a })
         };
-        (0..count).map(is_face).collect()
+        let facets = Facets {
+            points: &surface.points,
+            triangles: &surface.triangles,
+            normals: &self.normals,
+            edges: &self.edges,
+            of: &self.facet,
+        };
+        let beside = facets.beside(count, mate);
+        // A single triangle is one of the facets of whatever goes on smoothly beside it.
+        let is_face = |beside: &Beside| match beside.triangles {
+            1 => beside.smooth == 0.0,
+            _ => beside.like <= ALIKE * beside.border,
+        };
+        beside.iter().map(is_face).collect()
     }
 }

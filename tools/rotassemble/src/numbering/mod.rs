@@ -16,8 +16,10 @@ mod ids;
 mod nodes;
 mod orbit;
 mod places;
+mod roots;
 #[cfg(test)]
 mod tests;
 
 pub use error::NumberingError;
 pub use ids::Numbering;
+pub use roots::{Roots, Shared};
