@@ -5,6 +5,7 @@ mod flip;
 mod relocate;
 mod remesh;
 mod split;
+mod uncap;
 mod worth;
 
 pub use remesh::{Remeshed, Told, remesh};
