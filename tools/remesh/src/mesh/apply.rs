@@ -12,6 +12,7 @@ impl Change {
             all.new.extend(change.new);
             all.chords_gone.extend(change.chords_gone);
             all.chords.extend(change.chords);
+            all.joins |= change.joins;
         }
         all
     }
@@ -35,6 +36,7 @@ impl Change {
 impl Mesh<'_> {
     /// Makes a change that was found to fit.
     pub fn apply(&mut self, change: &Change, fitted: Fitted) {
+        self.joined += usize::from(change.joins);
         for &t in &change.gone {
             for v in self.triangles[t as usize] {
                 self.around[v as usize].retain(|&u| u != t);
@@ -57,6 +59,7 @@ impl Mesh<'_> {
         }
         for (&(ends, curve), samples) in change.chords.iter().zip(fitted.on_chords) {
             self.features.insert(ends, curve);
+            self.loose[curve as usize] |= change.joins;
             self.on_chords.insert(ends, samples);
         }
     }

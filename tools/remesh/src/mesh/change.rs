@@ -13,6 +13,8 @@ pub struct Change {
     pub chords_gone: Vec<[u32; 2]>,
     /// Feature edges that come, with their curves.
     pub chords: Vec<([u32; 2], u32)>,
+    /// Whether corners or curves are joined: then curves may be as far from theirs as the deviation.
+    pub joins: bool,
     /// A vertex that was moved: everything around it is as new.
     pub moved: Option<u32>,
 }

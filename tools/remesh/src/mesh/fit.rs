@@ -1,14 +1,14 @@
 //! Whether a change stays in the envelope, and keeps what must be kept.
 
 use super::Mesh;
-use super::change::{Change, Fitted};
+use super::change::{Change, Fitted, Sample};
 use crate::shape::Near;
 use geom::measure::double_area_vector;
 use geom::tree::closest_point;
 
 /// Least cosine of the angle between a triangle and the shape that it stands for: 45 degrees, half of what would fold it
 /// over its neighbours if they are off as much.
-const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
+pub const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 impl Mesh<'_> {
     /// Whether a change keeps to the rules; where the input's points are then.
@@ -31,42 +31,76 @@ impl Mesh<'_> {
         if !self.holds_edges(change) {
             return None;
         }
+        Some(Fitted {
+            samples: self.samples_of(change)?,
+            on_chords: self.samples_on_chords(change)?,
+        })
+    }
+
+    /// Where the samples of the triangles that go are then: near the new ones of their patch, or of any where the patch is
+    /// gone and joining may take it.
+    fn samples_of(&self, change: &Change) -> Option<Vec<Vec<Sample>>> {
         let at = |v: u32| self.points[v as usize];
         let mut samples = vec![Vec::new(); change.new.len()];
         for &t in &change.gone {
             let patch = self.patch[t as usize];
+            let stays = change.new.iter().any(|n| n.1 == patch);
+            let may_go = match change.joins {
+                true => !self.keeps[patch as usize],
+                false => self.samples[t as usize].is_empty(),
+            };
+            if !stays && !may_go {
+                return None;
+            }
             for sample in &self.samples[t as usize] {
                 let distance = |corners: [u32; 3]| {
                     closest_point(sample.point, &corners.map(at)).distance(sample.point)
                 };
-                let new = change.new.iter().enumerate().filter(|(_, n)| n.1 == patch);
+                let new = change.new.iter().enumerate();
+                let new = new.filter(|(_, n)| n.1 == patch || !stays);
                 let each = new.map(|(i, n)| (distance(n.0), i));
                 let (nearest, i) = each.min_by(|x, y| x.0.total_cmp(&y.0))?;
-                if nearest > sample.reach {
+                let reach = match stays {
+                    true => sample.reach,
+                    false => self.rules.deviation,
+                };
+                if nearest > reach {
                     return None;
                 }
-                samples[i].push(*sample);
+                samples[i].push(Sample { reach, ..*sample });
             }
         }
+        Some(samples)
+    }
+
+    /// Where the samples of the feature edges that go are then.
+    fn samples_on_chords(&self, change: &Change) -> Option<Vec<Vec<Sample>>> {
+        let at = |v: u32| self.points[v as usize];
         let mut on_chords = vec![Vec::new(); change.chords.len()];
         for ends in &change.chords_gone {
             for sample in self.on_chords.get(ends).into_iter().flatten() {
                 let distance = |[a, b]: [u32; 2]| {
                     geom::measure::distance_to_segment(sample.point, at(a), at(b))
                 };
-                let each = change
-                    .chords
-                    .iter()
-                    .enumerate()
-                    .map(|(i, c)| (distance(c.0), i));
+                let each = change.chords.iter().enumerate();
+                let each = each.map(|(i, c)| (distance(c.0), i));
                 let (nearest, i) = each.min_by(|x, y| x.0.total_cmp(&y.0))?;
-                if nearest > sample.reach {
+                let reach = sample.reach.max(self.slack(change, change.chords[i].1));
+                if nearest > reach {
                     return None;
                 }
-                on_chords[i].push(*sample);
+                on_chords[i].push(Sample { reach, ..*sample });
             }
         }
-        Some(Fitted { samples, on_chords })
+        Some(on_chords)
+    }
+
+    /// How far a curve may be from where it was in any case.
+    fn slack(&self, change: &Change, curve: u32) -> f64 {
+        match change.joins || self.loose[curve as usize] {
+            true => self.rules.deviation,
+            false => 0.0,
+        }
     }
 
     /// Whether a new triangle has area, faces as the shape does, and is not there already.
@@ -113,10 +147,11 @@ impl Mesh<'_> {
                 })
         };
         let at = |v: u32| self.points[v as usize];
-        let chords = change
-            .chords
-            .iter()
-            .all(|&([a, b], curve)| self.envelope.holds(Near::Curve(curve), [at(a), at(b)]));
+        let chords = change.chords.iter().all(|&([a, b], curve)| {
+            let slack = self.slack(change, curve);
+            self.envelope
+                .holds(Near::Curve(curve), [at(a), at(b)], slack)
+        });
         chords
             && change.new.iter().all(|&(corners, patch)| {
                 self.planes[patch as usize].is_some()
@@ -129,7 +164,7 @@ impl Mesh<'_> {
                             || old(a, b)
                             // Both triangles at an edge have it; one of them looks.
                             || (a > b && change.new.iter().any(|n| n.0.contains(&a) && n.0.contains(&b) && n.0 != corners))
-                            || self.envelope.holds(Near::Patch(patch), [at(a), at(b)])
+                            || self.envelope.holds(Near::Patch(patch), [at(a), at(b)], 0.0)
                     })
             })
     }

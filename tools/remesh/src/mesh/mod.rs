@@ -8,6 +8,7 @@ mod orbits;
 mod triangle;
 
 pub use change::Change;
+pub use fit::UPRIGHT;
 pub use images::Images;
 pub use orbits::Splitting;
 pub use triangle::quality;
@@ -50,6 +51,14 @@ pub struct Mesh<'a> {
     /// Patch of each triangle.
     pub patch: Vec<u32>,
     around: Vec<Vec<u32>>,
+    /// Of each patch, whether it is the largest of its label, and stays so that the label does.
+    pub keeps: Vec<bool>,
+    /// Whether features may be joined that are detail.
+    pub joins: bool,
+    /// How often that was done.
+    pub joined: usize,
+    /// Of each curve, whether another one or a corner was joined to it, so that it is as far from where it was as the deviation.
+    pub loose: Vec<bool>,
     /// Curve of each feature edge, lower vertex first.
     features: FxHashMap<[u32; 2], u32>,
     /// Points of the input that each triangle is near to.
@@ -91,6 +100,10 @@ impl<'a> Mesh<'a> {
             triangles: surface.triangles.clone(),
             patch: patches.of.clone(),
             around,
+            keeps: largest(surface, patches),
+            joins: false,
+            joined: 0,
+            loose: vec![false; curves.count],
             features: ends.zip(curves.of.iter().copied()).collect(),
             samples: vec![Vec::new(); surface.triangles.len()],
             on_chords: FxHashMap::default(),
@@ -253,4 +266,20 @@ impl<'a> Mesh<'a> {
         self.width.pop();
         self.around.pop();
     }
+}
+
+/// Of each patch, whether it has the most triangles of those of its label.
+fn largest(surface: &Surface, patches: &Patches) -> Vec<bool> {
+    let mut count = vec![0_u32; patches.planes.len()];
+    patches.of.iter().for_each(|&p| count[p as usize] += 1);
+    let mut best: FxHashMap<u32, u32> = FxHashMap::default();
+    for (&patch, &label) in patches.of.iter().zip(&surface.labels) {
+        let best = best.entry(label).or_insert(patch);
+        if count[patch as usize] > count[*best as usize] {
+            *best = patch;
+        }
+    }
+    let mut keeps = vec![false; count.len()];
+    best.into_values().for_each(|p| keeps[p as usize] = true);
+    keeps
 }

@@ -1,7 +1,9 @@
 //! Collapsing edges that are too short.
 
-use super::worth::{GOOD, LONG};
-use crate::mesh::{Change, Mesh};
+use super::worth::{DETAIL, GOOD, LONG};
+use crate::mesh::{Change, Mesh, UPRIGHT, quality};
+use geom::measure::double_area_vector;
+use glam::DVec3;
 
 /// Collapses an edge into its second end, if that keeps to the rules and leaves no worse triangles. What is `spare` goes even if
 /// others get longer than is wanted by it.
@@ -13,11 +15,12 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool 
     let Some(change) = changes.map(Change::all) else {
         return false;
     };
-    let before = mesh.worst(&change.gone);
-    let after = change
-        .new
-        .iter()
-        .map(|&(t, patch)| mesh.quality_of(t, patch));
+    let before = change.gone.iter().map(|&t| {
+        let (corners, patch) = (mesh.triangles[t as usize], mesh.patch[t as usize]);
+        quality_of(mesh, (corners, patch), change.joins) * size_of(mesh, corners)
+    });
+    let before = before.fold(1.0, f64::min);
+    let after = (change.new.iter()).map(|&new| quality_of(mesh, new, change.joins));
     if after.fold(1.0, f64::min) < before.min(GOOD) {
         return false;
     }
@@ -38,24 +41,35 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool 
         return false;
     };
     mesh.apply(&change, fitted);
-    orbit.iter().for_each(|edge| mesh.images.drop(edge[0]));
+    for &[from, to] in &orbit {
+        mesh.images.drop(from);
+        // Where curves were joined, they end.
+        mesh.fixed[to as usize] |= change.joins;
+    }
     true
+}
+
+/// Quality of a triangle, from 0 to 1. Where curves are joined, needles in flat faces count, too.
+fn quality_of(mesh: &Mesh<'_>, (corners, patch): ([u32; 3], u32), joins: bool) -> f64 {
+    match joins {
+        true => quality(corners.map(|v| mesh.points[v as usize])),
+        false => mesh.quality_of(corners, patch),
+    }
+}
+
+/// How much of a triangle counts: all of it, or as much as it is larger than detail. However good, what is far smaller than
+/// the edges wanted has to go, by way of needles, which are flipped then.
+fn size_of(mesh: &Mesh<'_>, [a, b, c]: [u32; 3]) -> f64 {
+    let sides = [[a, b], [b, c], [c, a]].map(|side| mesh.relative(side));
+    (sides.into_iter().fold(0.0, f64::max) / DETAIL).min(1.0)
 }
 
 /// What collapsing an edge does, if it keeps the topology.
 fn change(mesh: &Mesh<'_>, [from, to]: [u32; 2]) -> Option<Change> {
     let [x, y] = [from, to].map(|v| mesh.bound[v as usize]);
-    if mesh.fixed[from as usize] || x & y != x {
+    if mesh.held[from as usize] || mesh.images.is_fixed(from) || x & y != x {
         return None;
     }
-    let along = mesh.along(from);
-    let onward = match along[..] {
-        [] => None,
-        [(v, curve), (w, other)] if curve == other && (v == to || w == to) => {
-            Some((if v == to { w } else { v }, curve))
-        }
-        _ => return None,
-    };
     let at_edge = mesh.at_edge(from, to);
     let apexes: Vec<u32> = (at_edge.iter())
         .flat_map(|&t| mesh.triangles[t as usize])
@@ -73,13 +87,67 @@ fn change(mesh: &Mesh<'_>, [from, to]: [u32; 2]) -> Option<Change> {
     if change.new.is_empty() {
         return None;
     }
-    if let Some((next, curve)) = onward {
-        if of_to.binary_search(&next).is_ok() {
-            return None;
+    let along = mesh.along(from);
+    let key = |a: u32, b: u32| [a.min(b), a.max(b)];
+    match along[..] {
+        [] if !mesh.fixed[from as usize] => {}
+        [(v, curve), (w, other)]
+            if !mesh.fixed[from as usize]
+                && curve == other
+                && (v == to || w == to)
+                && of_to.binary_search(&(v + w - to)).is_err() =>
+        {
+            let next = v + w - to;
+            change.chords_gone = vec![key(from, to), key(from, next)];
+            change.chords = vec![(key(to, next), curve)];
         }
-        let key = |a: u32, b: u32| [a.min(b), a.max(b)];
-        change.chords_gone = vec![key(from, to), key(from, next)];
-        change.chords = vec![(key(to, next), curve)];
+        _ => join(mesh, [from, to], &mut change)?,
     }
     Some(change)
+}
+
+/// Takes the curves of the first vertex to the second one, where both are detail: nearer together than the deviation, and
+/// than what edges are to be.
+fn join(mesh: &Mesh<'_>, [from, to]: [u32; 2], change: &mut Change) -> Option<()> {
+    let is_detail =
+        mesh.length([from, to]) <= mesh.rules.deviation && mesh.relative([from, to]) < DETAIL;
+    if !mesh.joins || !is_detail || opposite(mesh, [from, to]) {
+        return None;
+    }
+    let key = |a: u32, b: u32| [a.min(b), a.max(b)];
+    change.joins = true;
+    for (w, curve) in mesh.along(from) {
+        change.chords_gone.push(key(from, w));
+        if w == to {
+            continue;
+        }
+        // Two curves become one where a triangle between them goes.
+        let there = mesh.curve(to, w);
+        if there.is_some() {
+            change.chords_gone.push(key(to, w));
+        }
+        change.chords.push((key(to, w), there.unwrap_or(curve)));
+    }
+    Some(())
+}
+
+/// Whether sides of something thin would meet: whether triangles around one vertex face away from those around the
+/// other, where those of neither do so by themselves. Triangles that are detail themselves face anywhere.
+fn opposite(mesh: &Mesh<'_>, [from, to]: [u32; 2]) -> bool {
+    let faces = |v: u32, other: u32| -> Vec<DVec3> {
+        let around = mesh.around(v).iter();
+        let corners = around.map(|&t| mesh.triangles[t as usize]);
+        let apart = corners.filter(|corners| !corners.contains(&other));
+        let vectors = apart.map(|corners| {
+            let [a, b, c] = corners.map(|v| mesh.points[v as usize]);
+            let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            (double_area_vector(a, b, c), longest)
+        });
+        let wide =
+            vectors.filter(|(vector, longest)| vector.length() > mesh.rules.deviation * longest);
+        wide.map(|(vector, _)| vector.normalize_or_zero()).collect()
+    };
+    let (here, there) = (faces(from, to), faces(to, from));
+    here.iter()
+        .any(|m| there.iter().any(|n| m.dot(*n) < -UPRIGHT))
 }

@@ -6,6 +6,7 @@ mod relocate;
 mod remesh;
 mod rows;
 mod split;
+mod uncap;
 mod worth;
 
 pub use remesh::{Remeshed, Told, remesh};

@@ -65,6 +65,8 @@ fn place(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> Option<DVec3> {
     let patch = mesh.patch[first as usize];
     let middle = 0.5 * (mesh.points[a as usize] + mesh.points[b as usize]);
     let near = match mesh.curve(a, b) {
+        // What was joined may be too far from where its curve was for the patches beside it.
+        Some(curve) if mesh.loose[curve as usize] => Some(middle),
         Some(curve) => mesh.envelope.nearest(Near::Curve(curve), middle),
         None if mesh.planes[patch as usize].is_some() => Some(middle),
         None => mesh.envelope.nearest(Near::Patch(patch), middle),

@@ -298,3 +298,47 @@ fn an_edge_along_which_a_body_touches_its_image_stays_its_image() {
     assert!(images.len() > 4, "{}", images.len());
     assert_eq!(done.links, [images]);
 }
+
+/// Steps along a border, which are detail: a needle across each edge of it, that stands upright beside the triangles on both
+/// sides.
+#[test]
+fn needles_between_features_go_where_they_are_detail() {
+    let (around, up) = (24, 12);
+    let mut globe = globe(around, up);
+    let is_level = |p: DVec3| p.z.abs() <= 1e-12;
+    for t in 0..globe.triangles.len() {
+        let corners = globe.triangles[t];
+        let turned = (0..3).map(|i| [0, 1, 2].map(|k| corners[(i + k) % 3]));
+        let at = |v: u32| globe.points[v as usize];
+        let on_border = |&[a, b, _]: &[u32; 3]| is_level(at(a)) && is_level(at(b));
+        let Some([a, b, c]) = turned.into_iter().find(on_border) else {
+            continue;
+        };
+        if globe.labels[t] == 0 {
+            continue;
+        }
+        let middle = 0.5 * (at(a) + at(b));
+        let raised = middle * 1.004 + 0.002 * DVec3::Z;
+        let m = globe.points.len() as u32;
+        globe.points.push(raised);
+        globe.triangles[t] = [a, m, c];
+        globe.triangles.extend([[m, b, c], [a, b, m]]);
+        globe.labels.extend([1, 1]);
+    }
+    let held = vec![false; globe.points.len()];
+    assert!(is_closed(&globe) && smallest_angle(&globe) < 3.0);
+    let made = done(&globe, 0.02, &held).expect("needles along the border");
+    assert!(made.told.joined > 0, "{:?}", made.told);
+    let surface = &made.surface;
+    assert!(is_closed(surface));
+    assert!(
+        smallest_angle(surface) > 15.0,
+        "{}",
+        smallest_angle(surface)
+    );
+    let distances = [farthest(surface, &globe), farthest(&globe, surface)];
+    assert!(distances.iter().all(|d| *d <= 0.02), "{distances:?}");
+    // Within much less than the needles are high, they are features and stay.
+    let made = done(&globe, 1e-4, &held);
+    assert!(made.is_none_or(|made| made.told.joined == 0));
+}

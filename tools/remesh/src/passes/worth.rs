@@ -10,3 +10,6 @@ pub const SHORT: f64 = 4.0 / 5.0;
 pub const GOOD: f64 = 0.5;
 /// What a step has to gain.
 pub const GAIN: f64 = 1e-3;
+/// Edges shorter than this, relative to the length wanted, go even where a patch is not remeshed: what a cut leaves of
+/// a facet.
+pub const DETAIL: f64 = 0.25;

@@ -73,10 +73,10 @@ impl Envelope {
     }
 
     /// Whether a segment is inside, all of it: where both ends are in the reach of one triangle, which is convex,
-    /// everything between them is.
-    pub fn holds(&self, near: Near, ends: [DVec3; 2]) -> bool {
+    /// everything between them is. `least`: how far it may be in any case, model units.
+    pub fn holds(&self, near: Near, ends: [DVec3; 2], least: f64) -> bool {
         let (part, group) = self.part(near);
-        part.holds(group, ends, HALVINGS)
+        part.holds((group, least), ends, HALVINGS)
     }
 
     /// The nearest point of a patch or curve, wherever it is.
@@ -124,25 +124,26 @@ impl Part {
         }
     }
 
-    fn near(&self, group: u32, p: DVec3) -> Option<(u32, f64)> {
+    fn near(&self, (group, least): (u32, f64), p: DVec3) -> Option<(u32, f64)> {
         let wanted = |t: u32| self.group[t as usize] == group;
         // Just above the largest reach, so that what is at it counts.
-        let within = self.most[group as usize] * (1.0 + f64::EPSILON.sqrt());
+        let within = self.most[group as usize].max(least) * (1.0 + f64::EPSILON.sqrt());
         let found = self.tree.nearest_of(p, within, wanted)?;
         Some((found.triangle, found.distance))
     }
 
-    fn inside(&self, group: u32, p: DVec3) -> bool {
+    fn inside(&self, group: (u32, f64), p: DVec3) -> bool {
         let near = self.near(group, p);
-        near.is_some_and(|(t, distance)| distance <= self.reach[t as usize])
+        near.is_some_and(|(t, distance)| distance <= self.reach[t as usize].max(group.1))
     }
 
-    fn holds(&self, group: u32, [p, q]: [DVec3; 2], halvings: u32) -> bool {
+    fn holds(&self, group: (u32, f64), [p, q]: [DVec3; 2], halvings: u32) -> bool {
         let middle = 0.5 * (p + q);
         let Some((t, distance)) = self.near(group, middle) else {
             return false;
         };
-        let (corners, reach) = (&self.corners[t as usize], self.reach[t as usize]);
+        let corners = &self.corners[t as usize];
+        let reach = self.reach[t as usize].max(group.1);
         if distance > reach {
             return false;
         }
