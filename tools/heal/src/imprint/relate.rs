@@ -81,7 +81,11 @@ pub fn relate(
         group,
         |s, t| is_new(s) || is_new(t),
         |s, t| {
-            if solid_of(s) != solid_of(t) || meets(complex, s, t) {
+            let is_near = match solid_of(s) == solid_of(t) {
+                true => meets(complex, s, t),
+                false => !is_far(complex, s, t, reach),
+            };
+            if is_near {
                 near.push([s, t]);
             }
         },
@@ -103,7 +107,11 @@ pub fn is_related(
 ) -> bool {
     let mut near = Vec::new();
     let apart = |s: u32, t: u32| !joined(solid_of(s), solid_of(t));
-    let visit = |s, t| near.push([s, t]);
+    let visit = |s, t| {
+        if !is_far(complex, s, t, reach) {
+            near.push([s, t]);
+        }
+    };
     let search = near_pairs((complex, some), reach, &solid_of, apart, visit);
     if search == Search::GaveUp {
         return false;
@@ -119,8 +127,8 @@ fn meets(complex: &Complex, s: u32, t: u32) -> bool {
     contact(&complex.points, p, q).is_some()
 }
 
-/// Calls `visit` with the pairs of some triangles of different groups that are `wanted` and may be within reach of each
-/// other, the lower one first.
+/// Calls `visit` with the pairs of some triangles of different groups that are `wanted` and whose boxes are within reach of
+/// each other, the lower one first.
 fn near_pairs(
     (complex, some): (&Complex, &[u32]),
     reach: Reach<'_>,
@@ -141,22 +149,26 @@ fn near_pairs(
         |i| group(some[i as usize]),
         |s, t| {
             let [s, t] = [s.min(t), s.max(t)].map(|i| some[i as usize]);
-            if !wanted(s, t) {
-                return true;
-            }
-            // What has a vertex in common is within any reach.
-            let ids = complex.triangles[t as usize];
-            let have_common = complex.triangles[s as usize]
-                .iter()
-                .any(|v| ids.contains(v));
-            let [p, q] = [s, t].map(|t| complex.corners(t));
-            let within = reach.of(s).max(reach.of(t));
-            if have_common || !(is_beside(&p, &q, within) || is_beside(&q, &p, within)) {
+            if wanted(s, t) {
                 visit(s, t);
             }
             true
         },
     )
+}
+
+/// Whether two triangles are clearly farther apart than either reaches. What has a vertex in common is not.
+fn is_far(complex: &Complex, s: u32, t: u32, reach: Reach<'_>) -> bool {
+    let ids = complex.triangles[t as usize];
+    if complex.triangles[s as usize]
+        .iter()
+        .any(|v| ids.contains(v))
+    {
+        return false;
+    }
+    let [p, q] = [s, t].map(|t| complex.corners(t));
+    let within = reach.of(s).max(reach.of(t));
+    is_beside(&p, &q, within) || is_beside(&q, &p, within)
 }
 
 /// Looks for relations in pairs of triangles.
