@@ -139,13 +139,13 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
 
 /// How far surfaces may move for the sake of a length of edges, model units, where nobody says how far: a chord of that length on
 /// the tightest arc that it turns along by the angle wanted, a smaller one gets shorter chords, is its length times that angle
-/// over eight above it. Four times that, since remeshing takes a quarter of the deviation for the height of its chords.
+/// over eight above it. Twice that, since remeshing takes half of the deviation for the height of its chords.
 fn by_length(document: &Document, sizes: &Sizes, radius: f64) -> Option<f64> {
     let wishes = &document.wishes;
     let lengths = sizes.lengths.iter().flatten().copied();
     let length = lengths.chain(wishes.edge_length()).reduce(f64::max);
     let length = length.filter(|_| wishes.deviation() == Deviation::Auto)?;
-    Some((0.5 * length * turn(wishes)).min(Deviation::LARGEST * radius))
+    Some((0.25 * length * turn(wishes)).min(Deviation::LARGEST * radius))
 }
 
 fn fact(index: usize, smoothed: &Smoothed, before: usize, deviation: f64) -> String {
