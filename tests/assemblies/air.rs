@@ -2,8 +2,8 @@
 
 use crate::motor::{assert_regions, motor, regions};
 use bodies::{
-    AlternatingWheel, Antiprism, Body, Gear, HelicalGear, Material, Placement, Prism, Ratchet,
-    SawWheel, Tessellation, cube,
+    AlternatingWheel, Antiprism, Body, Gear, HelicalGear, Impeller, Material, Placement, Prism,
+    Ratchet, SawWheel, Tessellation, cube,
 };
 use serde_json::Value;
 use support::{EXACT_STL, encode, pipe, read, run};
@@ -209,6 +209,7 @@ fn empty_space_within_is_air_too() {
 
 #[test]
 fn what_flows_past_a_body_is_left_alone_of_it() {
+    let impeller = Impeller::default().build();
     let ratchet = Ratchet::default().build();
     let helical = HelicalGear {
         order: 6,
@@ -219,10 +220,10 @@ fn what_flows_past_a_body_is_left_alone_of_it() {
         layers: 2,
     }
     .build();
-    let ends = ["below", "above", "side"];
     for (what, body, parts) in [
-        ("ratchet", ratchet, &ends[..]),
-        // Half turns take one end to the other.
+        ("impeller", impeller, &["below", "above", "side"][..]),
+        // A mirror plane, or half turns, take one end to the other.
+        ("ratchet", ratchet, &["ends", "side"]),
         ("helical gear", helical, &["ends", "side"]),
     ] {
         let around = ["--enclosure", "cylinder:1.5"];
