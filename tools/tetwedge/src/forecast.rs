@@ -2,6 +2,7 @@
 
 use estimate::{CostModel, Cut, Estimate, Wedge, edge_of_volume, needles};
 use geom::measure::volume_of_region;
+use kit::tolerance;
 use mesher::{IN_CUBE, Params, Sizes};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
@@ -86,8 +87,18 @@ fn expected(document: &Document, index: usize, sizes: &Sizes, threads: usize) ->
         of_sides.fold(f64::INFINITY, f64::min).cbrt()
     };
     let model = &estimate.model;
-    let thin = model.tetrahedra * needles(template, size);
+    let thin = match is_remeshed(document) {
+        true => 0.0,
+        false => model.tetrahedra * needles(template, size),
+    };
     Some(IN_CUBE * share * wedges.elements(model) + thin)
+}
+
+/// Whether surfaces are remeshed first, which leaves no needles of what they are drawn with.
+fn is_remeshed(document: &Document) -> bool {
+    let tolerance = tolerance(document);
+    let equal = tolerance.equal() / tolerance.extent().radius;
+    !document.wishes.keep_surface() && document.deviation(equal) > equal
 }
 
 /// The regions that a template has.
