@@ -260,10 +260,11 @@ fn gmsh_reads_the_couplings_of_a_curved_seam() {
     assert!(off > 0.05, "{off}");
     let seam = &document.templates[0].gluings[0];
     assert!(seam.is_seam(0));
-    let [first, second] = ["a.msh", "b.msh"];
+    let [first, bent] = ["a.msh", "c.msh"];
     for (name, options) in [
         (first, &["--sector"][..]),
-        (second, &["--sector", "--second-order"]),
+        ("b.msh", &["--sector", "--second-order", "--straight-edges"]),
+        (bent, &["--sector", "--second-order"]),
     ] {
         let path = write(folder, name, &input, options);
         let found = &read(&[Job::new("gmsh", "msh", &path)])[0];
@@ -287,8 +288,11 @@ fn gmsh_reads_the_couplings_of_a_curved_seam() {
             1e-12,
             name,
         );
-        let seventh = body.volume(0) / 7.0;
-        close(&found["volumes"]["body"], seventh, 1e-6, name);
+        // On the shape behind the facets there is a little more or less than between these.
+        if name != bent {
+            let seventh = body.volume(0) / 7.0;
+            close(&found["volumes"]["body"], seventh, 1e-6, name);
+        }
     }
 }
 
