@@ -99,6 +99,26 @@ fn solvers_find_the_whole_mesh() {
     }
 }
 
+/// Checks that the sides of a sector of a given order are cyclic patches, images of each other face by face, of a closed
+/// mesh.
+#[track_caller]
+fn assert_cyclic(found: &Value, order: u32) {
+    let [a, b] = ["wall-a", "wall-b"].map(|name| &found["patches"][name]);
+    let step = 1.0 / f64::from(order);
+    for (patch, other, turn) in [(a, "wall-b", step), (b, "wall-a", -step)] {
+        assert_eq!(
+            (&patch["type"], &patch["other"]),
+            (&"cyclic".into(), &other.into())
+        );
+        close(&patch["turn"], turn, 1e-12, "the turn");
+    }
+    assert_eq!(a["faces"], b["faces"]);
+    let of_other = b["area"].as_f64().expect("an area");
+    close(&a["area"], of_other, 1e-12, "both faces");
+    assert!(found["off"].as_f64() < Some(1e-12), "{}", found["off"]);
+    assert!(found["open"].as_f64() < Some(1e-12));
+}
+
 #[test]
 fn a_sector_has_cyclic_patches() {
     if !is_there() {
@@ -113,17 +133,8 @@ fn a_sector_has_cyclic_patches() {
     let case = folder.join("case");
     export(&input, &case.join("constant/polyMesh"), &["--sector"]);
     let found = read("polymesh", &case);
-    let [a, b] = ["wall-a", "wall-b"].map(|name| &found["patches"][name]);
-    for (patch, other, turn) in [(a, "wall-b", 0.125), (b, "wall-a", -0.125)] {
-        assert_eq!(
-            (&patch["type"], &patch["other"]),
-            (&"cyclic".into(), &other.into())
-        );
-        close(&patch["turn"], turn, 1e-12, "the turn");
-    }
-    // The body is ten units large: the faces are images corner by corner.
-    assert!(found["off"].as_f64() < Some(1e-12), "{}", found["off"]);
-    assert!(found["open"].as_f64() < Some(1e-12));
+    // The body is ten units large.
+    assert_cyclic(&found, 8);
     close(
         &found["volume_by_faces"],
         volume(&body) / 8.0,
@@ -158,23 +169,7 @@ fn cyclic_patches_of_a_curved_seam_are_images() {
     let case = folder.join("case");
     export(&input, &case.join("constant/polyMesh"), &["--sector"]);
     let found = read("polymesh", &case);
-    let [a, b] = ["wall-a", "wall-b"].map(|name| &found["patches"][name]);
-    for (patch, other, turn) in [(a, "wall-b", 1.0 / 7.0), (b, "wall-a", -1.0 / 7.0)] {
-        assert_eq!(
-            (&patch["type"], &patch["other"]),
-            (&"cyclic".into(), &other.into())
-        );
-        close(&patch["turn"], turn, 1e-12, "the turn");
-    }
-    assert_eq!(a["faces"], b["faces"]);
-    close(
-        &a["area"],
-        b["area"].as_f64().expect("an area"),
-        1e-12,
-        "both faces",
-    );
-    assert!(found["off"].as_f64() < Some(1e-12), "{}", found["off"]);
-    assert!(found["open"].as_f64() < Some(1e-12));
+    assert_cyclic(&found, 7);
     let seventh = body.volume(0) / 7.0;
     close(&found["volume_by_faces"], seventh, 1e-6, "the sector");
 }
@@ -206,19 +201,7 @@ fn a_passage_between_blades_has_cyclic_patches_that_follow_them() {
     let case = folder.join("case");
     export(&input, &case.join("constant/polyMesh"), &["--sector"]);
     let found = read("polymesh", &case);
-    let [a, b] = ["wall-a", "wall-b"].map(|name| &found["patches"][name]);
-    for (patch, other, turn) in [(a, "wall-b", 1.0 / 7.0), (b, "wall-a", -1.0 / 7.0)] {
-        assert_eq!(
-            (&patch["type"], &patch["other"]),
-            (&"cyclic".into(), &other.into())
-        );
-        close(&patch["turn"], turn, 1e-12, "the turn");
-    }
-    assert_eq!(a["faces"], b["faces"]);
-    let of_other = b["area"].as_f64().expect("an area");
-    close(&a["area"], of_other, 1e-12, "both faces");
-    assert!(found["off"].as_f64() < Some(1e-12), "{}", found["off"]);
-    assert!(found["open"].as_f64() < Some(1e-12));
+    assert_cyclic(&found, 7);
     // Blades, inlet, outlet and casing.
     let blades = body.materials[0].name.as_str();
     for name in [
