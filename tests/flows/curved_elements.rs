@@ -207,3 +207,8 @@ fn flat_bodies_stay_as_they_are() {
     let usage = run("rotassemble", &["--straight-edges"], b"");
     usage.fails(2, &["--second-order"]);
 }
+
+#[test]
+fn edges_of_first_order_are_straight_anyway() {
+    run("rotassemble", &["--straight-edges"], b"").fails(2, &["--second-order"]);
+}

@@ -25,9 +25,9 @@ pub struct WishArgs {
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = positive)]
     edge_length: Option<f64>,
 
-    /// Largest tetrahedron volume in one region, by its name or id, or, `NAME:edge-length=H`, length of its edges, in place of
+    /// Size in one region, by its name or id: `max-volume`, largest tetrahedron volume, or `edge-length`, length of its edges, in place of
     /// those asked for elsewhere; of the faces between two regions the shorter one holds; repeatable
-    #[arg(long, value_name = "NAME:max-volume=V", value_parser = region_size)]
+    #[arg(long, value_name = "NAME:KEY=SIZE", value_parser = region_size)]
     region: Vec<RegionSize>,
 
     /// Elements across walls, at least: sizes are at most this part of the distance through the material to the opposite
