@@ -130,6 +130,10 @@ fn the_report_has_the_keys_of_the_contract() {
     assert_eq!(report["axisymmetric"], false);
     assert_eq!(report["tolerance"], 1e-3);
     assert!(report["residual"].as_f64().unwrap() < 1e-12);
+    assert_eq!(report["deviations"]["facets"], Value::Null);
+    let remaining = &report["deviations"]["remaining"];
+    assert_eq!(remaining["largest"], report["residual"]);
+    assert_eq!(remaining["at"].as_array().unwrap().len(), 3);
     assert_eq!(
         report["axis"]["direction"],
         serde_json::json!([0.0, 0.0, 1.0])
@@ -290,6 +294,36 @@ fn facets_of_a_circle_do_not_hide_what_is_in_it() {
     assert_eq!(group(0.0, &["--tolerance", "5e-3"]).0, "C8v");
     // A corner that facets do not explain leaves one mirror.
     assert_eq!(group(0.02, &[]).0, "C1v");
+}
+
+/// The report tells how far the facets are off, and how far the shape behind them is. On the disk, images of corners lie
+/// above the middles of facets, on the rim; its shape is one of revolution.
+#[test]
+fn the_report_tells_what_facets_explain_from_what_remains() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write(&disk(0.0), &path.join("disk.tmesh"));
+    let deviations = |arguments: &[&str]| {
+        let common = ["disk.tmesh", "--report", "report.json", "-o", "out.tmesh"];
+        let run = symdetect(&[&common, arguments].concat(), path);
+        assert!(run.status.success());
+        let text = std::fs::read_to_string(path.join("report.json")).unwrap();
+        let report: Value = serde_json::from_str(&text).unwrap();
+        (report["residual"].clone(), report["deviations"].clone())
+    };
+    let (residual, found) = deviations(&[]);
+    let [facets, remaining] = ["facets", "remaining"].map(|part| &found[part]);
+    let sagitta = 1.0 - (TAU / 100.0).cos();
+    let explained = facets["largest"].as_f64().unwrap();
+    assert!((0.5 * sagitta..1.01 * sagitta).contains(&explained));
+    assert!((explained - residual.as_f64().unwrap()).abs() < 0.05 * sagitta);
+    let [x, y] = [0, 1].map(|i| facets["at"][i].as_f64().unwrap());
+    assert!((x.hypot(y) - 1.0).abs() < 2.0 * sagitta);
+    assert!(remaining["largest"].as_f64().unwrap() < 0.05 * sagitta);
+    // Where a tolerance is given, nothing is explained.
+    let (residual, found) = deviations(&["--tolerance", "5e-3"]);
+    assert_eq!(found["facets"], Value::Null);
+    assert_eq!(found["remaining"]["largest"], residual);
 }
 
 #[test]

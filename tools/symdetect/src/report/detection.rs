@@ -1,12 +1,15 @@
 //! What was found.
 
 use crate::nearly::Nearly;
+use crate::report::deviations::Deviations;
 use tmesh::{Search, Symmetry};
 
 /// What was found, and remarks for the user.
 pub struct Detection {
     /// The symmetry, in world coordinates.
     pub symmetry: Symmetry,
+    /// What facets explain of the residual, and what remains.
+    pub deviations: Deviations,
     /// What else the search came across.
     pub search: Search,
     /// How many other axes there are, of which [`Search`] lists some.

@@ -3,6 +3,7 @@
 use crate::group::Found;
 use crate::nearly::Nearly;
 use crate::report::detection::Detection;
+use crate::report::deviations::Deviations;
 use crate::rotation::{Query, Rotation};
 use kit::{number, point};
 use tmesh::{Axis, Isometry, OtherAxis, RegionMap, Search, Symmetry};
@@ -24,10 +25,12 @@ impl Query<'_> {
         };
         log(&format!("{} orders rejected are listed", rejected.len()));
         let symmetry = self.symmetry(&found);
+        let deviations = self.deviations(&found);
         Detection {
             profile: self.profile(&found.frame, found.group.order),
-            notes: self.notes(&found, &symmetry, &other_axes),
+            notes: self.notes(&found, &symmetry, &deviations, &other_axes),
             symmetry,
+            deviations,
             search: Search {
                 other_axes,
                 rejected,
@@ -65,18 +68,27 @@ impl Query<'_> {
     }
 
     /// Remarks for the user, a sentence each.
-    fn notes(&self, found: &Found, symmetry: &Symmetry, other_axes: &[OtherAxis]) -> Vec<String> {
+    fn notes(
+        &self,
+        found: &Found,
+        symmetry: &Symmetry,
+        deviations: &Deviations,
+        other_axes: &[OtherAxis],
+    ) -> Vec<String> {
         let (group, order) = (found.group.symbol(), found.group.order);
-        let (residual, tolerance) = (symmetry.residual, self.params.tolerance);
+        let residual = symmetry.residual;
         let mut notes = vec![format!(
             "{group} about {} through {}, residual {residual:.1e} of the radius {}",
             point(found.frame.rotation.z_axis.to_array()),
             point(self.shape.to_world(found.frame.origin).to_array()),
             number(symmetry.radius)
         )];
-        if residual > tolerance {
+        if let (Some(facets), Some(remaining)) = (deviations.facets, deviations.remaining) {
             notes.push(format!(
-                "beyond the tolerance of {tolerance:e} only as far as the facets of smooth surfaces explain"
+                "facets of smooth surfaces explain deviations of up to {:.1e} of the radius, at {}; {:.1e} at most remain",
+                facets.largest,
+                point(facets.at),
+                remaining.largest
             ));
         }
         if found.axisymmetric && !found.distinct {

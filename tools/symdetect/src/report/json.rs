@@ -3,6 +3,7 @@
 use crate::nearly::Nearly;
 use crate::report::defects::Defects;
 use crate::report::detection::{Detection, OrderResidual};
+use crate::report::deviations::Deviations;
 use heal::{Gap, Repair};
 use kit::{InputFile, Session};
 use serde::Serialize;
@@ -27,6 +28,8 @@ pub struct Report<'a> {
     pub residual: f64,
     /// Deviation allowed, relative to the radius.
     pub tolerance: f64,
+    /// What facets explain of the residual, and what remains.
+    pub deviations: Deviations,
     /// Whether the body is one of revolution.
     pub axisymmetric: bool,
     /// Largest distance of a surface point from the axis.
@@ -170,6 +173,7 @@ impl<'a> Report<'a> {
             mirror_direction: symmetry.reference,
             residual: symmetry.residual,
             tolerance: symmetry.tolerance,
+            deviations: found.deviations,
             axisymmetric: symmetry.axisymmetric,
             radius: symmetry.radius,
             search: ReportSearch {

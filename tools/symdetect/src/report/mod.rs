@@ -2,6 +2,7 @@
 
 mod defects;
 mod detection;
+mod deviations;
 mod drawing;
 mod findings;
 mod json;

@@ -5,6 +5,7 @@ use crate::error::{Closest, Error};
 use crate::group::reference;
 use crate::nearly::Nearly;
 use crate::report::detection::Detection;
+use crate::report::deviations::Deviations;
 use crate::rotation::{Canonical, FIRST_DIRECTIONS, LOOSE_RANGE, Query, powers};
 use crate::verify::{Bound, Depth, Deviation, Operation};
 use geom::tree::alignment;
@@ -128,6 +129,7 @@ impl Query<'_> {
             residual: c.residual,
         });
         Detection {
+            deviations: Deviations::default(),
             symmetry: Symmetry {
                 group: Group::TRIVIAL,
                 axis: Axis {

@@ -10,8 +10,10 @@ mod one;
 mod operation;
 mod regions;
 mod revolution;
+mod shares;
 mod worst;
 
 pub use deviation::{Bound, Depth, Deviation};
 pub use group::{Check, Verified};
 pub use operation::{Operation, golden_rotations, golden_turns, some_powers, turn_matrix};
+pub use shares::Share;
