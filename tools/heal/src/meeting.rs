@@ -52,16 +52,36 @@ pub fn meetings(
 
 /// The contacts between triangles of the same group, numbered from zero on.
 pub fn meetings_within(points: &[DVec3], triangles: &[[u32; 3]], group: &[u32]) -> Meetings {
+    let mut met = Meetings::NONE;
+    met.search = contacts_within(points, triangles, group, |contact| met.add(contact));
+    met
+}
+
+/// Pairs of triangles of different groups that meet away from common vertices and edges, all there are.
+pub struct Met {
+    /// The pairs, the lower one first.
+    pub pairs: Vec<[u32; 2]>,
+    /// The group of each triangle, numbered from zero on.
+    pub group: Vec<u32>,
+}
+
+/// Calls `found` with the contacts between triangles of the same group, numbered from zero on.
+pub fn contacts_within(
+    points: &[DVec3],
+    triangles: &[[u32; 3]],
+    group: &[u32],
+    mut found: impl FnMut(Contact),
+) -> Search {
     let count = group.iter().max().map_or(0, |m| *m as usize + 1);
     let mut members = vec![Vec::new(); count];
     for (t, &g) in (0..).zip(group) {
         members[g as usize].push(t);
     }
-    let mut met = Meetings::NONE;
+    let mut end = Search::Done;
     for members in &members {
         let own: Vec<[u32; 3]> = members.iter().map(|&t| triangles[t as usize]).collect();
         let mut found = |[i, j]: [usize; 2], point| {
-            met.add(Contact {
+            found(Contact {
                 triangles: [members[i], members[j]],
                 point,
             });
@@ -86,8 +106,8 @@ pub fn meetings_within(points: &[DVec3], triangles: &[[u32; 3]], group: &[u32]) 
             },
         );
         if search == Search::GaveUp {
-            met.search = search;
+            end = search;
         }
     }
-    met
+    end
 }

@@ -171,6 +171,14 @@ impl Item {
         }
     }
 
+    /// A node with this box alone.
+    pub fn node(&self) -> Node {
+        let mut node = Node::EMPTY;
+        let bin = Bin::EMPTY.with(self);
+        node.set(0, &Range::of(bin, 0, 0), LEAF);
+        node
+    }
+
     /// Twice the middle of the box.
     fn middle(&self) -> Vec3A {
         self.bounds.low + self.bounds.high
@@ -189,10 +197,13 @@ struct Range {
 
 impl Range {
     fn new(items: &[Item], first: usize, count: usize, depth: usize) -> Self {
-        let bin = Bin::of(&items[first..first + count]);
+        Self::of(Bin::of(&items[first..first + count]), first, depth)
+    }
+
+    fn of(bin: Bin, first: usize, depth: usize) -> Self {
         Self {
             first,
-            count,
+            count: bin.count,
             depth,
             bounds: bin.bounds,
             margin: bin.margin,
@@ -309,16 +320,10 @@ fn split(items: &mut [Item], range: Range) -> [Range; 2] {
             [Bin::of(left), Bin::of(right)]
         }
     };
-    let part = |first, bin: Bin| Range {
-        first,
-        count: bin.count,
-        depth: range.depth + 1,
-        bounds: bin.bounds,
-        margin: bin.margin,
-    };
+    let depth = range.depth + 1;
     [
-        part(range.first, left),
-        part(range.first + left.count, right),
+        Range::of(left, range.first, depth),
+        Range::of(right, range.first + left.count, depth),
     ]
 }
 

@@ -84,7 +84,13 @@ impl Tree {
     /// Any triangle no farther than `enough` from `point`, else the nearest one, if that is nearer than
     /// `within`.
     pub fn near_enough(&self, point: DVec3, within: f64, enough: f64) -> Option<Nearest> {
-        self.search(point, within, enough, |_| true)
+        self.search(point, (within, f64::INFINITY), enough, |_| true)
+    }
+
+    /// The triangle nearest to `point`, if one is nearer than `within`, where one that would do is known to be nearer than
+    /// so much: then less of the tree is looked at.
+    pub fn nearest_below(&self, point: DVec3, within: f64, known: f64) -> Option<Nearest> {
+        self.search(point, (within, known), 0.0, |_| true)
     }
 
     /// The nearest of the triangles that are `wanted`, if one is nearer than `within`.
@@ -94,20 +100,20 @@ impl Tree {
         within: f64,
         wanted: impl Fn(u32) -> bool,
     ) -> Option<Nearest> {
-        self.search(point, within, 0.0, wanted)
+        self.search(point, (within, f64::INFINITY), 0.0, wanted)
     }
 
     #[inline(always)]
     fn search(
         &self,
         point: DVec3,
-        within: f64,
+        limits: (f64, f64),
         enough: f64,
         wanted: impl Fn(u32) -> bool,
     ) -> Option<Nearest> {
         match self.has_margins {
-            true => self.search_with::<true>(point, within, enough, wanted),
-            false => self.search_with::<false>(point, within, enough, wanted),
+            true => self.search_with::<true>(point, limits, enough, wanted),
+            false => self.search_with::<false>(point, limits, enough, wanted),
         }
     }
 
@@ -116,7 +122,7 @@ impl Tree {
     fn search_with<const MARGINS: bool>(
         &self,
         point: DVec3,
-        within: f64,
+        (within, known): (f64, f64),
         enough: f64,
         wanted: impl Fn(u32) -> bool,
     ) -> Option<Nearest> {
@@ -127,11 +133,11 @@ impl Tree {
         // coordinates, and when the margin is taken off. Coordinates of boxes, below two, are rounded outwards.
         let largest = f64::from(single.abs().max_element().max(2.0));
         let rounded = rounded_up(rounding::single(5) * largest);
-        let within = within / unit;
+        let (within, known) = (within / unit, known / unit);
         let far = rounded_up(within);
         let mut best = match MARGINS {
-            true => f64::INFINITY,
-            false => within * within,
+            true => known * known,
+            false => (within * within).min(known * known),
         };
         let mut bound = squares_up_to(best);
         let mut found: Option<(u32, DVec3)> = None;
@@ -160,16 +166,18 @@ impl Tree {
                 continue;
             }
             let node = &self.boxes.nodes[at as usize];
-            let distances = node.distances_squared(single.to_array(), rounded);
+            let mut distances = node.distances_squared(single.to_array(), rounded);
+            if MARGINS {
+                for (d, margin) in distances.iter_mut().zip(node.margin) {
+                    let most = far + margin;
+                    let is_within = *d <= most * most * SUM_SQUARED;
+                    *d = if is_within { *d } else { f32::INFINITY };
+                }
+            }
             // The nearest child ends on top.
             let first = stack.len();
-            // Rounded up twice: the square is off by half a place, as the sum is.
-            let limit = |slot: usize| {
-                let most = (far + node.margin[slot]).next_up();
-                (most * most).next_up()
-            };
-            for (i, (d, child)) in distances.into_iter().zip(node.child).enumerate() {
-                if d < bound && (!MARGINS || d <= limit(i)) {
+            for (d, child) in distances.into_iter().zip(node.child) {
+                if d < bound {
                     let mut slot = stack.len();
                     stack.push((child, d));
                     while slot > first && stack[slot - 1].1 < d {
@@ -186,6 +194,10 @@ impl Tree {
         })
     }
 }
+
+/// Factor that makes the square of a sum no smaller for rounding: of the sum, which is squared, of the square, and of
+/// the product with this factor.
+const SUM_SQUARED: f32 = 1.0 + 4.0 * f32::EPSILON;
 
 /// A single-precision number that is not smaller.
 #[inline]
@@ -313,6 +325,8 @@ mod tests {
                 assert!((found.distance - best).abs() <= 1e-9);
                 assert!(tree.nearest(p, 0.99 * best).is_none());
                 assert!(tree.nearest(p, 1.01 * best + 1e-12).is_some());
+                let known = 1.01 * best + 1e-12;
+                assert_eq!(tree.nearest_below(p, f64::INFINITY, known), Some(found));
             }
         }
     }

@@ -32,6 +32,10 @@ pub fn pairs(
     mut visit: impl FnMut(u32, u32) -> bool,
 ) -> Search {
     let mut bounds: Vec<Bounds> = boxes.map(|[low, high]| Bounds { low, high }).collect();
+    let is_of_first = |i| group(i) != MIXED && group(i) == group(0);
+    if (0..bounds.len() as u32).all(is_of_first) {
+        return Search::Done;
+    }
     let all = Bounds::of(bounds.iter().flat_map(|b| [&b.low, &b.high]));
     let placement = Placement::of(all);
     for b in &mut bounds {
@@ -60,6 +64,27 @@ pub fn pairs(
         walk.run();
     }
     end
+}
+
+/// The boxes that are chosen and those that meet a chosen one, in order; some that nearly meet one may be among them, and
+/// all others where most are chosen.
+/// O(n log m) for m chosen ones where few boxes meet.
+pub fn with_neighbours(boxes: &[[DVec3; 2]], is_chosen: impl Fn(u32) -> bool) -> Vec<u32> {
+    let numbers = || 0..boxes.len() as u32;
+    // Then hardly any are left out, and the search for them takes longer than what they take.
+    if 2 * numbers().filter(|&i| is_chosen(i)).count() > boxes.len() {
+        return numbers().collect();
+    }
+    let all = Bounds::of(boxes.iter().flatten());
+    let placement = Placement::of(all);
+    let item = |i: u32| {
+        let [low, high] = boxes[i as usize].map(|p| placement.inside(p));
+        Item::new(Bounds { low, high }, i)
+    };
+    let chosen = Boxes::new(numbers().filter(|&i| is_chosen(i)).map(item).collect());
+    let mut open = Vec::new();
+    let kept = numbers().filter(|&i| is_chosen(i) || chosen.meet_any(&item(i), &mut open));
+    kept.collect()
 }
 
 /// A box by the node that has it and its place there.
@@ -194,6 +219,30 @@ impl<V: FnMut(u32, u32) -> bool> Walk<'_, V> {
     }
 }
 
+impl Boxes {
+    /// Whether one of the boxes meets another one. The stack is for work.
+    fn meet_any(&self, item: &Item, open: &mut Vec<u32>) -> bool {
+        let lone = item.node();
+        open.clear();
+        if !self.nodes.is_empty() {
+            open.push(0);
+        }
+        while let Some(n) = open.pop() {
+            let node = &self.nodes[n as usize];
+            let mut met = node.meeting(&lone, 0);
+            while met != 0 {
+                let child = node.child[met.trailing_zeros() as usize];
+                met &= met - 1;
+                if child & LEAF != 0 {
+                    return true;
+                }
+                open.push(child);
+            }
+        }
+        false
+    }
+}
+
 impl Node {
     /// Whether there is a box at a place.
     fn is_filled(&self, place: usize) -> bool {
@@ -260,6 +309,23 @@ mod tests {
             }
             assert_eq!(found(&boxes, group), wanted, "{groups} groups");
         }
+    }
+
+    #[test]
+    fn neighbours_are_those_of_an_exhaustive_search() {
+        let boxes = some_boxes(700);
+        let meet = |s: usize, t: usize| {
+            let ([a, b], [c, d]) = (boxes[s], boxes[t]);
+            a.cmple(d).all() && c.cmple(b).all()
+        };
+        for share in [3, 50, 1000] {
+            let is_chosen = |t: u32| t % share == share / 2;
+            let chosen: Vec<usize> = (0..700).filter(|&t| is_chosen(t as u32)).collect();
+            let near = |t: usize| chosen.iter().any(|&c| meet(t, c));
+            let wanted: Vec<u32> = (0..700).filter(|&t| near(t as usize)).collect();
+            assert_eq!(with_neighbours(&boxes, is_chosen), wanted, "one in {share}");
+        }
+        assert_eq!(with_neighbours(&boxes, |t| t % 3 > 0).len(), 700);
     }
 
     #[test]

@@ -6,8 +6,8 @@ use super::near::{Spot, crossing, is_beside, piercing, spot};
 use geom::contacts::contact;
 use geom::edges::Edges;
 use geom::sets::DisjointSets;
-use geom::tree::{Search, alignment, pairs};
-use glam::DVec3;
+use geom::tree::{Search, alignment, pairs, with_neighbours};
+use glam::{DMat3, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What is related to what.
@@ -63,7 +63,6 @@ pub fn relate(
     reach: Reach<'_>,
     (is_new, known): (impl Fn(u32) -> bool, Option<&[[u32; 2]]>),
 ) -> Relations {
-    let all: Vec<u32> = (0..complex.triangles.len() as u32).collect();
     // What is not new is one group, and so is a solid within which everything is known: where there is nothing else,
     // nothing is looked at.
     let not_new = u32::MAX - 1;
@@ -75,9 +74,13 @@ pub fn relate(
     let face = |t: u32| complex.face[t as usize];
     let known = known.unwrap_or_default().iter().copied();
     let mut near: Vec<[u32; 2]> = known.filter(|&[s, t]| face(s) != face(t)).collect();
+    let boxes = Aligned::of(complex, reach);
+    let all: Vec<[DVec3; 2]> = (0..complex.triangles.len() as u32)
+        .map(|t| boxes.of_triangle(t))
+        .collect();
+    let some = with_neighbours(&all, &is_new);
     let search = near_pairs(
-        (complex, &all),
-        reach,
+        (&boxes, &some),
         group,
         |s, t| is_new(s) || is_new(t),
         |s, t| {
@@ -112,7 +115,8 @@ pub fn is_related(
             near.push([s, t]);
         }
     };
-    let search = near_pairs((complex, some), reach, &solid_of, apart, visit);
+    let boxes = Aligned::of(complex, reach);
+    let search = near_pairs((&boxes, some), &solid_of, apart, visit);
     if search == Search::GaveUp {
         return false;
     }
@@ -127,25 +131,42 @@ fn meets(complex: &Complex, s: u32, t: u32) -> bool {
     contact(&complex.points, p, q).is_some()
 }
 
-/// Calls `visit` with the pairs of some triangles of different groups that are `wanted` and whose boxes are within reach of
-/// each other, the lower one first.
+/// Boxes about all that triangles reach, which only sort out pairs: those of a frame along the faces are smaller, and what
+/// turning rounds is less than the reach.
+struct Aligned<'a> {
+    complex: &'a Complex,
+    reach: Reach<'a>,
+    frame: Option<DMat3>,
+}
+
+impl<'a> Aligned<'a> {
+    fn of(complex: &'a Complex, reach: Reach<'a>) -> Self {
+        let frame = alignment(complex.triangles.len(), |t| complex.corners(t as u32));
+        Self {
+            complex,
+            reach,
+            frame,
+        }
+    }
+
+    /// The lowest and the highest coordinates of a triangle's box.
+    fn of_triangle(&self, t: u32) -> [DVec3; 2] {
+        let [a, b, c] = (self.complex.corners(t)).map(|p| self.frame.map_or(p, |frame| frame * p));
+        let reach = self.reach.of(t);
+        [a.min(b).min(c) - reach, a.max(b).max(c) + reach]
+    }
+}
+
+/// Calls `visit` with the pairs of some triangles of different groups that are `wanted` and whose boxes meet, the lower one
+/// first.
 fn near_pairs(
-    (complex, some): (&Complex, &[u32]),
-    reach: Reach<'_>,
+    (boxes, some): (&Aligned<'_>, &[u32]),
     group: impl Fn(u32) -> u32,
     wanted: impl Fn(u32, u32) -> bool,
     mut visit: impl FnMut(u32, u32),
 ) -> Search {
-    // Boxes only sort out pairs: those of a frame along the faces are smaller, and what turning rounds is less than the
-    // reach.
-    let frame = alignment(complex.triangles.len(), |t| complex.corners(t as u32));
-    let boxes = some.iter().map(|&t| {
-        let [a, b, c] = (complex.corners(t)).map(|p| frame.map_or(p, |frame| frame * p));
-        let reach = reach.of(t);
-        [a.min(b).min(c) - reach, a.max(b).max(c) + reach]
-    });
     pairs(
-        boxes,
+        some.iter().map(|&t| boxes.of_triangle(t)),
         |i| group(some[i as usize]),
         |s, t| {
             let [s, t] = [s.min(t), s.max(t)].map(|i| some[i as usize]);

@@ -98,22 +98,27 @@ pub fn label_mended(
         {
             (surface, labels)
         }
-        (told, Repairing::Auto(contacts)) => match imprinted(apart, &tolerance, contacts) {
-            Ok(imprinted) if imprinted.is_slight && told.is_ok() => (surface, told?),
-            Ok(imprinted) => {
-                joined = Some(imprinted.joined);
-                (imprinted.surface, imprinted.labels)
+        (told, Repairing::Auto(contacts)) => {
+            // Of several solids, another surface was labelled.
+            let known = told.as_ref().ok().and_then(|labels| labels.met.as_ref());
+            let known = known.filter(|_| !several);
+            match imprinted(apart, &tolerance, contacts, known) {
+                Ok(imprinted) if imprinted.is_slight && told.is_ok() => (surface, told?),
+                Ok(imprinted) => {
+                    joined = Some(imprinted.joined);
+                    (imprinted.surface, imprinted.labels)
+                }
+                Err(reason) => match told {
+                    Ok(mut labels) => {
+                        labels.notices.push(reason);
+                        (surface, labels)
+                    }
+                    Err(error) => {
+                        return Err(HealError::BadSurface(format!("{error}; {reason}")));
+                    }
+                },
             }
-            Err(reason) => match told {
-                Ok(mut labels) => {
-                    labels.notices.push(reason);
-                    (surface, labels)
-                }
-                Err(error) => {
-                    return Err(HealError::BadSurface(format!("{error}; {reason}")));
-                }
-            },
-        },
+        }
     };
     let is_apart = labels.is_apart;
     notices.append(&mut labels.notices);

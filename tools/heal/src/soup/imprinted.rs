@@ -6,7 +6,7 @@ use crate::contacts::{Changed, Claimed, Contacts, Joined, Overlap};
 use crate::imprint::{
     Complex, Curves, Faces, Incidence, Reach, Settled, is_related, overlay, settle,
 };
-use crate::meeting::{meetings, meetings_within};
+use crate::meeting::{Met, contacts_within, meetings, meetings_within};
 use crate::words::{place, short};
 use geom::contacts::contacts;
 use geom::edges::{EdgeUse, Edges};
@@ -30,7 +30,7 @@ pub struct Imprinted {
 }
 
 /// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
-/// more elsewhere, faces are divided where they cross.
+/// more elsewhere, faces are divided where they cross. What meets of different faces may be `known`.
 ///
 /// # Errors
 /// Why that is not possible, for the end of a sentence.
@@ -38,10 +38,11 @@ pub fn imprinted(
     surface: &Surface,
     tolerance: &Tolerance,
     contacts: Contacts,
+    known: Option<&Met>,
 ) -> Result<Imprinted, String> {
     let mut reason = String::new();
     let mut complex = complex_of(surface, tolerance);
-    let crossing = Crossing::of(surface, &complex);
+    let crossing = Crossing::of(surface, &complex, known);
     complex.break_up(&crossing.folded);
     let flat = Contacts {
         gap: Some(0.0),
@@ -198,29 +199,41 @@ struct Crossing {
 }
 
 impl Crossing {
-    fn of(surface: &Surface, complex: &Complex) -> Self {
+    fn of(surface: &Surface, complex: &Complex, known: Option<&Met>) -> Self {
         let mut crossing = Self {
             solids: vec![false; surface.solids.len()],
             pairs: Vec::new(),
             folded: FxHashSet::default(),
         };
-        contacts(
-            &surface.points,
-            &surface.triangles,
-            |t| t,
-            |contact| {
-                let [a, b] = contact.triangles.map(|t| surface.solid[t as usize]);
-                if a == b {
-                    crossing.solids[a as usize] = true;
-                    crossing.pairs.push(contact.triangles);
-                }
-                let [a, b] = contact.triangles.map(|t| complex.face[t as usize]);
-                if a == b {
-                    crossing.folded.insert(a);
-                }
-                true
-            },
-        );
+        let mut add = |triangles: [u32; 2]| {
+            let [a, b] = triangles.map(|t| surface.solid[t as usize]);
+            if a == b {
+                crossing.solids[a as usize] = true;
+                crossing.pairs.push(triangles);
+            }
+            let [a, b] = triangles.map(|t| complex.face[t as usize]);
+            if a == b {
+                crossing.folded.insert(a);
+            }
+        };
+        let (points, triangles) = (&surface.points, &surface.triangles);
+        match known {
+            Some(met) => {
+                met.pairs.iter().for_each(|pair| add(*pair));
+                contacts_within(points, triangles, &met.group, |c| add(c.triangles));
+            }
+            None => {
+                contacts(
+                    points,
+                    triangles,
+                    |t| t,
+                    |contact| {
+                        add(contact.triangles);
+                        true
+                    },
+                );
+            }
+        }
         crossing
     }
 }
@@ -251,6 +264,7 @@ fn labels(settled: &Settled, notices: Vec<String>) -> Labels {
         notices,
         crosses: false,
         is_apart: true,
+        met: None,
     }
 }
 

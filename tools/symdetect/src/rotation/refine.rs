@@ -4,6 +4,7 @@ use crate::shape::{Motion, Shape, Target};
 use crate::tolerance::VANISHING;
 use crate::verify::{Bound, Operation};
 use geom::eigen;
+use geom::tree::Nearest;
 use glam::{DMat3, DVec3};
 use tmesh::{Frame, Isometry};
 
@@ -66,8 +67,9 @@ pub fn refine(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
     let mut reach = fit.reach;
     let mut best_error = f64::INFINITY;
     let mut frame = start;
+    let mut hits = Hits::default();
     for _ in 0..STEPS {
-        let Some(step) = gauss_newton(shape, &frame, fit, reach) else {
+        let Some(step) = gauss_newton(shape, &frame, fit, reach, &mut hits) else {
             break;
         };
         if step.mean_square >= best_error {
@@ -97,8 +99,9 @@ pub fn refine(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
 pub fn settle(shape: &Shape, start: Frame, fit: &Fit<'_>) -> Frame {
     let mut frame = start;
     let mut reach = fit.reach;
+    let mut hits = Hits::default();
     while reach > fit.bound.limit {
-        let Some(step) = gauss_newton(shape, &frame, fit, reach) else {
+        let Some(step) = gauss_newton(shape, &frame, fit, reach, &mut hits) else {
             break;
         };
         frame = step.frame;
@@ -143,7 +146,31 @@ struct Step {
     promised: f64,
 }
 
-fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Option<Step> {
+/// The triangle that the image of each equation's sample was nearest to in the step before, if near any: that is mostly the
+/// one in the next step, too.
+#[derive(Default)]
+struct Hits(Vec<Option<u32>>);
+
+impl Hits {
+    fn before(&self, equation: usize) -> Option<u32> {
+        self.0.get(equation).copied().flatten()
+    }
+
+    fn note(&mut self, equation: usize, hit: Option<&Nearest>) {
+        if equation == self.0.len() {
+            self.0.push(None);
+        }
+        self.0[equation] = hit.map(|hit| hit.triangle);
+    }
+}
+
+fn gauss_newton(
+    shape: &Shape,
+    frame: &Frame,
+    fit: &Fit<'_>,
+    reach: f64,
+    hits: &mut Hits,
+) -> Option<Step> {
     let operations = fit.operations;
     let motions: Vec<Motion> = operations
         .iter()
@@ -166,7 +193,12 @@ fn gauss_newton(shape: &Shape, frame: &Frame, fit: &Fit<'_>, reach: f64) -> Opti
             limit: reach,
             ..fit.bound
         };
-        let Some(hit) = shape.near(y, sample.triangle, target, within) else {
+        let hit = match hits.before(i).filter(|_| fit.bound.facets) {
+            Some(known) => shape.nearest_behind_again((y, known), sample.triangle, target, reach),
+            None => shape.near(y, sample.triangle, target, within),
+        };
+        hits.note(i, hit.as_ref());
+        let Some(hit) = hit else {
             if !fit.bound.facets {
                 equations.leave_out(reach);
             }

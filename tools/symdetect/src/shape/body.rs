@@ -13,7 +13,7 @@ use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
 use geom::measure::double_area_vector;
 use geom::smooth::SMOOTH_COSINE;
-use geom::tree::Nearest;
+use geom::tree::{Nearest, closest_point};
 use glam::DVec3;
 use std::sync::OnceLock;
 use tmesh::{Frame, Template};
@@ -172,6 +172,23 @@ impl Shape {
                 self.faces_like(part.triangle(t), (normal, triangle))
             }),
         })
+    }
+
+    /// The same of any normal where a triangle is known that did for about the same image, which saves time.
+    pub fn nearest_behind_again(
+        &self,
+        (image, known): (DVec3, u32),
+        triangle: u32,
+        target: &Target,
+        limit: f64,
+    ) -> Option<Nearest> {
+        let behind = self.behind();
+        let part = behind.trees.part(&self.interfaces, triangle, target)?;
+        let within = limit + behind.smooth.most(triangle);
+        let distance = closest_point(image, &self.corners(known)).distance(image) + ARITHMETIC;
+        let found = part.tree.nearest_below(image, within, distance);
+        // It may be too far by now.
+        part.answer(found.or_else(|| part.tree.nearest(image, within)))
     }
 
     /// Whether a triangle faces where the image of another one does, whose normal then is given: where there is material on

@@ -7,7 +7,7 @@
 
 use super::notices::{causes, explain_turned};
 use crate::HealError;
-use crate::meeting::meetings;
+use crate::meeting::{Met, meetings};
 use crate::soup::surface::{NONE, Surface};
 use crate::words::place;
 use geom::cells::Cells;
@@ -18,7 +18,7 @@ use geom::measure::tet_volume;
 use geom::sets::DisjointSets;
 use interchange::text::counted;
 use rustc_hash::FxHashMap;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 
 /// Which solid lies on either side of each triangle.
@@ -35,6 +35,8 @@ pub struct Labels {
     pub crosses: bool,
     /// Whether it was made sure that no two triangles meet away from common corners and edges.
     pub is_apart: bool,
+    /// What does, of different flat faces, where all of it was found.
+    pub met: Option<Met>,
 }
 
 /// Finds the solid on either side of each triangle. What lies in one plane within a distance is taken for one face, which
@@ -46,16 +48,15 @@ pub fn label(surface: &Surface, edges: &Edges, flat: f64) -> Result<Labels, Heal
     let solids = surface.solids.len();
     let (shell, _) = shells(surface, edges);
     let mut notices = Vec::new();
-    let met = check_contacts(
-        surface,
-        (&shell, &faces(surface, edges, flat)),
-        &mut notices,
-    )?;
-    if let Met::Pieces(place) = &met {
+    let face = faces(surface, edges, flat);
+    let (parts, pairs) = check_contacts(surface, (&shell, &face), &mut notices)?;
+    let met = pairs.map(|pairs| Met { pairs, group: face });
+    if let Parts::Pieces(place) = &parts {
         notices.push(format!(
             "pieces of the surface {place}; it cannot be meshed as it is"
         ));
-        return as_oriented(surface, edges, notices);
+        let oriented = as_oriented(surface, edges, notices)?;
+        return Ok(Labels { met, ..oriented });
     }
     let cells = Cells::new(&surface.points, &surface.triangles, edges);
     let content = contents(surface, edges, &cells)?;
@@ -64,8 +65,9 @@ pub fn label(surface: &Surface, edges: &Edges, flat: f64) -> Result<Labels, Heal
         back: Vec::with_capacity(shell.len()),
         turned: Vec::with_capacity(shell.len()),
         notices,
-        crosses: matches!(met, Met::Within),
-        is_apart: matches!(met, Met::Nowhere),
+        crosses: matches!(parts, Parts::MeetWithin),
+        is_apart: matches!(parts, Parts::AreApart),
+        met,
     };
     for t in 0..shell.len() {
         let front = content[cells.front(t) as usize];
@@ -128,29 +130,32 @@ fn faces(surface: &Surface, edges: &Edges, flat: f64) -> Vec<u32> {
 }
 
 /// Whether parts of a surface meet that should not.
-enum Met {
-    Nowhere,
-    /// Faces that hang together.
-    Within,
+enum Parts {
+    AreApart,
+    /// Faces that hang together do.
+    MeetWithin,
     /// Pieces of a lone solid: where and how often, for the end of a sentence.
     Pieces(String),
     Unknown,
 }
 
 /// Looks for faces that cross or touch other than in common triangles, edges and vertices. Within a shell and within a
-/// lone solid that is allowed, and described in the result.
+/// lone solid that is allowed, and described in the result; besides, all pairs of triangles that do, if the search came to
+/// an end.
 fn check_contacts(
     surface: &Surface,
     (shell, face): (&[u32], &[u32]),
     notices: &mut Vec<String>,
-) -> Result<Met, HealError> {
+) -> Result<(Parts, Option<Vec<[u32; 2]>>), HealError> {
     let of = |t: u32| (surface.solid[t as usize], surface.partner[t as usize]);
     let within = Cell::new(false);
+    let pairs = RefCell::new(Vec::new());
     let met = meetings(
         &surface.points,
         &surface.triangles,
         |t| face[t as usize],
         |contact| {
+            pairs.borrow_mut().push(contact.triangles);
             let [s, t] = contact.triangles.map(|t| shell[t as usize]);
             if s == t {
                 within.set(true);
@@ -162,18 +167,19 @@ fn check_contacts(
             !(related && (b != NONE || d != NONE))
         },
     );
+    let pairs = (met.search == Search::Done).then(|| pairs.into_inner());
     let Some(Contact { triangles, point }) = met.lowest else {
         if within.get() {
-            return Ok(Met::Within);
+            return Ok((Parts::MeetWithin, pairs));
         }
         if met.search == Search::Done {
-            return Ok(Met::Nowhere);
+            return Ok((Parts::AreApart, pairs));
         }
         notices.push(
             "too many triangles lie close to each other to tell whether all pieces are apart"
                 .to_owned(),
         );
-        return Ok(Met::Unknown);
+        return Ok((Parts::Unknown, pairs));
     };
     let [a, b] = triangles.map(|t| surface.solid[t as usize]);
     let (one, many) = ("pair of triangles meets", "pairs of triangles meet");
@@ -193,7 +199,8 @@ fn check_contacts(
             surface.solid_name(a)
         )));
     }
-    Ok(Met::Pieces(format!("cross or touch at {at} ({count})")))
+    let place = format!("cross or touch at {at} ({count})");
+    Ok((Parts::Pieces(place), pairs))
 }
 
 /// The solid in each cell.
@@ -318,5 +325,6 @@ fn as_oriented(
         notices,
         crosses: true,
         is_apart: false,
+        met: None,
     })
 }
