@@ -78,8 +78,8 @@ fn checked(input: &[u8]) -> (i32, Value, String) {
     (output.code, report["symmetry"].clone(), texts.join("\n"))
 }
 
-#[test]
-fn with_a_hub_the_order_of_the_wedge_holds_outside() {
+/// A filled via, placed anyhow, whose wedge of order 16 is meshed around a hub of a lower order.
+fn via_with_a_hub(cut: &[&str]) -> Vec<u8> {
     let mut body = Tsv {
         order: 16,
         core: 0.2,
@@ -94,7 +94,7 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
     };
     place.apply(&mut body);
     let mut meshed = encode(&body, EXACT_STL);
-    let cut = ["-q", "--hub", "0.1", "--order", "16"];
+    let cut = [&["-q", "--hub", "0.1", "--order", "16"], cut].concat();
     for (tool, arguments) in [
         ("symdetect", &cut[..1]),
         ("wedgecut", &cut),
@@ -102,6 +102,31 @@ fn with_a_hub_the_order_of_the_wedge_holds_outside() {
     ] {
         meshed = support::run(tool, arguments, &meshed).success();
     }
+    meshed
+}
+
+/// Part of the hub adjoins other sectors alone: a deck would leave its face free.
+#[test]
+fn a_sector_of_a_hub_of_another_order_is_no_deck() {
+    let mirrors = via_with_a_hub(&[]);
+    let deck = ["--sector", "--to", "inp"];
+    for options in [&[][..], &["--mirror", "symmetric"], &["--mirror", "none"]] {
+        fails(
+            &[&deck, options].concat(),
+            &mirrors,
+            1,
+            "wedgecut --hub none",
+        );
+    }
+    let turns = via_with_a_hub(&["--domain", "rotation", "--horizontal-mirror", "off"]);
+    fails(&deck, &turns, 1, "wedgecut --hub none");
+    // As a mesh it is welcome.
+    assert!(!run(&["--sector", "--to", "vtk"], &turns).success().is_empty());
+}
+
+#[test]
+fn with_a_hub_the_order_of_the_wedge_holds_outside() {
+    let meshed = via_with_a_hub(&[]);
     let (code, symmetry, errors) = checked(&meshed);
     assert_eq!(code, 0, "{errors}");
     let whole = symmetry["order"].as_u64().unwrap();

@@ -81,7 +81,7 @@ pub fn conditions(mesh: &dyn MeshStream, wishes: &[MirrorWish]) -> Result<Condit
             coupling.name
         )));
     }
-    if mesh.couplings().iter().any(|c| c.sectors.is_none()) {
+    if !mesh.uncoupled().is_empty() || mesh.couplings().iter().any(|c| c.sectors.is_none()) {
         return Err(Failure::Impossible(
             "the column around the axis (the hub) has a symmetry of its own, so that other sectors touch \
              this one elsewhere, and a solver cannot couple them; cut without it: wedgecut --hub none"

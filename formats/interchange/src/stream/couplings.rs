@@ -2,6 +2,7 @@
 
 use super::walls::WallNames;
 use super::{Coupling, Middles};
+use glam::DMat3;
 use rustc_hash::FxHashSet;
 use tmesh::{Document, Isometry};
 
@@ -59,7 +60,11 @@ pub fn couplings(document: &Document, shown: &[Isometry], first: &[u32]) -> Vec<
 /// A coupling without pairs.
 fn coupling(document: &Document, name: &str, walls: [u32; 2], map: Isometry) -> Coupling {
     let frame = document.frame;
-    let matrix = frame.rotation * map.matrix() * frame.rotation.transpose();
+    let matrix = match map == Isometry::IDENTITY {
+        // To the bit: what it relates is one.
+        true => DMat3::IDENTITY,
+        false => frame.rotation * map.matrix() * frame.rotation.transpose(),
+    };
     let turns = !map.mirrored() && !map.flipped();
     // One step backwards is a step forwards about the opposite direction.
     let backwards = turns && map.n() > 2 && map.k() == map.n() - 1;

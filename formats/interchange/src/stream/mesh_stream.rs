@@ -219,6 +219,11 @@ pub trait MeshStream {
     fn couplings(&self) -> &[Coupling] {
         &[]
     }
+    /// Names of faces of a sector that only other sectors adjoin, at places where this one has no face left to couple them
+    /// with.
+    fn uncoupled(&self) -> &[String] {
+        &[]
+    }
     /// Edges on the axis of a sector, in order along it; of second-order elements their halves.
     fn axis_edges(&self) -> &[[u32; 2]] {
         &[]

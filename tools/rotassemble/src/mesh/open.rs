@@ -1,7 +1,7 @@
 //! What is left open in a sector: walls, and what they have to do with each other.
 
 use crate::numbering::Numbering;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use interchange::{Coupling, MeshStream, Middles, Plain};
 use tmesh::Document;
 
@@ -16,6 +16,8 @@ pub struct Open {
     pub walls: Vec<Vec<u32>>,
     /// The faces that a solver has to couple.
     pub couplings: Vec<Coupling>,
+    /// Names of faces that only other sectors adjoin, where the faces of this one that are their images are welded to others.
+    pub uncoupled: Vec<String>,
     /// Edges on the axis.
     pub axis_edges: Vec<[u32; 2]>,
 }
@@ -49,24 +51,33 @@ impl Open {
             numbering.id(placed[t], id - first[t])
         };
         let position = positions.of_all(document, &placed);
-        let couplings = plain.couplings().iter().filter_map(|coupling| {
+        let mut uncoupled = Vec::new();
+        let mut couplings = Vec::new();
+        for coupling in plain.couplings() {
             let pairs = coupling.triangles.iter();
             let triangles: Option<Vec<[u64; 2]>> = pairs
                 .map(|p| Some([position[p[0] as usize]?, position[p[1] as usize]?]))
                 .collect();
+            let Some(triangles) = triangles else {
+                // What is welded needs no coupling.
+                if coupling.matrix != DMat3::IDENTITY {
+                    uncoupled.push(coupling.name.clone());
+                }
+                continue;
+            };
             let mut points: Vec<[u32; 2]> = coupling.points.iter().map(|p| p.map(locate)).collect();
             points.sort_unstable();
             points.dedup();
-            // What is welded needs no coupling.
-            Some(Coupling {
-                triangles: triangles?,
+            couplings.push(Coupling {
+                triangles,
                 points,
                 ..coupling.clone()
-            })
-        });
+            });
+        }
         let templates = 0..document.templates.len();
         Self {
-            couplings: couplings.collect(),
+            couplings,
+            uncoupled,
             axis_edges: plain.axis_edges().iter().map(|e| e.map(locate)).collect(),
             names: plain.wall_names().to_vec(),
             normals: plain.wall_normals().to_vec(),

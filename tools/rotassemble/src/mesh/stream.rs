@@ -105,6 +105,10 @@ impl MeshStream for Assembled<'_> {
         &self.open.couplings
     }
 
+    fn uncoupled(&self) -> &[String] {
+        &self.open.uncoupled
+    }
+
     fn axis_edges(&self) -> &[[u32; 2]] {
         &self.open.axis_edges
     }
