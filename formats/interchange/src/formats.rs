@@ -21,7 +21,7 @@ mod vtu;
 pub use listing::write_text;
 pub use vtu::write_pieces;
 
-use crate::parsed::Parsed;
+use crate::parsed::{Parsed, PointMesh};
 use crate::stream::{MeshStream, Plain};
 use crate::{ReadError, WriteError, WriteOptions};
 use std::io::Write;
@@ -40,6 +40,8 @@ pub struct Entry {
     sniff: Sniff,
     /// Parses a whole file; none where the format is not for input.
     read: Option<Reader>,
+    /// Parses the mesh of a whole file with the numbers at its points; none where the format has none, or they are not read.
+    read_points: Option<PointReader>,
     /// How it is written.
     pub writer: Writer,
     /// Whether it has elements of second order.
@@ -56,6 +58,8 @@ pub struct Entry {
 
 /// Parses a whole file.
 type Reader = fn(&[u8]) -> Result<Parsed, ReadError>;
+/// Parses the mesh of a whole file with the numbers at its points.
+type PointReader = fn(&[u8]) -> Result<PointMesh, ReadError>;
 /// Writes a mesh to one file.
 type MeshWriter = fn(&dyn MeshStream, &WriteOptions, &mut dyn Write) -> Result<(), WriteError>;
 /// Writes one of the files of a mesh, by position.
@@ -97,6 +101,7 @@ const NOTHING: Entry = Entry {
     is_binary: false,
     sniff: Sniff::Never,
     read: None,
+    read_points: None,
     writer: Writer::None,
     second_order: true,
     keeps_symmetry: false,
@@ -178,6 +183,7 @@ table! {
         is_binary: true,
         sniff: Sniff::Signature(vtk::looks_like),
         read: Some(vtk::read),
+        read_points: Some(vtk::read_points),
         writer: Writer::Mesh(vtk::write, vtk::size_estimate),
         keeps_symmetry: true,
     }
@@ -187,6 +193,7 @@ table! {
         is_binary: true,
         sniff: Sniff::Signature(vtu::looks_like),
         read: Some(vtu::read),
+        read_points: Some(vtu::read_points),
         writer: Writer::Mesh(vtu::write, vtu::size_estimate),
         keeps_symmetry: true,
     }
@@ -201,6 +208,7 @@ table! {
         is_binary: true,
         sniff: Sniff::Signature(msh::looks_like),
         read: Some(msh::read),
+        read_points: Some(msh::read_points),
         writer: Writer::Mesh(msh::write, msh::size_estimate),
         by_region: true,
         first_id: 1,
@@ -210,6 +218,7 @@ table! {
         name: "msh2",
         is_binary: true,
         read: Some(msh::read),
+        read_points: Some(msh::read_points),
         writer: Writer::Mesh(msh::write2, msh::size_estimate2),
         first_id: 1,
     }
@@ -361,6 +370,17 @@ pub fn parse(bytes: &[u8], format: Format) -> Result<Parsed, ReadError> {
     match format.entry().read {
         Some(read) => read(bytes),
         None => Err(ReadError::NotAnInput(format.name())),
+    }
+}
+
+/// Parses the mesh of a whole file of the given format with the numbers at its points.
+///
+/// # Errors
+/// Malformed bytes, and formats without such numbers.
+pub fn parse_points(bytes: &[u8], format: Format) -> Result<PointMesh, ReadError> {
+    match format.entry().read_points {
+        Some(read) => read(bytes),
+        None => Err(ReadError::NoPointData(format.name())),
     }
 }
 

@@ -36,7 +36,8 @@ impl Command for Cli {
     fn run(self, session: &Session) -> Result<(), Failure> {
         session.check_output()?;
         let mut document = session.read()?;
-        self.wishes.apply(&mut document)?;
+        let notes = self.wishes.apply(&mut document)?;
+        notes.iter().for_each(|note| session.note(note));
         let params = self.memory.params(&document.wishes);
         let made = watched(session, None, |log| prepare(document, &params, log));
         let (mut document, report) = made.map_err(|error| error.failure())?;

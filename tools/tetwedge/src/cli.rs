@@ -97,7 +97,8 @@ impl Command for Cli {
     fn run(self, session: &Session) -> Result<(), Failure> {
         session.check_output()?;
         let mut document = session.read()?;
-        self.wishes.apply(&mut document)?;
+        let notes = self.wishes.apply(&mut document)?;
+        notes.iter().for_each(|note| session.note(note));
         if self.keep_surface {
             document.wishes.keep_surface = Some(true);
         }

@@ -174,7 +174,8 @@ impl Command for Cli {
         };
         session.check_output()?;
         let mut document = session.read()?;
-        self.wishes.apply(&mut document)?;
+        let notes = self.wishes.apply(&mut document)?;
+        notes.iter().for_each(|note| session.note(note));
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));
         let remarks = [names::lost(&document), report.warning, report.moved];

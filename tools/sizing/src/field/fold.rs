@@ -1,0 +1,293 @@
+//! The elements of a size field at their images in one template.
+
+use super::Limited;
+use glam::{DVec2, DVec3, Vec3};
+use std::f64::consts::{PI, TAU};
+use tmesh::{Document, Placed};
+
+/// A tetrahedron, in units of the cube about the template.
+#[derive(Clone, Copy, Debug)]
+pub struct Tet {
+    /// By which of the instances it is here.
+    pub image: u32,
+    /// The first corner.
+    pub corner: Vec3,
+    /// Gradients of the barycentric coordinates of the other corners.
+    pub gradients: [Vec3; 3],
+    /// Lengths wanted at all corners.
+    pub sizes: [f32; 4],
+}
+
+/// A triangle of the border, in the same units.
+#[derive(Clone, Copy, Debug)]
+pub struct Face {
+    /// By which of the instances it is here.
+    pub image: u32,
+    /// Corners.
+    pub corners: [Vec3; 3],
+    /// Lengths wanted there.
+    pub sizes: [f32; 3],
+}
+
+/// A size field as one template sees it: elements of the field where they are after the inverse of each instance of the template, as far as
+/// they may matter in it. Of border triangles those that are as near as the next copies: what is on the other side of the
+/// axis has an image that is nearer.
+#[derive(Clone, Debug, Default)]
+pub struct Folded {
+    /// Instances of the template.
+    pub images: usize,
+    /// Tetrahedra that meet the cube.
+    pub tets: Vec<Tet>,
+    /// Triangles of the border.
+    pub faces: Vec<Face>,
+}
+
+/// Images of elements, at most. A choice: they take a gigabyte. An isotropic field of a million points folded eight hundred times has a
+/// tenth of that; many more come of elements that are wide beside the copies, which have few points.
+const MOST: usize = 1 << 24;
+
+/// Flat tetrahedra: least volume over that of the cube of the longest edge. What computing leaves of nothing is smaller.
+const FLAT: f64 = 1e-12;
+
+/// By how much angles are wider than computed, radians: far more than rounding, far less than a copy.
+const MARGIN: f64 = 1e-9;
+
+impl Folded {
+    /// Folds a field onto a template of a document, into units of the cube of this origin and width; `None` where there would be too many
+    /// images. Linear in the field and in its images that are here, but for a factor of the logarithm of the number of instances.
+    pub fn new(
+        limited: &Limited,
+        (document, index): (&Document, usize),
+        (origin, width): (DVec3, f64),
+    ) -> Option<Self> {
+        let sectors = Sectors::new(document, index);
+        let mut folded = Self {
+            images: sectors.places.len(),
+            ..Self::default()
+        };
+        let unit = |p: DVec3| (p - origin) / width;
+        let at = |v: u32| limited.points[v as usize];
+        let size = |v: u32| (limited.sizes[v as usize] / width) as f32;
+        let mut images = Vec::new();
+        for tet in &limited.tets {
+            let corners = tet.map(at);
+            if is_flat(corners) {
+                continue;
+            }
+            sectors.meeting(&corners, MARGIN, &mut images);
+            for &image in &images {
+                let here = corners.map(|p| unit(sectors.places[image as usize].apply(p)));
+                if is_in_cube(&here) {
+                    folded
+                        .tets
+                        .push(Tet::new(image, here, tet.map(size)));
+                }
+            }
+            if folded.tets.len() > MOST {
+                return None;
+            }
+        }
+        for face in &limited.border {
+            let corners = face.map(at);
+            sectors.meeting(&corners, 2.0 * sectors.half, &mut images);
+            let here = |&image: &u32| Face {
+                image,
+                corners: corners
+                    .map(|p| unit(sectors.places[image as usize].apply(p)).as_vec3()),
+                sizes: face.map(size),
+            };
+            folded.faces.extend(images.iter().map(here));
+            if folded.faces.len() > MOST {
+                return None;
+            }
+        }
+        Some(folded)
+    }
+}
+
+impl Tet {
+    fn new(image: u32, [a, b, c, d]: [DVec3; 4], sizes: [f32; 4]) -> Self {
+        let [u, v, w] = [b - a, c - a, d - a];
+        let determinant = u.dot(v.cross(w));
+        let gradients = [v.cross(w), w.cross(u), u.cross(v)];
+        Self {
+            image,
+            corner: a.as_vec3(),
+            gradients: gradients.map(|g| (g / determinant).as_vec3()),
+            sizes,
+        }
+    }
+}
+
+fn is_flat([a, b, c, d]: [DVec3; 4]) -> bool {
+    let edges = [b - a, c - a, d - a, c - b, d - b, d - c];
+    let longest = edges.iter().map(|e| e.length()).fold(0.0, f64::max);
+    let volume = edges[0].dot(edges[1].cross(edges[2])).abs();
+    // Also where the product is no number.
+    !(volume > FLAT * longest * longest * longest)
+}
+
+/// Whether the box of points meets the cube from 0 to 1.
+fn is_in_cube(points: &[DVec3]) -> bool {
+    let all = points.iter().copied();
+    let low = all.clone().reduce(DVec3::min).unwrap_or_default();
+    let high = all.reduce(DVec3::max).unwrap_or_default();
+    low.max_element() <= 1.0 + MARGIN && high.min_element() >= -MARGIN
+}
+
+/// The copies of a template around the axis.
+struct Sectors {
+    /// For each instance, the isometry that takes what is there to the template.
+    places: Vec<Placed>,
+    /// Angle of the middle of each copy, radians, increasing, with the number of its instance.
+    middles: Vec<(f64, u32)>,
+    /// Half of the angle that the template takes, radians.
+    half: f64,
+}
+
+impl Sectors {
+    fn new(document: &Document, index: usize) -> Self {
+        let (middle, half) = sector(&document.templates[index].vertices);
+        let instances = document.instances.iter();
+        let instances: Vec<_> = instances
+            .filter(|instance| instance.template as usize == index)
+            .map(|instance| instance.isometry)
+            .collect();
+        let angle = |(i, isometry): (u32, &tmesh::Isometry)| {
+            let there = isometry.apply(DVec3::new(middle.x, middle.y, 0.0));
+            (libm::atan2(there.y, there.x), i)
+        };
+        let mut middles: Vec<(f64, u32)> = (0..).zip(&instances).map(angle).collect();
+        middles.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        Self {
+            places: instances.iter().map(|i| i.inverse().placed()).collect(),
+            middles,
+            half,
+        }
+    }
+
+    /// The instances whose copies may meet points within an angle, radians.
+    fn meeting(&self, points: &[DVec3], margin: f64, images: &mut Vec<u32>) {
+        images.clear();
+        let centre = points.iter().map(|p| p.truncate()).sum::<DVec2>() / points.len() as f64;
+        let reach = points.iter().map(|p| p.truncate().distance(centre));
+        let reach = reach.fold(0.0, f64::max) * (1.0 + MARGIN);
+        let distance = centre.length();
+        let half = self.half
+            + margin
+            + match reach < distance {
+                true => libm::asin(reach / distance),
+                false => PI,
+            };
+        // Also where it is no number.
+        if !(half < PI) {
+            images.extend(0..self.places.len() as u32);
+            return;
+        }
+        let angle = libm::atan2(centre.y, centre.x);
+        for turn in [-TAU, 0.0, TAU] {
+            let [low, high] = [angle - half, angle + half].map(|a| a + turn);
+            let first = self.middles.partition_point(|m| m.0 < low);
+            let there = self.middles[first..].iter().take_while(|m| m.0 <= high);
+            images.extend(there.map(|m| m.1));
+        }
+    }
+}
+
+/// The direction of the middle of the angle about the axis that points take, and half of that angle, radians.
+fn sector(points: &[DVec3]) -> (DVec2, f64) {
+    let reach = points.iter().map(|p| p.truncate().length());
+    let least = reach.fold(0.0, f64::max) * MARGIN;
+    let far = points.iter().filter(|p| p.truncate().length() > least);
+    let mut angles: Vec<f64> = far.map(|p| libm::atan2(p.y, p.x)).collect();
+    angles.sort_by(f64::total_cmp);
+    let (Some(&first), Some(&last)) = (angles.first(), angles.last()) else {
+        return (DVec2::X, PI);
+    };
+    // The widest gap is beside the template.
+    let mut gap = (first + TAU - last, first);
+    for pair in angles.windows(2) {
+        if pair[1] - pair[0] > gap.0 {
+            gap = (pair[1] - pair[0], pair[1]);
+        }
+    }
+    let half = 0.5 * (TAU - gap.0);
+    let middle = gap.1 + half;
+    (DVec2::new(libm::cos(middle), libm::sin(middle)), half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tmesh::{Instance, Isometry, Template};
+
+    /// A wedge of a cylinder of 840 copies, 420 of them turned over.
+    fn document() -> Document {
+        let angle = TAU / 420.0;
+        let at = |a: f64, z: f64| DVec3::new(a.cos(), a.sin(), z);
+        let mut document = Document::single(Template {
+            vertices: vec![
+                DVec3::ZERO,
+                DVec3::Z,
+                at(0.0, 0.0),
+                at(0.0, 1.0),
+                at(angle, 0.0),
+                at(angle, 1.0),
+            ],
+            ..Template::default()
+        });
+        document.instances = (0..420)
+            .flat_map(|k| [false, true].map(|flipped| Isometry::new(k, 420, false, flipped)))
+            .map(|isometry| Instance {
+                template: 0,
+                isometry,
+                region_map: 0,
+            })
+            .collect();
+        document
+    }
+
+    #[test]
+    fn elements_are_brought_by_the_instances_that_they_meet() {
+        let document = document();
+        let sectors = Sectors::new(&document, 0);
+        assert!((sectors.half - PI / 420.0).abs() < 1e-12);
+        let mut images = Vec::new();
+        for angle in [0.1, 2.0, 3.14, -3.14, -0.7] {
+            let at = |r: f64, a: f64, z: f64| DVec3::new(r * f64::cos(a), r * f64::sin(a), z);
+            let tet = [
+                at(0.9, angle, 0.2),
+                at(0.91, angle, 0.2),
+                at(0.9, angle + 0.01, 0.2),
+                at(0.9, angle, 0.21),
+            ];
+            sectors.meeting(&tet, MARGIN, &mut images);
+            assert!(images.len() >= 4 && images.len() <= 10, "{}", images.len());
+            // A point of it has an image in the wedge by one of them.
+            let inside = |i: &u32| {
+                let p = sectors.places[*i as usize].apply(tet[0]);
+                let angle = p.y.atan2(p.x);
+                angle > -1e-9 && angle < TAU / 420.0 + 1e-9
+            };
+            assert_eq!(images.iter().filter(|i| inside(i)).count(), 2);
+        }
+        // At the axis all of them.
+        let tet = [DVec3::X, -DVec3::X, DVec3::Y, DVec3::Z].map(|p| 0.01 * p);
+        sectors.meeting(&tet, MARGIN, &mut images);
+        assert_eq!(images.len(), 840);
+    }
+
+    #[test]
+    fn the_middle_of_a_template_is_in_it_wherever_that_is() {
+        for turn in [0.0, 1.0, 3.0, PI, -2.0] {
+            let at = |a: f64| DVec3::new((a + turn).cos(), (a + turn).sin(), 0.0);
+            let (middle, half) = sector(&[DVec3::ZERO, at(-0.3), at(0.5)]);
+            assert!((half - 0.4).abs() < 1e-12, "{turn}: {half}");
+            let expected = at(0.1).truncate();
+            assert!(middle.distance(expected) < 1e-12);
+        }
+        let round = [DVec3::X, DVec3::Y, -DVec3::X, -DVec3::Y];
+        assert!(sector(&round).1 > 0.7 * PI);
+        assert_eq!(sector(&[DVec3::Z]).1, PI);
+    }
+}
