@@ -1,7 +1,8 @@
 //! The document model.
 
 use crate::{
-    Deviation, Frame, Gluing, Isometry, Promise, RegionMap, Search, Size, SizeField, Symmetry, Wishes,
+    Deviation, Frame, Gluing, Isometry, Promise, RegionMap, Search, Size, SizeField, Symmetry,
+    Wishes,
 };
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;

@@ -232,15 +232,16 @@ fn check_size_field(field: &SizeField, found: &mut Collector) {
     let tets = field.tets.iter().map(|t| t.as_slice());
     let triangles = field.triangles.iter().map(|t| t.as_slice());
     for (kind, list) in [
-        ("tetrahedron", &mut tets.enumerate() as &mut dyn Iterator<Item = (usize, &[u32])>),
+        (
+            "tetrahedron",
+            &mut tets.enumerate() as &mut dyn Iterator<Item = (usize, &[u32])>,
+        ),
         ("triangle", &mut triangles.enumerate()),
     ] {
         for (i, corners) in list {
             let count = field.points.len();
             if let Some(v) = corners.iter().find(|&&v| v as usize >= count) {
-                bad(format!(
-                    "{kind} {i} names point {v}, and there are {count}"
-                ));
+                bad(format!("{kind} {i} names point {v}, and there are {count}"));
             } else if (1..corners.len()).any(|k| corners[..k].contains(&corners[k])) {
                 bad(format!("{kind} {i} names a point twice"));
             }

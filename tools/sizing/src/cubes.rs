@@ -5,7 +5,7 @@ use glam::DVec3;
 use tmesh::{OUTSIDE, Template};
 
 /// Places that are looked at. A choice: the number is known to a few parts in a hundred then, and takes milliseconds.
-const PLACES: usize = 4096;
+pub const PLACES: usize = 4096;
 
 /// Ratios of a sequence that fills a cube evenly, the powers of one over the root of x^4 = x + 1 (Roberts, "The unreasonable
 /// effectiveness of quasirandom sequences", 2018).
@@ -15,6 +15,49 @@ const RATIOS: DVec3 = DVec3::new(
     0.549_700_477_901_956,
 );
 
+/// A place of a sequence that fills the cube from 0 to 1 evenly.
+pub fn place_in_cube(number: usize) -> DVec3 {
+    (RATIOS * (number as f64 + 1.0)).fract()
+}
+
+/// Where a template has material.
+pub struct Material<'a> {
+    template: &'a Template,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl<'a> Material<'a> {
+    /// Of a template.
+    pub fn new(template: &'a Template) -> Self {
+        Self {
+            template,
+            triangles: template.triangles.iter().map(|t| t.vertices).collect(),
+        }
+    }
+
+    /// What is asked where it is. n log n.
+    pub fn rays(&self) -> Rays<'_> {
+        Rays::new(&self.template.vertices, &self.triangles)
+    }
+
+    /// Whether there is material at a place.
+    pub fn is_at(&self, rays: &Rays<'_>, p: DVec3) -> bool {
+        match rays.nearest(p, Direction::ALL[0], |_| true) {
+            Met::Nothing => false,
+            Met::Touches(_) => true,
+            Met::Hit(hit) => {
+                let triangle = &self.template.triangles[hit.triangle as usize];
+                let region = if hit.front {
+                    triangle.front
+                } else {
+                    triangle.back
+                };
+                region != OUTSIDE
+            }
+        }
+    }
+}
+
 /// About how many cubes of the sizes wanted fit into the material of a template; `leaves` have their least coordinates, width and size.
 /// Places are taken where the cubes are, so that small sizes in small places count.
 pub fn cubes(template: &Template, leaves: &[(DVec3, f64, f64)]) -> f64 {
@@ -23,23 +66,14 @@ pub fn cubes(template: &Template, leaves: &[(DVec3, f64, f64)]) -> f64 {
     if !(all > 0.0 && all.is_finite()) {
         return 0.0;
     }
-    let triangles: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
-    let rays = Rays::new(&template.vertices, &triangles);
-    let is_material = |p: DVec3| match rays.nearest(p, Direction::ALL[0], |_| true) {
-        Met::Nothing => false,
-        Met::Touches(_) => true,
-        Met::Hit(hit) => {
-            let triangle = &template.triangles[hit.triangle as usize];
-            let region = if hit.front { triangle.front } else { triangle.back };
-            region != OUTSIDE
-        }
-    };
+    let material = Material::new(template);
+    let rays = material.rays();
     let (mut passed, mut next, mut inside) = (0.0, 0, 0);
     for leaf in leaves {
         passed += each(leaf);
         while next < PLACES && (next as f64 + 0.5) * all <= passed * PLACES as f64 {
-            let part = (RATIOS * (next as f64 + 1.0)).fract();
-            inside += usize::from(is_material(leaf.0 + part * leaf.1));
+            let place = leaf.0 + place_in_cube(next) * leaf.1;
+            inside += usize::from(material.is_at(&rays, place));
             next += 1;
         }
     }

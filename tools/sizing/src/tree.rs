@@ -1,6 +1,6 @@
 //! A graded size as an octree.
 
-use crate::field::{Cells, Folded, Listed};
+use crate::field::{Cells, Folded};
 use glam::DVec3;
 use std::rc::Rc;
 
@@ -90,30 +90,30 @@ impl Graded {
             most,
         };
         let mut cells = field.map(|field| Cells::new(field, growth));
-        let all = Rc::new(Known {
-            sources: (0..sources.len() as u32).collect(),
-            listed: cells.as_ref().map(Cells::all).unwrap_or_default(),
-        });
+        let all: Vec<u32> = (0..sources.len() as u32).collect();
+        let listed = cells.as_ref().map(Cells::all).unwrap_or_default();
         // Nodes with what matters there; corners in units of the cube.
-        let mut open = vec![(0, DVec3::ZERO, 1.0, 0, all)];
-        while let Some((node, corner, part, depth, known)) = open.pop() {
-            let (range, kept) =
-                builder.range(origin + corner * width, part * width, &known.sources);
-            let mut is_done = range[1] <= ALIKE * range[0] || depth == DEPTH;
+        let mut open = vec![(0, DVec3::ZERO, 1.0, 0, Rc::new(all), listed)];
+        while let Some((node, corner, part, depth, known, mut listed)) = open.pop() {
+            let (range, kept) = builder.range(origin + corner * width, part * width, &known);
+            let mut is_done = range[1] <= ALIKE * range[0];
             let mut size = range[0];
-            let mut listed = Listed::default();
             if let Some(cells) = &mut cells {
-                let (seen, kept) = cells.see((corner, part), &known.listed, range[1] / width);
-                let least = range[0].min(seen.least * width);
-                let [within, beyond] = [seen.within, seen.beyond].map(|x| x * width);
-                is_done = depth == DEPTH
-                    || range[1].min(within) <= ALIKE * least
-                    || beyond <= ALIKE_BEYOND * least
-                    || part * width <= FINEST * least;
-                size = size.min(seen.middle * width);
-                listed = kept;
+                let cube = (corner, part);
+                let is_much = cells.narrow(cube, &mut listed);
+                is_done = false;
+                if !is_much || depth == DEPTH {
+                    let (seen, kept) = cells.see(cube, &listed, range[1] / width);
+                    let least = range[0].min(seen.least * width);
+                    let [within, beyond] = [seen.within, seen.beyond].map(|x| x * width);
+                    is_done = range[1].min(within) <= ALIKE * least
+                        || beyond <= ALIKE_BEYOND * least
+                        || part * width <= FINEST * least;
+                    size = size.min(seen.middle * width);
+                    listed = kept;
+                }
             }
-            if is_done {
+            if is_done || depth == DEPTH {
                 graded.nodes[node].size = size;
                 continue;
             }
@@ -124,14 +124,14 @@ impl Graded {
             graded.nodes[node].first = first as u32;
             graded.nodes.extend([Node::leaf(most); 8]);
             let half = 0.5 * part;
-            let kept = Rc::new(Known {
-                sources: kept,
-                listed,
-            });
-            for child in 0..8 {
+            let kept = Rc::new(kept);
+            let cells = cells.as_ref();
+            let listed = cells.map(|cells| cells.divided((corner, part), &listed));
+            for (child, listed) in listed.unwrap_or_default().into_iter().enumerate() {
                 let bits = [1, 2, 4].map(|bit| if child & bit == 0 { 0.0 } else { half });
                 let corner = corner + DVec3::from_array(bits);
-                open.push((first + child, corner, half, depth + 1, Rc::clone(&kept)));
+                let kept = Rc::clone(&kept);
+                open.push((first + child, corner, half, depth + 1, kept, listed));
             }
         }
         Some(graded)
@@ -198,12 +198,6 @@ impl Node {
 /// The cube about points, given by their least and largest coordinates: its origin and width, model units.
 pub fn cube([low, high]: [DVec3; 2]) -> (DVec3, f64) {
     (low, (high - low).max_element())
-}
-
-/// What matters in a node.
-struct Known {
-    sources: Vec<u32>,
-    listed: Listed,
 }
 
 /// What a tree is made from.

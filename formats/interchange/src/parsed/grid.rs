@@ -260,15 +260,17 @@ impl Grid {
         let malformed = |reason: String| ReadError::Malformed { format, reason };
         if let Some(i) = self.points.iter().position(|p| !p.is_finite()) {
             let p = self.points[i];
-            return Err(malformed(format!("point {i} is ({}, {}, {})", p.x, p.y, p.z)));
+            return Err(malformed(format!(
+                "point {i} is ({}, {}, {})",
+                p.x, p.y, p.z
+            )));
         }
         let mut mesh = PointMesh::default();
         let mut begin = 0;
         for (i, (&kind, &end)) in self.types.iter().zip(&self.ends).enumerate() {
             let cell = self.connectivity.get(begin..end);
-            let cell = cell.ok_or_else(|| {
-                malformed(format!("cell {i} has no place in the list of points"))
-            })?;
+            let cell = cell
+                .ok_or_else(|| malformed(format!("cell {i} has no place in the list of points")))?;
             begin = end;
             let count = self.points.len();
             if let Some(&v) = cell.iter().find(|&&v| v as usize >= count) {

@@ -44,7 +44,13 @@ const PRISM: [&[usize]; 5] = [
     &[2, 0, 3, 5],
 ];
 /// Faces of a pyramid over a quadrilateral.
-const PYRAMID: [&[usize]; 5] = [&[0, 1, 2, 3], &[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]];
+const PYRAMID: [&[usize]; 5] = [
+    &[0, 1, 2, 3],
+    &[0, 1, 4],
+    &[1, 2, 4],
+    &[2, 3, 4],
+    &[3, 0, 4],
+];
 
 impl PointMesh {
     /// Adds a cell of volume by its corners: four, five, six or eight, ordered as in VTK and Gmsh. Cells that name a point twice are

@@ -708,10 +708,7 @@ fn size_fields_that_are_none() {
             |f| f.triangles[0][0] = u32::MAX,
             "triangle 0 names point 4294967295, and there are 5",
         ),
-        (
-            |f| f.tets[0][1] = 3,
-            "tetrahedron 0 names a point twice",
-        ),
+        (|f| f.tets[0][1] = 3, "tetrahedron 0 names a point twice"),
         (
             |f| (f.tets.clear(), f.triangles.clear()).0,
             "it has no elements",

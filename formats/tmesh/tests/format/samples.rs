@@ -3,8 +3,8 @@
 use glam::DVec3;
 use tmesh::{
     Axis, Document, Frame, Gluing, Group, HistoryEntry, Instance, Isometry, Kind, Marker, OUTSIDE,
-    OtherAxis, Outside, Promise, Region, RegionMap, RejectedOrder, Search, Size, SizeField, SizePoint, Source,
-    Symmetry, Template, Tet, Triangle, Wishes,
+    OtherAxis, Outside, Promise, Region, RegionMap, RejectedOrder, Search, Size, SizeField,
+    SizePoint, Source, Symmetry, Template, Tet, Triangle, Wishes,
 };
 
 fn triangle(vertices: [u32; 3], marker: u32) -> Triangle {

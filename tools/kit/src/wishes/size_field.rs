@@ -66,9 +66,8 @@ impl SizeFieldFile {
     /// As [`SizeFieldFile::read`]; and a field that is nowhere near the body, as what cannot be done.
     pub fn apply(&self, document: &mut Document) -> Result<Option<String>, Failure> {
         let field = self.read()?;
-        let note = beyond(document, &field).map_err(|text| {
-            Failure::Impossible(format!("{}: {text}", self.parts().0.display()))
-        })?;
+        let note = beyond(document, &field)
+            .map_err(|text| Failure::Impossible(format!("{}: {text}", self.parts().0.display())))?;
         document.size_field = Some(field);
         Ok(note)
     }
@@ -104,7 +103,9 @@ fn chosen<'a>(
         return known.ok_or_else(|| {
             Failure::Usage(match names.as_str() {
                 "" => format!("{label} has no array with one number at each point"),
-                _ => format!("{label} has no array '{name}' with one number at each point; it has {names}"),
+                _ => format!(
+                    "{label} has no array '{name}' with one number at each point; it has {names}"
+                ),
             })
         });
     }
@@ -238,7 +239,11 @@ mod tests {
         let two = mesh(&[("h", 1), ("T", 1)]);
         let error = chosen(&two, None, "f.vtk").unwrap_err();
         assert_eq!(error.code(), 2);
-        assert!(error.to_string().contains("name one of 'h', 'T' as f.vtk:NAME"));
+        assert!(
+            error
+                .to_string()
+                .contains("name one of 'h', 'T' as f.vtk:NAME")
+        );
         let error = chosen(&mesh(&[("velocity", 3)]), None, "f").unwrap_err();
         assert_eq!(error.code(), 3);
     }
@@ -252,7 +257,12 @@ mod tests {
         assert_eq!(found.tets, [[0, 1, 2, 3]]);
         assert_eq!(found.points[3].position, DVec3::ONE);
         assert_eq!(found.triangles.len(), 0);
-        for (value, what) in [(0.0, "0"), (-2.0, "-2"), (f64::NAN, "no number"), (f64::INFINITY, "inf")] {
+        for (value, what) in [
+            (0.0, "0"),
+            (-2.0, "-2"),
+            (f64::NAN, "no number"),
+            (f64::INFINITY, "inf"),
+        ] {
             mesh.arrays[0].values[4] = value;
             let text = field(&mesh, &mesh.arrays[0], 1).unwrap_err();
             let start = format!("array 'h' has {what} at point 5 at (1, 1, 1)");

@@ -11,6 +11,10 @@ pub struct Listed {
     faces: Vec<u32>,
 }
 
+/// Tetrahedra of each image in a cube, in the mean, up to which it is looked at what they want. Cubes with more are divided first, which
+/// is far less work; so that a field that is the same everywhere has a leaf for so many of its elements at least.
+const FEW: usize = 64;
+
 /// What a field wants in a cube, in units of the whole one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
@@ -33,6 +37,8 @@ const OUTSIDE: f32 = -1e-3;
 struct Image {
     /// Range in tetrahedra that meet the cube.
     tets: [f32; 2],
+    /// Whether the middle of the cube is in one of them.
+    is_in_mesh: bool,
     /// Whether the border of its mesh meets the cube.
     has_border: bool,
     /// Range by its border.
@@ -42,6 +48,7 @@ struct Image {
 impl Image {
     const UNKNOWN: Self = Self {
         tets: [f32::INFINITY, 0.0],
+        is_in_mesh: false,
         has_border: false,
         faces: [f32::INFINITY; 2],
     };
@@ -50,17 +57,19 @@ impl Image {
         self.tets[0] < f32::INFINITY
     }
 
-    /// Whether all of the cube is in its mesh: it meets tetrahedra, and no border.
+    /// Whether all of the cube is in its mesh: its middle is, and it meets no border.
     fn is_within(&self) -> bool {
-        self.has_tets() && !self.has_border
+        self.is_in_mesh && !self.has_border
     }
 
     fn least(&self) -> f32 {
         self.tets[0].min(self.faces[0])
     }
 
+    /// Where the mesh ends without a border, beside the template, nobody asks: there it goes on.
     fn most(&self) -> f32 {
-        match self.is_within() {
+        let goes_on = self.has_tets() && self.faces[1] == f32::INFINITY;
+        match self.is_within() || goes_on {
             true => self.tets[1],
             false => self.tets[1].max(self.faces[1]),
         }
@@ -100,19 +109,73 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// What is wanted in a cube, and which elements matter in it, where others want `most` at most. Linear in the list.
-    pub fn see(&mut self, (corner, width): (DVec3, f64), listed: &Listed, most: f64) -> (Seen, Listed) {
-        let half = 0.5 * width as f32;
-        let cube = Cube {
-            middle: corner.as_vec3() + half,
-            half,
-        };
+    /// Drops triangles of the border from a list that do not matter in a cube: those of images in whose mesh all of it is, and those
+    /// farther than others. Returns whether so many tetrahedra are listed that the cube is to be divided whatever it wants.
+    pub fn narrow(&mut self, (corner, width): (DVec3, f64), listed: &mut Listed) -> bool {
+        let cube = Cube::new(corner, width);
+        self.images.fill(Image::UNKNOWN);
+        for &t in &listed.tets {
+            let tet = &self.folded.tets[t as usize];
+            let known = &mut self.images[tet.image as usize];
+            known.is_in_mesh = known.is_in_mesh || is_in(cube.parts(tet));
+        }
+        let reach = cube.reach();
+        for &f in &listed.faces {
+            let face = &self.folded.faces[f as usize];
+            let known = &mut self.images[face.image as usize];
+            let (distance, size) = cube.from_box(face);
+            known.has_border |= distance == 0.0;
+            let farthest = face.most() + self.growth * (distance + 2.0 * reach + size);
+            known.faces[1] = known.faces[1].min(farthest);
+        }
+        listed.faces.retain(|&f| {
+            let face = &self.folded.faces[f as usize];
+            let known = self.images[face.image as usize];
+            !known.is_within()
+                && face.least() + self.growth * cube.from_box(face).0 <= known.faces[1]
+        });
+        listed.tets.len() > FEW * self.folded.images
+    }
+
+    /// What of a list is in each eighth of a cube, x first, then y.
+    pub fn divided(&self, (corner, width): (DVec3, f64), listed: &Listed) -> [Listed; 8] {
+        let middle = (corner + 0.5 * width).as_vec3();
+        let mut eighths: [Listed; 8] = Default::default();
+        for &t in &listed.tets {
+            let [low, high] = self.folded.boxes[t as usize];
+            // On either side, or both.
+            let lower = low.cmple(middle).bitmask();
+            let upper = high.cmpge(middle).bitmask();
+            for (child, eighth) in (0..).zip(&mut eighths) {
+                let is_in = (!child & lower) | (child & upper);
+                if is_in == 0b111 {
+                    eighth.tets.push(t);
+                }
+            }
+        }
+        for eighth in &mut eighths {
+            eighth.faces.clone_from(&listed.faces);
+        }
+        eighths
+    }
+
+    /// What is wanted in a cube, and which elements matter in it, where others want `most` at most. The list is that of
+    /// [`Cells::narrow`]. Linear in it.
+    pub fn see(
+        &mut self,
+        (corner, width): (DVec3, f64),
+        listed: &Listed,
+        most: f64,
+    ) -> (Seen, Listed) {
+        let cube = Cube::new(corner, width);
         let mut kept = Listed::default();
         self.images.fill(Image::UNKNOWN);
         for &t in &listed.tets {
             let tet = &self.folded.tets[t as usize];
-            if let Some([low, high]) = cube.range(tet) {
+            let parts = cube.parts(tet);
+            if let Some([low, high]) = cube.range(tet, parts) {
                 let known = &mut self.images[tet.image as usize];
+                known.is_in_mesh = known.is_in_mesh || is_in(parts);
                 known.tets = [known.tets[0].min(low), known.tets[1].max(high)];
                 kept.tets.push(t);
             }
@@ -120,18 +183,20 @@ impl<'a> Cells<'a> {
         for &f in &listed.faces {
             let face = &self.folded.faces[f as usize];
             let known = &mut self.images[face.image as usize];
-            known.has_border = known.has_border || cube.distance_to_box(face) == 0.0;
+            // The box of a slanted triangle is far larger than that.
+            if !known.has_border && cube.from_box(face).0 == 0.0 {
+                let (_, distance) = cube.nearest(face);
+                known.has_border = distance <= cube.reach();
+            }
         }
         let within = self.images.iter().filter(|i| i.is_within());
         let mut bound = within.map(|i| i.tets[1]).fold(most as f32, f32::min);
         let mut near = Vec::new();
         for &f in &listed.faces {
             let face = &self.folded.faces[f as usize];
-            if self.images[face.image as usize].is_within() {
-                continue;
-            }
-            let least = face.sizes.into_iter().fold(f32::INFINITY, f32::min);
-            if least + self.growth * cube.distance_to_box(face) > bound {
+            if self.images[face.image as usize].is_within()
+                || face.least() + self.growth * cube.from_box(face).0 > bound
+            {
                 continue;
             }
             let [low, high] = cube.range_from(face, self.growth);
@@ -174,57 +239,80 @@ impl<'a> Cells<'a> {
     }
 }
 
+/// Whether barycentric coordinates are those of a place in a tetrahedron.
+fn is_in(parts: [f32; 4]) -> bool {
+    parts.iter().all(|&part| part >= OUTSIDE)
+}
+
 struct Cube {
     middle: Vec3,
     half: f32,
 }
 
 impl Cube {
-    /// The range of lengths in what a tetrahedron and the cube may have in common; `None` if that is nothing.
-    fn range(&self, tet: &Tet) -> Option<[f32; 2]> {
+    fn new(corner: DVec3, width: f64) -> Self {
+        let half = 0.5 * width as f32;
+        Self {
+            middle: corner.as_vec3() + half,
+            half,
+        }
+    }
+
+    /// The barycentric coordinates of the middle in a tetrahedron.
+    fn parts(&self, tet: &Tet) -> [f32; 4] {
         let from = self.middle - tet.corner;
+        let [b, c, d] = tet.gradients.map(|g| g.dot(from));
+        [1.0 - (b + c + d), b, c, d]
+    }
+
+    /// The range of lengths in what a tetrahedron and the cube may have in common, by the coordinates of its middle; `None` if that is
+    /// nothing.
+    fn range(&self, tet: &Tet, at: [f32; 4]) -> Option<[f32; 2]> {
         let spread = |g: Vec3| self.half * g.abs().element_sum();
         let [u, v, w] = tet.gradients;
-        let at = [u, v, w].map(|g| g.dot(from));
-        let first = 1.0 - (at[0] + at[1] + at[2]);
-        let is_beyond = |at: f32, g: Vec3| at + spread(g) < OUTSIDE;
-        if is_beyond(first, u + v + w)
-            || is_beyond(at[0], u)
-            || is_beyond(at[1], v)
-            || is_beyond(at[2], w)
-        {
+        let gradients = [u + v + w, u, v, w];
+        let mut both = at.iter().zip(gradients);
+        if both.any(|(at, g)| at + spread(g) < OUTSIDE) {
             return None;
         }
         let [s, a, b, c] = tet.sizes;
         let least = s.min(a).min(b).min(c);
         let most = s.max(a).max(b).max(c);
         let [a, b, c] = [a - s, b - s, c - s];
-        let middle = s + a * at[0] + b * at[1] + c * at[2];
+        let middle = s + a * at[1] + b * at[2] + c * at[3];
         let spread = spread(u * a + v * b + w * c);
         Some([middle - spread, middle + spread].map(|x| x.clamp(least, most)))
     }
 
-    /// Distance from the box about a triangle.
-    fn distance_to_box(&self, face: &Face) -> f32 {
+    /// Distance from the box about a triangle, and the diagonal of that.
+    fn from_box(&self, face: &Face) -> (f32, f32) {
         let [a, b, c] = face.corners;
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let gap = (low - self.middle).max(self.middle - high) - self.half;
-        gap.max(Vec3::ZERO).length()
+        (gap.max(Vec3::ZERO).length(), low.distance(high))
+    }
+
+    /// Distance of the corners from the middle.
+    fn reach(&self) -> f32 {
+        self.half * 3.0_f32.sqrt()
+    }
+
+    /// The point of a triangle that is nearest to the middle, and its distance.
+    fn nearest(&self, face: &Face) -> (DVec3, f32) {
+        let middle = self.middle.as_dvec3();
+        let nearest = closest_point(middle, &face.corners.map(Vec3::as_dvec3));
+        (nearest, middle.distance(nearest) as f32)
     }
 
     /// The range of lengths that grow from the nearest point of a triangle.
     fn range_from(&self, face: &Face, growth: f32) -> [f32; 2] {
+        let (nearest, distance) = self.nearest(face);
+        let reach = self.reach();
         let corners = face.corners.map(Vec3::as_dvec3);
-        let middle = self.middle.as_dvec3();
-        let nearest = closest_point(middle, &corners);
-        let distance = middle.distance(nearest) as f32;
-        let reach = self.half * 3.0_f32.sqrt();
         let (at, slope) = linear(&corners, face.sizes, nearest);
-        let least = face.sizes.into_iter().fold(f32::INFINITY, f32::min);
-        let most = face.sizes.into_iter().fold(0.0, f32::max);
         // What is nearest to a point moves by no more than the point.
-        let low = (at - slope * reach).max(least) + growth * (distance - reach).max(0.0);
-        let high = (at + slope * reach).min(most) + growth * (distance + reach);
+        let low = (at - slope * reach).max(face.least()) + growth * (distance - reach).max(0.0);
+        let high = (at + slope * reach).min(face.most()) + growth * (distance + reach);
         [low, high]
     }
 }

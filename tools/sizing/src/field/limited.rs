@@ -49,10 +49,15 @@ impl Limited {
         // Lengths are above zero, so that their bits have their order.
         let mut open: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
         for element in elements {
-            for &v in *element {
-                let is_low = |&&w: &&u32| sizes[w as usize] > allowed(sizes, v, w);
-                if element.iter().any(|w| is_low(&w)) {
-                    open.push(Reverse((sizes[v as usize].to_bits(), v)));
+            for (i, &v) in element.iter().enumerate() {
+                for &w in &element[..i] {
+                    let [p, q] = [v, w].map(|v| points[v as usize]);
+                    let [s, t] = [v, w].map(|v| sizes[v as usize]);
+                    // Of most fields nothing is steep: no roots.
+                    if (s - t) * (s - t) > growth * growth * p.distance_squared(q) {
+                        let low = if s < t { v } else { w };
+                        open.push(Reverse((sizes[low as usize].to_bits(), low)));
+                    }
                 }
             }
         }
@@ -92,15 +97,37 @@ impl Limited {
     }
 }
 
-/// Triangles that one tetrahedron has alone, and those of the field.
+/// Triangles that one tetrahedron has alone, and those of the field. Linear where few elements are at a point.
 fn border(field: &SizeField) -> Vec<[u32; 3]> {
     let of_tet = |&[a, b, c, d]: &[u32; 4]| [[a, b, c], [a, b, d], [a, c, d], [b, c, d]];
-    let mut faces: Vec<[u32; 3]> = field.tets.iter().flat_map(of_tet).collect();
-    faces.iter_mut().for_each(|face| face.sort_unstable());
-    faces.sort_unstable();
-    let alone = faces.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
-    let alone = alone.map(|same| same[0]);
-    alone.chain(field.triangles.iter().copied()).collect()
+    let sorted = |mut face: [u32; 3]| {
+        face.sort_unstable();
+        face
+    };
+    let faces = || field.tets.iter().flat_map(of_tet).map(sorted);
+    // By their lowest points, and only then sorted.
+    let mut begin = vec![0_u32; field.points.len() + 1];
+    faces().for_each(|[a, ..]| begin[a as usize + 1] += 1);
+    for v in 0..field.points.len() {
+        begin[v + 1] += begin[v];
+    }
+    let mut next = begin.clone();
+    let mut of_lowest = vec![[0_u32; 2]; 4 * field.tets.len()];
+    for [a, b, c] in faces() {
+        of_lowest[next[a as usize] as usize] = [b, c];
+        next[a as usize] += 1;
+    }
+    let mut border = Vec::new();
+    for (a, range) in (0..).zip(begin.windows(2)) {
+        let others = &mut of_lowest[range[0] as usize..range[1] as usize];
+        others.sort_unstable();
+        let alone = others
+            .chunk_by(|s, t| s == t)
+            .filter(|same| same.len() == 1);
+        border.extend(alone.map(|same| [a, same[0][0], same[0][1]]));
+    }
+    border.extend(&field.triangles);
+    border
 }
 
 #[cfg(test)]

@@ -6,9 +6,14 @@
 //! 3. An octree asks for the least and the largest length in its cubes ([`Cells`]).
 
 mod cells;
+mod estimate;
 mod fold;
 mod limited;
 
 pub use cells::{Cells, Listed, Seen};
+pub use estimate::mean_volume;
 pub use fold::Folded;
 pub use limited::Limited;
+
+#[cfg(test)]
+mod tests;

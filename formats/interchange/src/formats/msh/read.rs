@@ -4,8 +4,8 @@
 //! regions, physical surfaces are markers; entities without a physical group count by themselves. Of
 //! second-order elements the corners are read.
 
-use crate::ReadError;
 use super::node_data::{View, point_mesh};
+use crate::ReadError;
 use crate::parsed::{Grid, Parsed, PointMesh, Shells, TETRA, TRIANGLE, Volume, by_corners};
 use crate::text::{DOUBLE, Tokens, plain, shown};
 use glam::DVec3;
@@ -329,7 +329,13 @@ impl Reader<'_> {
         Ok(count)
     }
 
-    pub(super) fn fits(&self, count: u64, what: &str, text: u64, binary: u64) -> Result<(), ReadError> {
+    pub(super) fn fits(
+        &self,
+        count: u64,
+        what: &str,
+        text: u64,
+        binary: u64,
+    ) -> Result<(), ReadError> {
         let each = if self.binary { binary } else { text };
         let left = self.tokens.left() as u64;
         // The last word of a text needs no space after it.
