@@ -5,7 +5,8 @@ use kit::{Command, CommonArgs, Failure, Session, StrictArgs, WishArgs};
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk
-  periodic-surf --edge-length 0.05 fan.wedge.tmesh | tetwedge -o fan.tmesh";
+  periodic-surf --edge-length 0.05 fan.wedge.tmesh | tetwedge -o fan.tmesh
+  periodic-surf --size-field background.msh fan.wedge.tmesh | tetwedge -o fan.tmesh";
 
 /// Make the surface mesh of a wedge whose cut faces match under the rotation
 ///

@@ -2,7 +2,7 @@
 
 use crate::across::{Across, across_walls};
 use crate::cubes::cubes;
-use crate::field::{Folded, Limited};
+use crate::field::{Folded, Limited, mean_cubes};
 use crate::too_many::TooMany;
 use crate::tree::{Graded, cube};
 use glam::DVec3;
@@ -123,6 +123,10 @@ impl Local {
             });
         };
         let beyond = TooMany::Field { template: index };
+        // Before a tree is made for what cannot be.
+        if mean_cubes((document, index)).is_some_and(are_too_many) {
+            return Err(beyond);
+        }
         let cube = cube(ends(template));
         let folded = Folded::new(field, (document, index), cube).ok_or(beyond)?;
         let sources = &across.sources;
@@ -130,12 +134,21 @@ impl Local {
         let graded = graded.ok_or(beyond)?;
         let leaves = graded.leaves();
         let sizes = leaves.iter().map(|leaf| leaf.2).filter(|s| s.is_finite());
+        let cubes = cubes(template, &leaves);
+        if are_too_many(cubes) {
+            return Err(beyond);
+        }
         Ok(Self {
-            cubes: cubes(template, &leaves),
+            cubes,
             longest: sizes.reduce(f64::max),
             graded,
         })
     }
+}
+
+/// Whether elements of so many cubes are more than the mesher can count: corners of tetrahedra, in 32 bits.
+fn are_too_many(cubes: f64) -> bool {
+    cubes / Size::OF_CUBE > f64::from(i32::MAX) / 4.0
 }
 
 fn ends(template: &Template) -> [DVec3; 2] {

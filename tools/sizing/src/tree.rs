@@ -98,7 +98,10 @@ impl Graded {
             let (range, kept) = builder.range(origin + corner * width, part * width, &known);
             let mut is_done = range[1] <= ALIKE * range[0];
             let mut size = range[0];
-            if let Some(cells) = &mut cells {
+            if field.is_some_and(|field| !field.meets(corner, part)) {
+                // Nobody asks there.
+                is_done = true;
+            } else if let Some(cells) = &mut cells {
                 let cube = (corner, part);
                 let is_much = cells.narrow(cube, &mut listed);
                 is_done = false;

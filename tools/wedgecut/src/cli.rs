@@ -11,6 +11,7 @@ const EXAMPLES: &str = "Examples:
   symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
   symdetect gear.stl | wedgecut --order 4 --to vtk -o wedge.vtk
   symdetect via.stl | wedgecut --max-volume 0.01 | tetwedge -o via.tmesh
+  symdetect gear.stl | wedgecut --size-field background.vtk | tetwedge | rotassemble > gear.vtk
   symdetect fan.stl | wedgecut --domain rotation --start-angle 15 | tetwedge | rotassemble > fan.vtk
   symdetect fan.stl | wedgecut --seam between-blades.txt | tetwedge | rotassemble > fan.vtk";
 

@@ -3,7 +3,7 @@
 use super::fold::Sectors;
 use crate::cubes::{Material, PLACES, place_in_cube};
 use glam::DVec3;
-use tmesh::{Document, Size, SizeField};
+use tmesh::{Document, Size};
 
 /// The largest volume of elements that, everywhere in a template, would ask for as many of them as the document's size field does, model
 /// units cubed; `None` without a field, or where that has no tetrahedra in the body.
@@ -11,13 +11,12 @@ use tmesh::{Document, Size, SizeField};
 /// Copies that the field wants different elements in count by their mean, and the gradation is left out: this is for forecasts. Linear
 /// in the field.
 pub fn mean_volume((document, index): (&Document, usize), volume: f64) -> Option<f64> {
-    let field = document.size_field.as_ref()?;
-    let cubes = cubes(field, document, index)?;
-    Some(Size::OF_CUBE * volume / cubes)
+    Some(Size::OF_CUBE * volume / mean_cubes((document, index))?)
 }
 
-/// Cubes of the lengths wanted in a copy of a template, in the mean.
-fn cubes(field: &SizeField, document: &Document, index: usize) -> Option<f64> {
+/// Cubes of the lengths wanted in a copy of a template, in the mean; `None` as of [`mean_volume`].
+pub fn mean_cubes((document, index): (&Document, usize)) -> Option<f64> {
+    let field = document.size_field.as_ref()?;
     let corners = |tet: &[u32; 4]| tet.map(|v| field.points[v as usize]);
     let each = |tet: &[u32; 4]| {
         let [a, b, c, d] = corners(tet);

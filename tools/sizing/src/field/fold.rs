@@ -36,6 +36,10 @@ pub struct Face {
 pub struct Folded {
     /// Instances of the template.
     pub images: usize,
+    /// Least and largest coordinates of the template.
+    ends: [DVec3; 2],
+    /// Planes through the axis on both sides of the template, by a normal that points to it and the distance of the origin.
+    planes: Vec<(DVec2, f64)>,
     /// Tetrahedra that meet the cube.
     pub tets: Vec<Tet>,
     /// The box about each of them.
@@ -55,6 +59,10 @@ pub const SHARE: f64 = 0.95;
 /// Flat tetrahedra: least volume over that of the cube of the longest edge. What computing leaves of nothing is smaller.
 const FLAT: f64 = 1e-12;
 
+/// The template is larger than it is by this part of the cube on all sides: its surface may be moved while it is remeshed, and nothing
+/// beyond is asked for.
+const AROUND: f64 = 0.02;
+
 /// Elements are taken that are beside the template by this part of half of its angle, so that what rounding puts there is in some.
 const BESIDE: f64 = 0.01;
 
@@ -70,11 +78,23 @@ impl Folded {
         (origin, width): (DVec3, f64),
     ) -> Option<Self> {
         let sectors = Sectors::new(document, index);
+        let unit = |p: DVec3| (p - origin) / width;
+        let vertices = document.templates[index].vertices.iter();
+        let vertices = vertices.map(|&p| unit(p));
+        let from_axis = origin.truncate() / width;
         let mut folded = Self {
             images: sectors.places.len(),
+            ends: [
+                vertices.clone().fold(DVec3::INFINITY, DVec3::min) - AROUND,
+                vertices.fold(DVec3::NEG_INFINITY, DVec3::max) + AROUND,
+            ],
+            planes: sectors
+                .sides()
+                .into_iter()
+                .map(|normal| (normal, normal.dot(from_axis)))
+                .collect(),
             ..Self::default()
         };
-        let unit = |p: DVec3| (p - origin) / width;
         let at = |v: u32| limited.points[v as usize];
         let size = |v: u32| (SHARE * limited.sizes[v as usize] / width) as f32;
         let mut images = Vec::new();
@@ -86,7 +106,7 @@ impl Folded {
             sectors.meeting(&corners, BESIDE * sectors.half, &mut images);
             for &image in &images {
                 let here = corners.map(|p| unit(sectors.places[image as usize].apply(p)));
-                if let Some(ends) = in_cube(&here) {
+                if let Some(ends) = folded.meeting(&here) {
                     folded.boxes.push(ends);
                     folded.tets.push(Tet::new(image, here, tet.map(size)));
                 }
@@ -109,6 +129,29 @@ impl Folded {
             }
         }
         Some(folded)
+    }
+
+    /// Whether a cube may have something in common with the template, in units of the whole one.
+    pub fn meets(&self, corner: DVec3, width: f64) -> bool {
+        let [low, high] = self.ends;
+        if (low - corner - width).max(corner - high).max_element() > 0.0 {
+            return false;
+        }
+        self.planes.iter().all(|&(normal, off)| {
+            // The corner that is farthest in the direction of the normal.
+            let far = corner.truncate()
+                + width * DVec2::select(normal.cmpgt(DVec2::ZERO), DVec2::ONE, DVec2::ZERO);
+            normal.dot(far) + off >= -AROUND
+        })
+    }
+
+    /// The box of points, if it meets that of the template.
+    fn meeting(&self, points: &[DVec3]) -> Option<[Vec3; 2]> {
+        let all = points.iter().copied();
+        let low = all.clone().reduce(DVec3::min)?;
+        let high = all.reduce(DVec3::max)?;
+        let meets = (low - self.ends[1]).max(self.ends[0] - high).max_element() <= 0.0;
+        meets.then(|| [low.as_vec3(), high.as_vec3()])
     }
 }
 
@@ -148,21 +191,14 @@ fn is_flat([a, b, c, d]: [DVec3; 4]) -> bool {
     !(volume > FLAT * longest * longest * longest)
 }
 
-/// The box of points, if it meets the cube from 0 to 1.
-fn in_cube(points: &[DVec3]) -> Option<[Vec3; 2]> {
-    let all = points.iter().copied();
-    let low = all.clone().reduce(DVec3::min)?;
-    let high = all.reduce(DVec3::max)?;
-    let meets = low.max_element() <= 1.0 + MARGIN && high.min_element() >= -MARGIN;
-    meets.then(|| [low.as_vec3(), high.as_vec3()])
-}
-
 /// The copies of a template around the axis.
 pub struct Sectors {
     /// For each instance, the isometry that takes what is there to the template.
     pub places: Vec<Placed>,
     /// Angle of the middle of each copy, radians, increasing, with the number of its instance.
     middles: Vec<(f64, u32)>,
+    /// Direction of the middle of the template.
+    middle: DVec2,
     /// Half of the angle that the template takes, radians.
     half: f64,
 }
@@ -185,8 +221,18 @@ impl Sectors {
         Self {
             places: instances.iter().map(|i| i.inverse().placed()).collect(),
             middles,
+            middle,
             half,
         }
+    }
+
+    /// Normals, towards the template, of the planes through the axis beside it; none where it takes half of a turn or more.
+    fn sides(&self) -> Vec<DVec2> {
+        if self.half >= 0.5 * PI {
+            return Vec::new();
+        }
+        let along = |angle: f64| turned(self.middle, angle);
+        vec![along(-self.half).perp(), -along(self.half).perp()]
     }
 
     /// The instances whose copies may meet points within an angle, radians.
@@ -215,6 +261,11 @@ impl Sectors {
             images.extend(there.map(|m| m.1));
         }
     }
+}
+
+/// A direction turned by an angle, radians.
+fn turned(direction: DVec2, angle: f64) -> DVec2 {
+    direction.rotate(DVec2::new(libm::cos(angle), libm::sin(angle)))
 }
 
 /// The direction of the middle of the angle about the axis that points take, and half of that angle, radians.

@@ -11,7 +11,7 @@ mod fold;
 mod limited;
 
 pub use cells::{Cells, Listed, Seen};
-pub use estimate::mean_volume;
+pub use estimate::{mean_cubes, mean_volume};
 pub use fold::Folded;
 pub use limited::Limited;
 
