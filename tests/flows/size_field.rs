@@ -118,7 +118,7 @@ fn remeshed_surfaces_follow_the_field() {
     is_exact(&filled);
     let found = over_wish(&read(&filled), along, 5);
     for ratio in &found {
-        assert!((ratio - 1.0).abs() < 0.2, "{found:?}");
+        assert!((0.75..1.2).contains(ratio), "{found:?}");
     }
 }
 

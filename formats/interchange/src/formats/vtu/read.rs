@@ -48,13 +48,22 @@ fn grid(bytes: &[u8], keeps_points: bool) -> Result<Grid, ReadError> {
     tags.keeps_points = keeps_points;
     let root = tags.root()?;
     let listed = tags.arrays()?;
+    let is_compressed = root.compressed;
     let arrays = Arrays::new(root, listed.appended, bytes.len());
     let mut grid = Grid::default();
     let mut types = None;
     let mut on_points = Vec::new();
+    // Arrays that share their data could be any number; compressed ones have a bound of their own.
+    let mut left = match is_compressed {
+        true => usize::MAX,
+        false => bytes.len(),
+    };
     for array in &listed.arrays {
         let values = arrays.values(array)?;
         if array.section == "PointData" {
+            left = left.checked_sub(values.len()).ok_or_else(|| {
+                malformed("its arrays at points have more numbers than the file has bytes")
+            })?;
             // The points may come later.
             on_points.push((array, values));
             continue;
