@@ -123,7 +123,7 @@ impl<'a> Cells<'a> {
         for &f in &listed.faces {
             let face = &self.folded.faces[f as usize];
             let known = &mut self.images[face.image as usize];
-            let (distance, size) = cube.from_box(face);
+            let (distance, size) = cube.distance_to_box(face);
             known.has_border |= distance == 0.0;
             let farthest = face.most() + self.growth * (distance + 2.0 * reach + size);
             known.faces[1] = known.faces[1].min(farthest);
@@ -132,7 +132,7 @@ impl<'a> Cells<'a> {
             let face = &self.folded.faces[f as usize];
             let known = self.images[face.image as usize];
             !known.is_within()
-                && face.least() + self.growth * cube.from_box(face).0 <= known.faces[1]
+                && face.least() + self.growth * cube.distance_to_box(face).0 <= known.faces[1]
         });
         listed.tets.len() > FEW * self.folded.images
     }
@@ -184,7 +184,7 @@ impl<'a> Cells<'a> {
             let face = &self.folded.faces[f as usize];
             let known = &mut self.images[face.image as usize];
             // The box of a slanted triangle is far larger than that.
-            if !known.has_border && cube.from_box(face).0 == 0.0 {
+            if !known.has_border && cube.distance_to_box(face).0 == 0.0 {
                 let (_, distance) = cube.nearest(face);
                 known.has_border = distance <= cube.reach();
             }
@@ -195,7 +195,7 @@ impl<'a> Cells<'a> {
         for &f in &listed.faces {
             let face = &self.folded.faces[f as usize];
             if self.images[face.image as usize].is_within()
-                || face.least() + self.growth * cube.from_box(face).0 > bound
+                || face.least() + self.growth * cube.distance_to_box(face).0 > bound
             {
                 continue;
             }
@@ -285,7 +285,7 @@ impl Cube {
     }
 
     /// Distance from the box about a triangle, and the diagonal of that.
-    fn from_box(&self, face: &Face) -> (f32, f32) {
+    fn distance_to_box(&self, face: &Face) -> (f32, f32) {
         let [a, b, c] = face.corners;
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let gap = (low - self.middle).max(self.middle - high) - self.half;

@@ -187,8 +187,9 @@ fn is_flat([a, b, c, d]: [DVec3; 4]) -> bool {
     let edges = [b - a, c - a, d - a, c - b, d - b, d - c];
     let longest = edges.iter().map(|e| e.length()).fold(0.0, f64::max);
     let volume = edges[0].dot(edges[1].cross(edges[2])).abs();
+    let least = FLAT * longest * longest * longest;
     // Also where the product is no number.
-    !(volume > FLAT * longest * longest * longest)
+    volume.is_nan() || volume <= least
 }
 
 /// The copies of a template around the axis.
@@ -249,7 +250,7 @@ impl Sectors {
                 false => PI,
             };
         // Also where it is no number.
-        if !(half < PI) {
+        if half.is_nan() || half >= PI {
             images.extend(0..self.places.len() as u32);
             return;
         }
