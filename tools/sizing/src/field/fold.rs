@@ -328,7 +328,7 @@ mod tests {
         let sectors = Sectors::new(&document, 0);
         assert!((sectors.half - PI / 420.0).abs() < 1e-12);
         let mut images = Vec::new();
-        for angle in [0.1, 2.0, 3.14, -3.14, -0.7] {
+        for angle in [0.1, 2.0, 3.13, -3.13, -0.7] {
             let at = |r: f64, a: f64, z: f64| DVec3::new(r * f64::cos(a), r * f64::sin(a), z);
             let tet = [
                 at(0.9, angle, 0.2),
