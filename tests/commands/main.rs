@@ -8,6 +8,7 @@ mod progress;
 mod readme;
 mod repairs;
 mod rotassemble;
+mod size_field;
 mod symdetect;
 mod symtet;
 mod tetwedge;

@@ -60,7 +60,7 @@ fn expanded_documents_agree_to_the_bit() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
-    for name in ["pyramid.tmesh", "column.tmesh"] {
+    for name in ["pyramid.tmesh", "column.tmesh", "sized.tmesh"] {
         agrees(&python, folder, &Path::new(GOLDEN).join(name));
     }
     let via = Tsv {
@@ -143,7 +143,7 @@ fn what_is_written_in_python_is_the_same_document() {
         return;
     };
     let folder = tempfile::tempdir().expect("a folder");
-    for name in ["pyramid.tmesh", "column.tmesh"] {
+    for name in ["pyramid.tmesh", "column.tmesh", "sized.tmesh"] {
         let golden = Path::new(GOLDEN).join(name);
         let copy = folder.path().join(name);
         let paths = [&golden, &copy].map(|p| p.to_str().expect("text"));

@@ -15,5 +15,6 @@ mod pipe;
 mod referee;
 mod seams;
 mod sections;
+mod size_field;
 mod sizes;
 mod touching;

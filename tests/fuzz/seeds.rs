@@ -8,9 +8,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use tmesh::Document;
 
-const GOLDEN: [&[u8]; 2] = [
+const GOLDEN: [&[u8]; 3] = [
     include_bytes!("../../formats/tmesh/tests/golden/column.tmesh"),
     include_bytes!("../../formats/tmesh/tests/golden/pyramid.tmesh"),
+    include_bytes!("../../formats/tmesh/tests/golden/sized.tmesh"),
 ];
 
 /// Files by target.

@@ -18,6 +18,9 @@ pub enum ReadError {
     /// The format is known, but not for input.
     #[error("{0} is not an input format")]
     NotAnInput(&'static str),
+    /// Numbers at points are wanted, and are not read from this format.
+    #[error("{0} has no numbers at points that are read; vtk, vtu and msh have")]
+    NoPointData(&'static str),
     /// The document inside is damaged.
     #[error(transparent)]
     Tmesh(#[from] tmesh::DecodeError),

@@ -21,7 +21,7 @@ mod vtu;
 pub use listing::write_text;
 pub use vtu::write_pieces;
 
-use crate::parsed::Parsed;
+use crate::parsed::{Parsed, PointMesh};
 use crate::stream::{MeshStream, Plain};
 use crate::{ReadError, WriteError, WriteOptions};
 use std::io::Write;
@@ -40,6 +40,8 @@ pub struct Entry {
     sniff: Sniff,
     /// Parses a whole file; none where the format is not for input.
     read: Option<Reader>,
+    /// Parses the mesh of a whole file with the numbers at its points; none where the format has none, or they are not read.
+    read_points: Option<PointReader>,
     /// How it is written.
     pub writer: Writer,
     /// Whether it has elements of second order.
@@ -56,6 +58,8 @@ pub struct Entry {
 
 /// Parses a whole file.
 type Reader = fn(&[u8]) -> Result<Parsed, ReadError>;
+/// Parses the mesh of a whole file with the numbers at its points.
+type PointReader = fn(&[u8]) -> Result<PointMesh, ReadError>;
 /// Writes a mesh to one file.
 type MeshWriter = fn(&dyn MeshStream, &WriteOptions, &mut dyn Write) -> Result<(), WriteError>;
 /// Writes one of the files of a mesh, by position.
@@ -97,6 +101,7 @@ const NOTHING: Entry = Entry {
     is_binary: false,
     sniff: Sniff::Never,
     read: None,
+    read_points: None,
     writer: Writer::None,
     second_order: true,
     keeps_symmetry: false,
@@ -178,6 +183,7 @@ table! {
         is_binary: true,
         sniff: Sniff::Signature(vtk::looks_like),
         read: Some(vtk::read),
+        read_points: Some(vtk::read_points),
         writer: Writer::Mesh(vtk::write, vtk::size_estimate),
         keeps_symmetry: true,
     }
@@ -187,6 +193,7 @@ table! {
         is_binary: true,
         sniff: Sniff::Signature(vtu::looks_like),
         read: Some(vtu::read),
+        read_points: Some(vtu::read_points),
         writer: Writer::Mesh(vtu::write, vtu::size_estimate),
         keeps_symmetry: true,
     }
@@ -201,6 +208,7 @@ table! {
         is_binary: true,
         sniff: Sniff::Signature(msh::looks_like),
         read: Some(msh::read),
+        read_points: Some(msh::read_points),
         writer: Writer::Mesh(msh::write, msh::size_estimate),
         by_region: true,
         first_id: 1,
@@ -210,6 +218,7 @@ table! {
         name: "msh2",
         is_binary: true,
         read: Some(msh::read),
+        read_points: Some(msh::read_points),
         writer: Writer::Mesh(msh::write2, msh::size_estimate2),
         first_id: 1,
     }
@@ -361,6 +370,17 @@ pub fn parse(bytes: &[u8], format: Format) -> Result<Parsed, ReadError> {
     match format.entry().read {
         Some(read) => read(bytes),
         None => Err(ReadError::NotAnInput(format.name())),
+    }
+}
+
+/// Parses the mesh of a whole file of the given format with the numbers at its points.
+///
+/// # Errors
+/// Malformed bytes, and formats without such numbers.
+pub fn parse_points(bytes: &[u8], format: Format) -> Result<PointMesh, ReadError> {
+    match format.entry().read_points {
+        Some(read) => read(bytes),
+        None => Err(ReadError::NoPointData(format.name())),
     }
 }
 
@@ -518,6 +538,91 @@ mod tests {
                 let estimate = size_estimate(&mesh, format, &options);
                 assert!(bytes.len() as u64 >= estimate && bytes.len() as u64 <= estimate + 4096);
             }
+        }
+    }
+
+    const HEAD: &str = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n\
+                        0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1\n";
+
+    #[test]
+    fn numbers_at_points_of_all_cells_are_read() {
+        // A voxel, a triangle of second order, a line; arrays on cells, and of several components.
+        let text = format!(
+            "{HEAD}CELLS 3 19\n8 0 1 2 3 4 5 6 7\n6 0 1 2 3 4 5\n2 0 1\nCELL_TYPES 3\n11 22 3\n\
+             CELL_DATA 3\nSCALARS h int 1\nLOOKUP_TABLE default\n7 7 7\n\
+             POINT_DATA 8\nSCALARS h float\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8\n\
+             FIELD FieldData 2\na%20b 1 8 double\n8 7 6 5 4 3 2 1\nxy 2 8 int\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"
+        );
+        let mesh = parse_points(text.as_bytes(), Format::Vtk).unwrap();
+        assert_eq!(
+            (mesh.tets.len(), &mesh.triangles[..]),
+            (6, &[[0, 1, 2]][..])
+        );
+        let names: Vec<_> = mesh
+            .arrays
+            .iter()
+            .map(|a| (a.name.as_str(), a.components))
+            .collect();
+        assert_eq!(names, [("h", 1), ("a b", 1), ("xy", 2)]);
+        assert_eq!(mesh.arrays[1].values[0], 8.0);
+        // Who does not ask for them reads no hexahedra.
+        assert!(parse(text.as_bytes(), Format::Vtk).is_err());
+        for (cell, what) in [
+            (
+                "CELLS 1 5\n4 0 1 2 8\nCELL_TYPES 1\n10",
+                "names point 8, and there are 8",
+            ),
+            (
+                "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n10",
+                "of type 10 has 3 points",
+            ),
+            ("CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n42", "has the type 42"),
+        ] {
+            let text = format!("{HEAD}{cell}\n");
+            let error = parse_points(text.as_bytes(), Format::Vtk)
+                .unwrap_err()
+                .to_string();
+            assert!(error.contains(what), "{error}");
+        }
+        let error = parse_points(b"solid", Format::Stl).unwrap_err().to_string();
+        assert!(error.starts_with("stl has no numbers at points"), "{error}");
+    }
+
+    #[test]
+    fn the_last_step_of_a_view_counts() {
+        let view = |name: &str, step: i64, values: &str, count: usize| {
+            format!(
+                "$NodeData\n1\n\"{name}\"\n1\n0.5\n3\n{step}\n1\n{count}\n{values}\n$EndNodeData\n"
+            )
+        };
+        let head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n10 0 0 0\n20 1 0 0\n30 0 1 0\n40 0 0 1\n$EndNodes\n\
+                    $Elements\n2\n1 4 2 0 1 10 20 30 40\n2 2 2 0 1 10 20 30\n$EndElements\n";
+        let values = "10 1 20 2 40 4 30 3";
+        let text = [
+            head,
+            &view("h", 3, values, 4),
+            &view("h", 1, "10 9 20 9 30 9 40 9", 4),
+            &view("of one node", 0, "10 1", 1),
+        ]
+        .concat();
+        let mesh = parse_points(text.as_bytes(), Format::Msh).unwrap();
+        assert_eq!((mesh.tets.len(), mesh.triangles.len()), (1, 1));
+        assert_eq!(mesh.arrays[0].values, [1.0, 2.0, 3.0, 4.0]);
+        assert!(mesh.arrays[1].values[1].is_nan());
+        for (broken, what) in [
+            (view("h", 0, values, 5), "$EndNodeData"),
+            (view("h", 0, values, 1 << 40), "bytes are left"),
+            (view("h", 0, "10 x", 1), "'x' is not a number"),
+            (
+                "$NodeData\n1\n".to_owned(),
+                "expected, but the file ends here",
+            ),
+        ] {
+            let text = [head, &broken].concat();
+            let error = parse_points(text.as_bytes(), Format::Msh)
+                .unwrap_err()
+                .to_string();
+            assert!(error.contains(what), "{what}: {error}");
         }
     }
 }

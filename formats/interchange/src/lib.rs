@@ -15,8 +15,8 @@ mod title;
 
 pub use error::{ReadError, WriteError};
 pub use formats::{
-    Entry, Format, Writer, file_parts, parse, size_estimate, sniff, write, write_document,
-    write_part, write_pieces, write_text,
+    Entry, Format, Writer, file_parts, parse, parse_points, size_estimate, sniff, write,
+    write_document, write_part, write_pieces, write_text,
 };
 pub use options::{Parity, Surface, WriteOptions};
 pub use parsed::Parsed;

@@ -32,6 +32,7 @@ DIRECTION_ROUNDING = 2.0 ** -23
 
 JSON_CHUNKS = {b'SYMM': 'symmetry', b'PROM': 'promise', b'WISH': 'wishes', b'srch': 'search', b'REGN': 'regions',
                b'MARK': 'markers', b'RMAP': 'region_maps', b'srce': 'source', b'hist': 'history'}
+SIZE_FIELD = {b'FPTS': ('size_points', '<f8', 4), b'FTET': ('size_tets', '<u4', 4), b'FTRI': ('size_triangles', '<u4', 3)}
 LISTS = ('regions', 'markers', 'region_maps', 'history')
 
 
@@ -161,6 +162,9 @@ class Document:
     wishes: dict = None
     search: dict = None
     source: dict = None
+    size_points: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros((0, 4)))
+    size_tets: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros((0, 4), np.uint32))
+    size_triangles: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros((0, 3), np.uint32))
     regions: list = dataclasses.field(default_factory=list)
     markers: list = dataclasses.field(default_factory=list)
     region_maps: list = dataclasses.field(default_factory=list)
@@ -204,6 +208,9 @@ def parse(data, check=True):
             frame = array(name, payload, '<f8', 12)
             require(len(frame) == 1, 'FRAM: not 12 numbers')
             document.rotation, document.origin = frame[0, :9].reshape(3, 3), frame[0, 9:]
+        elif name in SIZE_FIELD:
+            attribute, kind, columns = SIZE_FIELD[name]
+            setattr(document, attribute, array(name, payload, kind, columns))
         elif name == b'INST':
             document.instances = [parse_instance(row) for row in array(name, payload, '<u4', 6).tolist()]
         elif name == b'VERT':
@@ -215,7 +222,7 @@ def parse(data, check=True):
         else:
             require(name[:1].islower(), f'chunk {name!r} is required, and not known')
             known = False
-        of_document = name in JSON_CHUNKS or name in (b'FRAM', b'INST')
+        of_document = name in JSON_CHUNKS or name in (b'FRAM', b'INST', *SIZE_FIELD)
         require(not of_document or scope == 0, f'{name!r} has the scope {scope}')
         require(not known or name == b'GLUE' or (name, scope) not in met, f'{name!r} is there twice')
         met.add((name, scope))
@@ -332,6 +339,7 @@ def validate(document):
         axis, reference = (np.array(d) for d in (document.symmetry['axis']['direction'], document.symmetry['reference']))
         off = [np.linalg.norm(axis) - 1, np.linalg.norm(reference) - 1, axis @ reference]
         require(np.all(np.abs(off) <= DIRECTION_ROUNDING), 'the directions of the symmetry are not orthonormal')
+    validate_size_field(document)
     known = np.array(sorted(regions | {NONE}), np.uint32)
     for index, template in enumerate(document.templates):
         validate_template(index, template, known)
@@ -339,6 +347,16 @@ def validate(document):
         for gluing in template.gluings:
             validate_gluing(document, index, gluing)
     validate_instances(document)
+
+
+def validate_size_field(document):
+    points, elements = document.size_points, (document.size_tets, document.size_triangles)
+    require(np.all(np.isfinite(points)) and np.all(points[:, 3] > 0), 'the size field has a length that is none')
+    require(not len(points) or any(map(len, elements)), 'the size field has no elements')
+    for ids in elements:
+        require(not np.any(ids >= len(points)), 'an element of the size field names a point that is not there')
+        ordered = np.sort(ids, axis=1)
+        require(not np.any(ordered[:, 1:] == ordered[:, :-1]), 'an element of the size field names a point twice')
 
 
 def increasing(ids, what):
@@ -427,6 +445,10 @@ def write(document, file):
         if value or (field in LISTS and field != 'region_maps'):
             text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(',', ':'))
             writer.chunk(name, 0, text.encode('utf-8'))
+    for name, (field, kind, _) in SIZE_FIELD.items():
+        value = getattr(document, field)
+        if len(value):
+            writer.chunk(name, 0, value.astype(kind).tobytes())
     for index, template in enumerate(document.templates):
         write_template(writer, index, template)
     rows = [(i.template, *stored(i.isometry), i.region_map, 0) for i in document.instances]

@@ -1,7 +1,8 @@
 //! The document model.
 
 use crate::{
-    Deviation, Frame, Gluing, Isometry, Promise, RegionMap, Search, Size, Symmetry, Wishes,
+    Deviation, Frame, Gluing, Isometry, Promise, RegionMap, Search, Size, SizeField, Symmetry,
+    Wishes,
 };
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -147,6 +148,8 @@ pub struct Document {
     pub search: Option<Search>,
     /// What is asked of the elements.
     pub wishes: Wishes,
+    /// Lengths of edges wanted that change from place to place, world coordinates; they hold beside the size of the wishes.
+    pub size_field: Option<SizeField>,
     /// Materials, increasing in id.
     pub regions: Vec<Region>,
     /// Boundary pieces, increasing in id.

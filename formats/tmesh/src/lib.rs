@@ -12,6 +12,7 @@ mod faces;
 mod gluing;
 mod isometries;
 mod region_map;
+mod size_field;
 mod symmetry;
 mod validate;
 mod violation;
@@ -30,6 +31,7 @@ pub use isometries::{
     FixedSet, Frame, Group, Isometry, Kind, MAX_TURN_DENOMINATOR, NotAGroup, Placed, ROUNDING,
 };
 pub use region_map::RegionMap;
+pub use size_field::{SizeField, SizePoint};
 pub use symmetry::{Axis, OtherAxis, Outside, Promise, RejectedOrder, Search, Symmetry};
 pub use validate::validate;
 pub use violation::Violation;

@@ -3,7 +3,7 @@
 use crate::isometries::lcm;
 use crate::{
     Document, Gluing, Instance, Isometry, MAX_TURN_DENOMINATOR, OUTSIDE, Plane, Promise, ROUNDING,
-    Symmetry, Template, Violation,
+    SizeField, Symmetry, Template, Violation,
 };
 use glam::DVec3;
 use std::collections::{BTreeSet, HashSet};
@@ -29,6 +29,9 @@ pub fn validate(document: &Document) -> Vec<Violation> {
     check_names(document, &mut found);
     check_numbers(document, &mut found);
     check_turns(document, &mut found);
+    if let Some(field) = &document.size_field {
+        check_size_field(field, &mut found);
+    }
     if let Some(symmetry) = &document.symmetry {
         check_symmetry(symmetry, &mut found);
     }
@@ -206,6 +209,43 @@ fn check_numbers(document: &Document, found: &mut Collector) {
     let promise = promise.flat_map(|p| p.rotation.into_iter().flatten().chain(p.origin));
     for value in symmetry.chain(search).chain(promise) {
         check(value, false, &|| "a number of the symmetry".to_owned());
+    }
+}
+
+/// Checks lengths that change from place to place.
+fn check_size_field(field: &SizeField, found: &mut Collector) {
+    let mut bad = |reason: String| found.add(Violation::BadSizeField { reason });
+    for (i, point) in field.points.iter().enumerate() {
+        if !point.position.is_finite() {
+            bad(format!("point {i} has the coordinates {}", point.position));
+        }
+        if !(point.size.is_finite() && point.size > 0.0) {
+            let size = point.size;
+            bad(format!(
+                "point {i} has the length {size}, which must be a finite positive number"
+            ));
+        }
+    }
+    if field.tets.is_empty() && field.triangles.is_empty() {
+        bad("it has no elements".to_owned());
+    }
+    let tets = field.tets.iter().map(|t| t.as_slice());
+    let triangles = field.triangles.iter().map(|t| t.as_slice());
+    for (kind, list) in [
+        (
+            "tetrahedron",
+            &mut tets.enumerate() as &mut dyn Iterator<Item = (usize, &[u32])>,
+        ),
+        ("triangle", &mut triangles.enumerate()),
+    ] {
+        for (i, corners) in list {
+            let count = field.points.len();
+            if let Some(v) = corners.iter().find(|&&v| v as usize >= count) {
+                bad(format!("{kind} {i} names point {v}, and there are {count}"));
+            } else if (1..corners.len()).any(|k| corners[..k].contains(&corners[k])) {
+                bad(format!("{kind} {i} names a point twice"));
+            }
+        }
     }
 }
 

@@ -249,6 +249,12 @@ pub enum Violation {
         /// What is wrong with it.
         reason: String,
     },
+    /// The lengths that change from place to place make no sense.
+    #[error("the size field: {reason}")]
+    BadSizeField {
+        /// What is wrong with it.
+        reason: String,
+    },
     /// The frame is not a rotation and a finite shift.
     #[error("the frame is not a rotation and a finite shift")]
     BadFrame,

@@ -7,9 +7,10 @@ use tmesh::{
     Outside, Promise, Region, RegionMap, Symmetry, Template, Tet, Triangle,
 };
 
-const BASES: [&[u8]; 2] = [
+const BASES: [&[u8]; 3] = [
     include_bytes!("../../../formats/tmesh/tests/golden/column.tmesh"),
     include_bytes!("../../../formats/tmesh/tests/golden/pyramid.tmesh"),
+    include_bytes!("../../../formats/tmesh/tests/golden/sized.tmesh"),
 ];
 
 /// A sound document and what is altered in it.

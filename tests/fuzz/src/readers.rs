@@ -15,6 +15,9 @@ pub fn check_reader(bytes: &[u8], format: Format) {
             check_second_reading(&imported.document, format);
         }
     });
+    limited(bytes.len(), || {
+        let _ = interchange::parse_points(bytes, format);
+    });
     limited(bytes.len(), || sniff(bytes, None));
 }
 

@@ -1,5 +1,9 @@
 //! Running the tools as their users do: real processes, real pipes.
 
+mod fields;
+
+pub use fields::Field;
+
 use bodies::{Body, Encoding};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};

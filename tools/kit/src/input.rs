@@ -149,7 +149,7 @@ fn unreadable(e: std::io::Error) -> String {
 }
 
 /// The first bytes of an input, and the format that they or its name show.
-fn recognized(
+pub(crate) fn recognized(
     input: &mut BufReader<impl Read>,
     (path, from): (Option<&Path>, Option<Format>),
 ) -> Result<(Vec<u8>, Format), String> {

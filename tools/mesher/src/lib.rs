@@ -28,5 +28,6 @@ pub use log::{Log, Progress};
 pub use mesher::{Elements, Limits, Mesh, Mesher, Task};
 pub use params::Params;
 pub use piece::Piece;
+pub use sizing::field::mean_volume;
 pub use sizing::{Sizes, TooMany};
 pub use tetgen::TetGen;

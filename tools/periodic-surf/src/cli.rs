@@ -5,7 +5,8 @@ use kit::{Command, CommonArgs, Failure, Session, StrictArgs, WishArgs};
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk
-  periodic-surf --edge-length 0.05 fan.wedge.tmesh | tetwedge -o fan.tmesh";
+  periodic-surf --edge-length 0.05 fan.wedge.tmesh | tetwedge -o fan.tmesh
+  periodic-surf --size-field background.msh fan.wedge.tmesh | tetwedge -o fan.tmesh";
 
 /// Make the surface mesh of a wedge whose cut faces match under the rotation
 ///
@@ -36,7 +37,8 @@ impl Command for Cli {
     fn run(self, session: &Session) -> Result<(), Failure> {
         session.check_output()?;
         let mut document = session.read()?;
-        self.wishes.apply(&mut document)?;
+        let notes = self.wishes.apply(&mut document)?;
+        notes.iter().for_each(|note| session.note(note));
         let params = self.memory.params(&document.wishes);
         let made = watched(session, None, |log| prepare(document, &params, log));
         let (mut document, report) = made.map_err(|error| error.failure())?;

@@ -142,8 +142,18 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
 /// over eight above it. Twice that, since remeshing takes half of the deviation for the height of its chords.
 fn by_length(document: &Document, sizes: &Sizes, radius: f64) -> Option<f64> {
     let wishes = &document.wishes;
-    let lengths = sizes.lengths.iter().flatten().copied();
-    let length = lengths.chain(wishes.edge_length()).reduce(f64::max);
+    let field = sizes.local.iter().flatten().filter_map(|l| l.longest);
+    let length = match field.reduce(f64::max) {
+        // A field holds everywhere.
+        Some(longest) => {
+            let of_region = |length: &Option<f64>| length.unwrap_or(longest).min(longest);
+            sizes.lengths.iter().map(of_region).reduce(f64::max)
+        }
+        None => {
+            let lengths = sizes.lengths.iter().flatten().copied();
+            lengths.chain(wishes.edge_length()).reduce(f64::max)
+        }
+    };
     let length = length.filter(|_| wishes.deviation() == Deviation::Auto)?;
     Some((0.25 * length * turn(wishes)).min(Deviation::LARGEST * radius))
 }

@@ -3,12 +3,16 @@
 //!
 //! It is the least of what holds for a region as a whole ([`Sizes::of_region`], [`Sizes::lengths`]) and of a size that changes from
 //! place to place and grows at a bounded rate ([`Graded`]), which walls ask for that are to have some elements across
-//! ([`across_walls`]).
+//! ([`across_walls`]), and a size field ([`field`]).
 
 mod across;
+mod cubes;
+pub mod field;
 mod sizes;
+mod too_many;
 mod tree;
 
 pub use across::{Across, Thinnest, across_walls};
-pub use sizes::{Sizes, TooMany};
+pub use sizes::{Local, Sizes};
+pub use too_many::TooMany;
 pub use tree::{Graded, Node, Source};

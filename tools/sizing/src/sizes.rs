@@ -1,9 +1,11 @@
 //! The sizes that a document asks for.
 
-use crate::across::{Thinnest, across_walls};
-use crate::tree::Graded;
+use crate::across::{Across, across_walls};
+use crate::cubes::cubes;
+use crate::field::{Folded, Limited, mean_cubes};
+use crate::too_many::TooMany;
+use crate::tree::{Graded, cube};
 use glam::DVec3;
-use std::fmt;
 use tmesh::{Document, Region, Size, Template};
 
 /// Sizes per region: what the region says, else the general one of the wishes; where instances make other regions of it, the least of
@@ -25,36 +27,9 @@ pub struct Local {
     pub graded: Graded,
     /// Cubes of the smallest sizes that the template holds, about.
     pub cubes: f64,
+    /// The largest length that a size field wants in its cube, model units.
+    pub longest: Option<f64>,
 }
-
-/// Walls would take more elements than can be made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TooMany {
-    /// Template.
-    pub template: usize,
-    /// Elements asked for across.
-    pub layers: u32,
-    /// The thinnest place of its walls that was seen, and how thick it is, model units.
-    pub thinnest: Thinnest,
-}
-
-impl fmt::Display for TooMany {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            template,
-            layers,
-            thinnest: (thickness, near),
-        } = self;
-        let [x, y, z] = near.to_array();
-        write!(
-            f,
-            "{layers} elements across all walls of template {template} are more than can be made: walls are too thin for their width, the \
-             thinnest has {thickness:.3e} near ({x:.6e}, {y:.6e}, {z:.6e}); leave --layers-across out, and ask for small elements by --region"
-        )
-    }
-}
-
-impl std::error::Error for TooMany {}
 
 impl Sizes {
     /// What holds for regions as a whole.
@@ -86,23 +61,17 @@ impl Sizes {
     /// [`TooMany`].
     pub fn new(document: &Document) -> Result<Self, TooMany> {
         let mut sizes = Self::of_regions(document);
-        let asked = document.wishes.layers_across;
-        let Some(layers) = asked.filter(|_| document.wishes.quality()) else {
+        let wishes = &document.wishes;
+        let is_asked = wishes.layers_across.is_some() || document.size_field.is_some();
+        if !is_asked || !wishes.quality() {
             return Ok(sizes);
-        };
-        let growth = document.wishes.gradation() - 1.0;
-        for (index, template) in document.templates.iter().enumerate() {
-            let copies = document.instances.len();
-            let across = across_walls((template, index), copies, f64::from(layers));
-            let across = across.map_err(|thinnest| TooMany {
-                template: index,
-                layers,
-                thinnest,
-            })?;
-            sizes.local[index] = Some(Local {
-                graded: Graded::new(&across.sources, growth, f64::INFINITY, ends(template)),
-                cubes: across.cubes,
-            });
+        }
+        let growth = wishes.gradation() - 1.0;
+        let field = document.size_field.as_ref();
+        let field = field.map(|field| Limited::new(field, &document.frame, growth));
+        for index in 0..document.templates.len() {
+            let local = Local::new((document, index), field.as_ref(), growth)?;
+            sizes.local[index] = Some(local);
         }
         Ok(sizes)
     }
@@ -120,6 +89,66 @@ impl Sizes {
         used.windows(2)
             .any(|w| self.of_region[w[0]] != self.of_region[w[1]])
     }
+}
+
+impl Local {
+    /// What holds in a template besides the sizes of regions: the least of what walls and a size field ask for.
+    ///
+    /// # Errors
+    /// [`TooMany`].
+    pub fn new(
+        (document, index): (&Document, usize),
+        field: Option<&Limited>,
+        growth: f64,
+    ) -> Result<Self, TooMany> {
+        let template = &document.templates[index];
+        let across = match document.wishes.layers_across {
+            Some(layers) => {
+                let copies = document.instances.len();
+                let across = across_walls((template, index), copies, f64::from(layers));
+                across.map_err(|thinnest| TooMany::Walls {
+                    template: index,
+                    layers,
+                    thinnest,
+                })?
+            }
+            None => Across::default(),
+        };
+        let Some(field) = field else {
+            let sources = &across.sources;
+            return Ok(Self {
+                graded: Graded::new(sources, growth, f64::INFINITY, ends(template)),
+                cubes: across.cubes,
+                longest: None,
+            });
+        };
+        let beyond = TooMany::Field { template: index };
+        // Before a tree is made for what cannot be.
+        if mean_cubes((document, index)).is_some_and(are_too_many) {
+            return Err(beyond);
+        }
+        let cube = cube(ends(template));
+        let folded = Folded::new(field, (document, index), cube).ok_or(beyond)?;
+        let sources = &across.sources;
+        let graded = Graded::with_field(sources, growth, f64::INFINITY, cube, Some(&folded));
+        let graded = graded.ok_or(beyond)?;
+        let leaves = graded.leaves();
+        let sizes = leaves.iter().map(|leaf| leaf.2).filter(|s| s.is_finite());
+        let cubes = cubes(template, &leaves);
+        if are_too_many(cubes) {
+            return Err(beyond);
+        }
+        Ok(Self {
+            cubes,
+            longest: sizes.reduce(f64::max),
+            graded,
+        })
+    }
+}
+
+/// Whether elements of so many cubes are more than the mesher can count: corners of tetrahedra, in 32 bits.
+fn are_too_many(cubes: f64) -> bool {
+    cubes / Size::OF_CUBE > f64::from(i32::MAX) / 4.0
 }
 
 fn ends(template: &Template) -> [DVec3; 2] {

@@ -1,6 +1,8 @@
 //! A graded size as an octree.
 
+use crate::field::{Cells, Folded};
 use glam::DVec3;
+use std::rc::Rc;
 
 /// A box in which elements are to have a size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +16,19 @@ pub struct Source {
 /// Largest size in a leaf over the smallest one there, but for what is deeper than [`DEPTH`]. A choice: the volumes of elements of one size
 /// differ by far more, and a tree for a tenth would be ten times as large.
 const ALIKE: f64 = 1.25;
+
+/// The same where a cube is beyond the border of a size field, in some part: there a body stands out of it by what chords cut off, or
+/// lengths grow. A choice: the border of a field is mostly that of the body, where a tree for a quarter would have ten times the leaves.
+const ALIKE_BEYOND: f64 = 2.0;
+
+/// A cube is not divided further for a size field once it is this part of the least length in it: no element is there that the
+/// difference would matter to. In a field on elements without flat ones, and limited by a gradation of 1.5, leaves are about as wide as
+/// elements; this ends it in flat ones, where lengths may change as fast as they like.
+const FINEST: f64 = 0.25;
+
+/// Nodes, at most, which take a quarter of a gigabyte. More than one for each element are rare, so that what is beyond would have as many
+/// elements.
+const MOST: usize = 1 << 24;
 
 /// Halvings of the body, at most: a leaf is then as small as what rounding of single precision leaves of it.
 const DEPTH: u32 = f32::MANTISSA_DIGITS;
@@ -45,37 +60,103 @@ pub struct Graded {
 impl Graded {
     /// Sizes in a cube about points (their least and largest coordinates) that grow by `growth` of the distance from sources. Sizes are
     /// `most` at most. As long as the sum over all levels of the sources that matter in a node.
-    pub fn new(sources: &[Source], growth: f64, most: f64, [low, high]: [DVec3; 2]) -> Self {
+    pub fn new(sources: &[Source], growth: f64, most: f64, ends: [DVec3; 2]) -> Self {
+        let cube = cube(ends);
+        // Without a field there is no limit.
+        Self::with_field(sources, growth, most, cube, None).unwrap_or(Self {
+            origin: cube.0,
+            width: cube.1,
+            nodes: vec![Node::leaf(most)],
+        })
+    }
+
+    /// The same beside a size field, folded into units of the cube of this origin and width (see [`cube`]). In leaves that the field
+    /// decides there is the middle of its range in them. `None` where that takes too many nodes.
+    pub fn with_field(
+        sources: &[Source],
+        growth: f64,
+        most: f64,
+        (origin, width): (DVec3, f64),
+        field: Option<&Folded>,
+    ) -> Option<Self> {
         let mut graded = Self {
-            origin: low,
-            width: (high - low).max_element(),
+            origin,
+            width,
             nodes: vec![Node::leaf(most)],
         };
-        let all: Vec<u32> = (0..sources.len() as u32).collect();
         let builder = Builder {
             sources,
             growth,
             most,
         };
-        // Nodes with the sources that matter there.
-        let mut open = vec![(0, low, graded.width, 0, all)];
-        while let Some((node, corner, width, depth, known)) = open.pop() {
-            let (range, kept) = builder.range(corner, width, &known);
-            if range[1] <= ALIKE * range[0] || depth == DEPTH {
-                graded.nodes[node].size = range[0];
+        let mut cells = field.map(|field| Cells::new(field, growth));
+        let all: Vec<u32> = (0..sources.len() as u32).collect();
+        let listed = cells.as_ref().map(Cells::all).unwrap_or_default();
+        // Nodes with what matters there; corners in units of the cube.
+        let mut open = vec![(0, DVec3::ZERO, 1.0, 0, Rc::new(all), listed)];
+        while let Some((node, corner, part, depth, known, mut listed)) = open.pop() {
+            let (range, kept) = builder.range(origin + corner * width, part * width, &known);
+            let mut is_done = range[1] <= ALIKE * range[0];
+            let mut size = range[0];
+            if field.is_some_and(|field| !field.meets(corner, part)) {
+                // Nobody asks there.
+                is_done = true;
+            } else if let Some(cells) = &mut cells {
+                let cube = (corner, part);
+                let is_much = cells.narrow(cube, &mut listed);
+                is_done = false;
+                if !is_much || depth == DEPTH {
+                    let (seen, kept) = cells.see(cube, &listed, range[1] / width);
+                    let least = range[0].min(seen.least * width);
+                    let [within, beyond] = [seen.within, seen.beyond].map(|x| x * width);
+                    is_done = range[1].min(within) <= ALIKE * least
+                        || beyond <= ALIKE_BEYOND * least
+                        || part * width <= FINEST * least;
+                    size = size.min(seen.middle * width);
+                    listed = kept;
+                }
+            }
+            if is_done || depth == DEPTH {
+                graded.nodes[node].size = size;
                 continue;
             }
             let first = graded.nodes.len();
+            if cells.is_some() && first > MOST {
+                return None;
+            }
             graded.nodes[node].first = first as u32;
             graded.nodes.extend([Node::leaf(most); 8]);
-            let half = 0.5 * width;
-            for child in 0..8 {
+            let half = 0.5 * part;
+            let kept = Rc::new(kept);
+            let cells = cells.as_ref();
+            let listed = cells.map(|cells| cells.divided((corner, part), &listed));
+            for (child, listed) in listed.unwrap_or_default().into_iter().enumerate() {
                 let bits = [1, 2, 4].map(|bit| if child & bit == 0 { 0.0 } else { half });
                 let corner = corner + DVec3::from_array(bits);
-                open.push((first + child, corner, half, depth + 1, kept.clone()));
+                let kept = Rc::clone(&kept);
+                open.push((first + child, corner, half, depth + 1, kept, listed));
             }
         }
-        graded
+        Some(graded)
+    }
+
+    /// Its leaves: least coordinates, width and size of each, model units.
+    pub fn leaves(&self) -> Vec<(DVec3, f64, f64)> {
+        let mut leaves = Vec::new();
+        let mut open = vec![(0, self.origin, self.width)];
+        while let Some((node, corner, width)) = open.pop() {
+            let Node { size, first } = self.nodes[node as usize];
+            if first == 0 {
+                leaves.push((corner, width, size));
+                continue;
+            }
+            for child in 0..8 {
+                let bits = [1, 2, 4].map(|bit| if child & bit == 0 { 0.0 } else { 0.5 * width });
+                let corner = corner + DVec3::from_array(bits);
+                open.push((first + child, corner, 0.5 * width));
+            }
+        }
+        leaves
     }
 
     /// The same in another unit of length.
@@ -115,6 +196,11 @@ impl Node {
     fn leaf(size: f64) -> Self {
         Self { size, first: 0 }
     }
+}
+
+/// The cube about points, given by their least and largest coordinates: its origin and width, model units.
+pub fn cube([low, high]: [DVec3; 2]) -> (DVec3, f64) {
+    (low, (high - low).max_element())
 }
 
 /// What a tree is made from.

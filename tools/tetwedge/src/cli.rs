@@ -21,7 +21,8 @@ use tmesh::{Document, Wishes};
     after_help = "Examples:\n  \
         symdetect a.stl | wedgecut | tetwedge | rotassemble > a.vtk\n  \
         tetwedge wedge.tmesh --max-volume 0.01 --region copper:max-volume=1e-4 -o meshed.tmesh\n  \
-        tetwedge -v --timeout 60 --edge-length 0.05 wedge.tmesh -o meshed.tmesh"
+        tetwedge -v --timeout 60 --edge-length 0.05 wedge.tmesh -o meshed.tmesh\n  \
+        tetwedge --size-field background.vtu:length wedge.tmesh -o meshed.tmesh"
 )]
 pub struct Cli {
     #[command(flatten)]
@@ -97,7 +98,8 @@ impl Command for Cli {
     fn run(self, session: &Session) -> Result<(), Failure> {
         session.check_output()?;
         let mut document = session.read()?;
-        self.wishes.apply(&mut document)?;
+        let notes = self.wishes.apply(&mut document)?;
+        notes.iter().for_each(|note| session.note(note));
         if self.keep_surface {
             document.wishes.keep_surface = Some(true);
         }

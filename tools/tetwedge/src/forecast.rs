@@ -3,7 +3,7 @@
 use estimate::{CostModel, Cut, Estimate, Wedge, edge_of_volume, needles};
 use geom::measure::volume_of_region;
 use kit::tolerance;
-use mesher::{IN_CUBE, Params, Sizes};
+use mesher::{IN_CUBE, Params, Sizes, mean_volume};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::time::Duration;
@@ -50,9 +50,11 @@ fn expected(document: &Document, index: usize, sizes: &Sizes, threads: usize) ->
     let template = &document.templates[index];
     let volume_of = |region: u32| volume_of_region(&template.vertices, template.faces(), region);
     // Elements that are too large are split, so that they have half of the volume that is allowed, in the mean.
+    let by_field = mean_volume((document, index), regions(template).map(volume_of).sum());
     let cube = |region: u32| {
         let number = document.regions.iter().position(|r| r.id == region)?;
-        Some(0.5 * IN_CUBE * sizes.of_region[number]?)
+        let volumes = sizes.of_region[number].into_iter().chain(by_field);
+        Some(0.5 * IN_CUBE * volumes.reduce(f64::min)?)
     };
     // Those that are turned over are beyond the sections of this one.
     let upright = |i: &&Instance| i.template as usize == index && !i.isometry.flipped();

@@ -6,6 +6,7 @@ use crate::params::{Params, Seam};
 use estimate::edge_of_volume;
 use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
+use sizing::field::mean_volume;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use tmesh::{Document, Frame, OUTSIDE, Size, Symmetry, Template, Triangle};
@@ -26,6 +27,8 @@ pub struct Body<'a> {
     pub frame: Frame,
     /// The seam asked for, where it is no plane, over heights of that frame.
     pub graph: Option<Arc<Graph>>,
+    /// The largest volume of elements that would ask for as many of them as the size field does, if there is one, model units cubed.
+    pub mean_volume: Option<f64>,
 }
 
 impl<'a> Body<'a> {
@@ -57,7 +60,11 @@ impl<'a> Body<'a> {
             Seam::Graph(graph) => Some(Arc::new((**graph).clone().raised(-frame.origin.dot(axis)))),
             Seam::Plane | Seam::Auto => None,
         };
+        let all: f64 = region_volumes(&surface.vertices, &surface.triangles)
+            .values()
+            .sum();
         Ok(Self {
+            mean_volume: mean_volume((document, 0), all),
             graph,
             document,
             surface,
@@ -73,7 +80,8 @@ impl<'a> Body<'a> {
         let regions = &self.document.regions;
         let at = regions.binary_search_by_key(&region, |r| r.id).ok()?;
         let size = regions[at].size.or(self.document.wishes.size);
-        size.map(Size::max_volume)
+        let volumes = size.map(Size::max_volume).into_iter();
+        volumes.chain(self.mean_volume).reduce(f64::min)
     }
 
     /// The size of elements beside a triangle, model units: as asked for, at most that of the body.

@@ -11,6 +11,7 @@ const EXAMPLES: &str = "Examples:
   symdetect gear.stl | wedgecut -v > gear.wedge.tmesh
   symdetect gear.stl | wedgecut --order 4 --to vtk -o wedge.vtk
   symdetect via.stl | wedgecut --max-volume 0.01 | tetwedge -o via.tmesh
+  symdetect gear.stl | wedgecut --size-field background.vtk | tetwedge | rotassemble > gear.vtk
   symdetect fan.stl | wedgecut --domain rotation --start-angle 15 | tetwedge | rotassemble > fan.vtk
   symdetect fan.stl | wedgecut --seam between-blades.txt | tetwedge | rotassemble > fan.vtk";
 
@@ -174,7 +175,8 @@ impl Command for Cli {
         };
         session.check_output()?;
         let mut document = session.read()?;
-        self.wishes.apply(&mut document)?;
+        let notes = self.wishes.apply(&mut document)?;
+        notes.iter().for_each(|note| session.note(note));
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));
         let remarks = [names::lost(&document), report.warning, report.moved];

@@ -4,8 +4,8 @@ use glam::DVec3;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use tmesh::{
-    ChunkInfo, Deviation, Document, Isometry, OUTSIDE, Size, Template, VERSION_MAJOR,
-    VERSION_MINOR, Wishes,
+    ChunkInfo, Deviation, Document, Isometry, OUTSIDE, Size, SizeField, Template, VERSION_MAJOR,
+    VERSION_MINOR,
 };
 
 /// Writes the listing. `chunks` are those the document was read from; without them they are not
@@ -107,7 +107,7 @@ fn listing(document: &Document, chunks: &[ChunkInfo]) -> String {
     if let Some(promise) = &document.promise {
         let _ = writeln!(text, "promised exactly: {}", crate::promise_title(promise));
     }
-    list_wishes(&document.wishes, &mut text);
+    list_wishes(document, &mut text);
     list_tables(document, &mut text);
     list_origin(document, &mut text);
     text
@@ -332,7 +332,8 @@ fn list_symmetry(document: &Document, text: &mut String) {
     print_pairs(&lines, text);
 }
 
-fn list_wishes(wishes: &Wishes, text: &mut String) {
+fn list_wishes(document: &Document, text: &mut String) {
+    let wishes = &document.wishes;
     let mut lines: Vec<(&str, String)> = Vec::new();
     let mut add = |what, value: Option<String>| lines.extend(value.map(|v| (what, v)));
     add("improved", wishes.quality.map(|q| yes(q).to_owned()));
@@ -352,6 +353,8 @@ fn list_wishes(wishes: &Wishes, text: &mut String) {
     add("gradation", wishes.gradation.map(number));
     let layers = wishes.layers_across.map(|n| n.to_string());
     add("elements across walls", layers);
+    let field = document.size_field.as_ref();
+    add("size field", field.map(size_field));
     add(
         "shared faces settled",
         wishes.keep_surface.map(|k| yes(k).to_owned()),
@@ -360,6 +363,20 @@ fn list_wishes(wishes: &Wishes, text: &mut String) {
         text.push_str("\nelements wished for\n");
         print_pairs(&lines, text);
     }
+}
+
+fn size_field(field: &SizeField) -> String {
+    let sizes = || field.points.iter().map(|p| p.size);
+    let [least, most] = [
+        sizes().fold(f64::INFINITY, f64::min),
+        sizes().fold(0.0, f64::max),
+    ];
+    let (points, tets, triangles) = (field.points.len(), field.tets.len(), field.triangles.len());
+    format!(
+        "{points} points, {tets} tetrahedra, {triangles} triangles; lengths {} to {}",
+        number(least),
+        number(most)
+    )
 }
 
 fn list_tables(document: &Document, text: &mut String) {

@@ -1,6 +1,6 @@
 //! An unstructured grid as the VTK formats hold it: cells of several types with integers on them.
 
-use super::{Finding, Group, Mesh, MeshTriangles, Parsed, Soup};
+use super::{Finding, Group, Mesh, MeshTriangles, Parsed, PointArray, PointMesh, Soup};
 use crate::ReadError;
 use crate::text::{counted, plain};
 use crate::title::{parse_promise, parse_sector};
@@ -42,8 +42,44 @@ pub struct Grid {
     pub cell_data: FxHashMap<String, Vec<u32>>,
     /// Texts in the field data, by array name.
     pub texts: FxHashMap<String, String>,
+    /// Numbers at points, of readers that are asked for them.
+    pub point_data: Vec<PointArray>,
     /// What the user should know about the file.
     pub notices: Vec<String>,
+}
+
+/// The corners of a cell that a [`PointMesh`] has: what they are corners of, and how many the cell lists in all.
+fn shape_of(kind: u8) -> Option<(Shape, usize)> {
+    Some(match kind {
+        5 => (Shape::Face(3), 3),
+        22 => (Shape::Face(3), 6),
+        34 => (Shape::Face(3), 7),
+        9 => (Shape::Face(4), 4),
+        23 => (Shape::Face(4), 8),
+        28 => (Shape::Face(4), 9),
+        10 => (Shape::Volume(4), 4),
+        24 => (Shape::Volume(4), 10),
+        12 => (Shape::Volume(8), 8),
+        25 => (Shape::Volume(8), 20),
+        29 => (Shape::Volume(8), 27),
+        13 => (Shape::Volume(6), 6),
+        26 => (Shape::Volume(6), 15),
+        14 => (Shape::Volume(5), 5),
+        27 => (Shape::Volume(5), 13),
+        PIXEL => (Shape::Face(4), 4),
+        VOXEL => (Shape::Volume(8), 8),
+        _ => return None,
+    })
+}
+
+/// A quadrilateral and a hexahedron whose corners are numbered along the axes.
+const PIXEL: u8 = 8;
+const VOXEL: u8 = 11;
+
+#[derive(Clone, Copy)]
+enum Shape {
+    Face(usize),
+    Volume(usize),
 }
 
 impl Grid {
@@ -214,6 +250,70 @@ impl Grid {
             }
         }
         Ok(())
+    }
+
+    /// The mesh with the numbers at its points. Of cells of second order the corners count.
+    ///
+    /// # Errors
+    /// Cells of unknown types, and those that name missing points or have another number of points; points that are not finite.
+    pub fn point_mesh(self, format: &'static str) -> Result<PointMesh, ReadError> {
+        let malformed = |reason: String| ReadError::Malformed { format, reason };
+        if let Some(i) = self.points.iter().position(|p| !p.is_finite()) {
+            let p = self.points[i];
+            return Err(malformed(format!(
+                "point {i} is ({}, {}, {})",
+                p.x, p.y, p.z
+            )));
+        }
+        let mut mesh = PointMesh::default();
+        let mut begin = 0;
+        for (i, (&kind, &end)) in self.types.iter().zip(&self.ends).enumerate() {
+            let cell = self.connectivity.get(begin..end);
+            let cell = cell
+                .ok_or_else(|| malformed(format!("cell {i} has no place in the list of points")))?;
+            begin = end;
+            let count = self.points.len();
+            if let Some(&v) = cell.iter().find(|&&v| v as usize >= count) {
+                return Err(malformed(format!(
+                    "cell {i} names point {v}, and there are {count}"
+                )));
+            }
+            match (kind, shape_of(kind)) {
+                // Points and lines have neither faces nor volume.
+                (1..=4 | 21 | 35, _) => {}
+                (TRIANGLE_STRIP, _) => cell.windows(3).for_each(|t| mesh.add_face(t)),
+                (POLYGON, _) => mesh.add_face(cell),
+                (_, None) => {
+                    return Err(malformed(format!(
+                        "cell {i} has the type {kind}; only tetrahedra, hexahedra, prisms, pyramids, triangles, quadrilaterals \
+                         and polygons are read"
+                    )));
+                }
+                (_, Some((_, n))) if n != cell.len() => {
+                    let n = cell.len();
+                    return Err(malformed(format!("cell {i} of type {kind} has {n} points")));
+                }
+                (PIXEL, _) => mesh.add_face(&[0, 1, 3, 2].map(|k| cell[k])),
+                (VOXEL, _) => mesh.add_volume(&[0, 1, 3, 2, 4, 5, 7, 6].map(|k| cell[k])),
+                (_, Some((Shape::Face(n), _))) => mesh.add_face(&cell[..n]),
+                (_, Some((Shape::Volume(n), _))) => mesh.add_volume(&cell[..n]),
+            }
+        }
+        mesh.points = self.points;
+        mesh.arrays = self.point_data;
+        Ok(mesh)
+    }
+
+    /// Takes numbers at points, if there are as many for each.
+    pub fn take_point_data(&mut self, name: String, values: Vec<f64>) {
+        let points = self.points.len();
+        if points > 0 && !values.is_empty() && values.len().is_multiple_of(points) {
+            self.point_data.push(PointArray {
+                name,
+                components: values.len() / points,
+                values,
+            });
+        }
     }
 
     fn into_mesh(self, mut notices: Vec<String>) -> Mesh {

@@ -6,12 +6,14 @@
 mod grid;
 mod mesh;
 mod plc;
+mod point_mesh;
 mod shells;
 mod soup;
 
 pub(crate) use grid::{Grid, SOURCE, SYMMETRY, TETRA, TRIANGLE, by_corners};
 pub use mesh::{Finding, Mesh, MeshTriangles};
 pub use plc::{Facet, Plc, Seed};
+pub use point_mesh::{PointArray, PointMesh};
 pub use shells::{Shells, Volume};
 pub use soup::{Faces, Group, Soup};
 

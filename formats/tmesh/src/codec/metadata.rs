@@ -3,6 +3,7 @@
 //! `SPEC.md`, sections 4 and 5.
 
 use super::chunk::{ChunkInfo, ChunkReader, ChunkWriter};
+use super::size_field;
 use crate::{DecodeError, Document, Frame};
 use glam::{DMat3, DVec3};
 use serde::{Serialize, de::DeserializeOwned};
@@ -85,6 +86,9 @@ pub fn write_metadata<W: Write>(
     }
     if !document.wishes.is_empty() {
         put(chunks, WISHES, &document.wishes)?;
+    }
+    if let Some(field) = &document.size_field {
+        size_field::write(field, chunks)?;
     }
     if let Some(search) = &document.search {
         put(chunks, SEARCH, search)?;

@@ -5,6 +5,7 @@ mod chunk;
 mod gluing;
 mod instances;
 mod metadata;
+mod size_field;
 mod template;
 
 pub use chunk::{ChunkInfo, ChunkWriter, MAGIC, VERSION_MAJOR, VERSION_MINOR};
@@ -33,7 +34,8 @@ pub fn read_with_chunks<R: Read>(reader: R) -> Result<(Document, Vec<ChunkInfo>)
         let known = metadata::read(&mut reader, &header, &mut document)?
             || instances::read(&mut reader, &header, &mut document)?
             || template::read(&mut reader, &header, &mut document)?
-            || gluing::read(&mut reader, &header, &mut document)?;
+            || gluing::read(&mut reader, &header, &mut document)?
+            || size_field::read(&mut reader, &header, &mut document)?;
         if !known {
             reader.skip(&header)?;
         } else if !gluing::repeats(&header) && !met.insert((header.id, header.scope)) {

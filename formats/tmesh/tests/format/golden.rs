@@ -1,11 +1,12 @@
 //! Frozen bytes. A change that makes these tests fail changes the format: it needs a new version
 //! number and a reader for the old one, not new golden files.
 
-use crate::samples::{bytes, column, pyramid};
+use crate::samples::{bytes, column, pyramid, sized};
 use tmesh::{Document, read, validate};
 
 const PYRAMID: &[u8] = include_bytes!("../golden/pyramid.tmesh");
 const COLUMN: &[u8] = include_bytes!("../golden/column.tmesh");
+const SIZED: &[u8] = include_bytes!("../golden/sized.tmesh");
 const SPEC: &str = include_str!("../../SPEC.md");
 
 fn check(document: &Document, golden: &[u8]) {
@@ -25,6 +26,11 @@ fn mirror_walls_and_tetrahedra_are_written_and_read_as_ever() {
 #[test]
 fn seams_hubs_and_all_metadata_are_written_and_read_as_ever() {
     check(&column(), COLUMN);
+}
+
+#[test]
+fn lengths_by_place_are_written_and_read_as_ever() {
+    check(&sized(), SIZED);
 }
 
 /// The annotated dump of section 11: `offset  hex bytes  ; meaning`.
@@ -58,7 +64,7 @@ fn the_hex_dump_of_the_specification_is_the_golden_file() {
 #[test]
 fn the_chunk_table_of_the_specification_is_complete() {
     let (_, chunks) = tmesh::read_with_chunks(COLUMN).expect("valid");
-    let (_, more) = tmesh::read_with_chunks(PYRAMID).expect("valid");
+    let (_, more) = tmesh::read_with_chunks(SIZED).expect("valid");
     let table = SPEC
         .split("\n## 4")
         .nth(1)

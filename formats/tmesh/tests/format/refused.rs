@@ -1,6 +1,6 @@
 //! Damaged and hostile documents: each is an error, none a panic or an allocation beyond its size.
 
-use crate::samples::{bytes, column, pyramid};
+use crate::samples::{bytes, column, pyramid, sized};
 use std::io::{self, Read};
 use tmesh::{
     ChunkWriter, DecodeError, Document, Gluing, Group, Isometry, Kind, RegionMap, Size, Violation,
@@ -39,7 +39,7 @@ fn nothing() {
 
 #[test]
 fn every_truncation() {
-    for document in [pyramid(), column()] {
+    for document in [pyramid(), column(), sized()] {
         let whole = bytes(&document);
         for length in 1..whole.len() {
             match error(&whole[..length]) {
@@ -52,7 +52,7 @@ fn every_truncation() {
 
 #[test]
 fn every_byte_altered() {
-    for document in [pyramid(), column()] {
+    for document in [pyramid(), column(), sized()] {
         let whole = bytes(&document);
         for place in 0..whole.len() {
             for change in [0x01, 0x80, 0xff] {
@@ -677,6 +677,75 @@ fn numbers_of_the_tables_that_are_none() {
 }
 
 #[test]
+fn size_fields_that_are_none() {
+    type Change = fn(&mut tmesh::SizeField);
+    let cases: [(Change, &str); 9] = [
+        (
+            |f| f.points[2].size = 0.0,
+            "point 2 has the length 0, which must be a finite positive number",
+        ),
+        (
+            |f| f.points[1].size = -1.0,
+            "point 1 has the length -1, which must be a finite positive number",
+        ),
+        (
+            |f| f.points[1].size = f64::NAN,
+            "point 1 has the length NaN, which must be a finite positive number",
+        ),
+        (
+            |f| f.points[3].size = f64::INFINITY,
+            "point 3 has the length inf, which must be a finite positive number",
+        ),
+        (
+            |f| f.points[0].position.y = f64::NAN,
+            "point 0 has the coordinates [-1, NaN, 0]",
+        ),
+        (
+            |f| f.tets[0][3] = 5,
+            "tetrahedron 0 names point 5, and there are 5",
+        ),
+        (
+            |f| f.triangles[0][0] = u32::MAX,
+            "triangle 0 names point 4294967295, and there are 5",
+        ),
+        (|f| f.tets[0][1] = 3, "tetrahedron 0 names a point twice"),
+        (
+            |f| (f.tets.clear(), f.triangles.clear()).0,
+            "it has no elements",
+        ),
+    ];
+    for (change, text) in cases {
+        let mut document = sized();
+        change(document.size_field.as_mut().expect("there"));
+        let found = violation(&document).to_string();
+        assert_eq!(found, format!("the size field: {text}"));
+    }
+}
+
+/// Elements without points are read to the end, and refused.
+#[test]
+fn size_fields_without_points() {
+    let raw = chunks(|writer| {
+        writer.array(*b"FTET", 0, &[0_u32, 1, 2, 3])?;
+        writer.array(*b"VERT", 0, &[0.0_f64; 3])
+    });
+    let text = error(&raw).to_string();
+    assert!(text.contains("names point 0, and there are 0"), "{text}");
+    let raw = chunks(|writer| {
+        writer.array(*b"FPTS", 0, &[1.0_f64; 3])?;
+        writer.array(*b"VERT", 0, &[0.0_f64; 3])
+    });
+    let text = error(&raw).to_string();
+    assert!(text.contains("not a whole number of 32"), "{text}");
+    let raw = chunks(|writer| {
+        writer.array(*b"FPTS", 1, &[1.0_f64; 4])?;
+        writer.array(*b"VERT", 0, &[0.0_f64; 3])
+    });
+    let text = error(&raw).to_string();
+    assert!(text.contains("its scope is 1"), "{text}");
+}
+
+#[test]
 fn walls_that_do_not_match() {
     let mut document = pyramid();
     document.templates[0].vertices[1].y = 1e-9;
@@ -836,7 +905,7 @@ fn one_byte_at_a_time() {
 #[test]
 fn every_word_replaced() {
     let mut accepted = 0;
-    for document in [pyramid(), column()] {
+    for document in [pyramid(), column(), sized()] {
         let whole = bytes(&document);
         let (_, list) = tmesh::read_with_chunks(whole.as_slice()).expect("valid");
         for chunk in &list {

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use tmesh::{
     Axis, Document, Frame, Gluing, Group, HistoryEntry, Instance, Isometry, Kind, Marker, OUTSIDE,
-    OtherAxis, Outside, Promise, Region, RegionMap, RejectedOrder, Search, Size, Source, Symmetry,
-    Template, Tet, Triangle, Wishes,
+    OtherAxis, Outside, Promise, Region, RegionMap, RejectedOrder, Search, Size, SizeField,
+    SizePoint, Source, Symmetry, Template, Tet, Triangle, Wishes,
 };
 
 fn triangle(vertices: [u32; 3], marker: u32) -> Triangle {
@@ -62,6 +62,25 @@ pub fn pyramid() -> Document {
         .to_vec();
     document.regions = vec![region(1, "Cu")];
     document
+}
+
+/// The pyramid with lengths of edges that change from place to place: in a tetrahedron, and on a triangle beside it.
+pub fn sized() -> Document {
+    let point = |position: DVec3, size: f64| SizePoint { position, size };
+    Document {
+        size_field: Some(SizeField {
+            points: vec![
+                point(DVec3::new(-1.0, -1.0, 0.0), 0.5),
+                point(DVec3::new(3.0, -1.0, 0.0), 0.25),
+                point(DVec3::new(-1.0, 3.0, 0.0), 0.125),
+                point(DVec3::new(-1.0, -1.0, 4.0), 1e-3),
+                point(DVec3::new(-1.0, -2.0, 0.0), 1.0),
+            ],
+            tets: vec![[0, 1, 2, 3]],
+            triangles: vec![[0, 4, 1]],
+        }),
+        ..pyramid()
+    }
 }
 
 /// Corners of an upright prism: corner i of the outline at the bottom is vertex 2 i, at the top
@@ -177,6 +196,7 @@ pub fn column() -> Document {
             keep_surface: Some(true),
             ..Wishes::default()
         },
+        size_field: None,
         regions: vec![
             Region {
                 size: Some(Size::MaxVolume(0.125)),

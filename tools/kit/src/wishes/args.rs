@@ -1,5 +1,6 @@
 //! What is asked of the elements on the command line, by every tool that meshes or prepares for it.
 
+use super::size_field::SizeFieldFile;
 use crate::Failure;
 use geom::tet::REGULAR_RADIUS_EDGE;
 use tmesh::{Deviation, Document, Size, Wishes};
@@ -29,6 +30,12 @@ pub struct WishArgs {
     /// those asked for elsewhere; of the faces between two regions the shorter one holds; repeatable
     #[arg(long, value_name = "NAME:KEY=SIZE", value_parser = region_size)]
     region: Vec<RegionSize>,
+
+    /// Lengths of edges that change from place to place, model units: the only array with one number at each point of a mesh in FILE, or
+    /// the one that is named; VTK, VTU or MSH, linear within its tetrahedra. The least of the lengths at all images of a place counts, and
+    /// of those asked for otherwise; beyond that mesh, lengths grow by the gradation
+    #[arg(long, value_name = "FILE[:ARRAY]", value_parser = SizeFieldFile::parse)]
+    size_field: Option<SizeFieldFile>,
 
     /// Elements across walls, at least: sizes are at most this part of the distance through the material to the opposite
     /// face, and grow from there by the gradation
@@ -105,9 +112,11 @@ impl WishArgs {
     /// Writes the wishes into a document, over those of earlier tools. Bounds that nobody has named are written as well,
     /// as what they are by default: whoever reads the mesh can hold it against them.
     ///
+    /// Returns what there is to say about how they fit the document, a sentence each.
+    ///
     /// # Errors
-    /// A region that the document does not have, as wrong usage.
-    pub fn apply(&self, document: &mut Document) -> Result<(), Failure> {
+    /// A region that the document does not have, as wrong usage; a size field that cannot be read, or is elsewhere.
+    pub fn apply(&self, document: &mut Document) -> Result<Vec<String>, Failure> {
         let wishes = self.wishes().over(&document.wishes);
         document.wishes = Wishes {
             radius_edge: Some(wishes.radius_edge()),
@@ -131,7 +140,9 @@ impl WishArgs {
             };
             document.regions[index].size = Some(size.size);
         }
-        Ok(())
+        let field = self.size_field.as_ref();
+        let note = field.map(|field| field.apply(document)).transpose()?;
+        Ok(note.flatten().into_iter().collect())
     }
 }
 

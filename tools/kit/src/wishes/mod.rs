@@ -6,6 +6,7 @@ mod bound;
 mod place;
 mod sharp;
 mod shortfall;
+mod size_field;
 mod strict;
 
 pub use args::WishArgs;

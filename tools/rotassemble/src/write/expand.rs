@@ -69,6 +69,7 @@ fn metadata(mesh: &Assembled<'_>, document: &Document) -> Document {
         keep_surface: None,
         ..document.wishes.clone()
     };
+    metadata.size_field = document.size_field.clone();
     metadata.regions = document.regions.clone();
     metadata.markers = document.markers.clone();
     metadata.source = document.source.clone();

@@ -1,9 +1,10 @@
 //! Gmsh: both versions are read alike, and written each for itself.
 
+mod node_data;
 mod read;
 mod write;
 mod write2;
 
-pub use read::{looks_like, read};
+pub use read::{looks_like, read, read_points};
 pub use write::{size_estimate, write};
 pub use write2::{size_estimate as size_estimate2, write as write2};

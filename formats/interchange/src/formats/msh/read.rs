@@ -4,8 +4,9 @@
 //! regions, physical surfaces are markers; entities without a physical group count by themselves. Of
 //! second-order elements the corners are read.
 
+use super::node_data::{View, point_mesh};
 use crate::ReadError;
-use crate::parsed::{Grid, Parsed, Shells, TETRA, TRIANGLE, Volume, by_corners};
+use crate::parsed::{Grid, Parsed, PointMesh, Shells, TETRA, TRIANGLE, Volume, by_corners};
 use crate::text::{DOUBLE, Tokens, plain, shown};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -26,14 +27,7 @@ pub fn looks_like(head: &[u8]) -> bool {
 /// Bytes that do not follow the format; elements other than triangles, quadrilaterals and tetrahedra
 /// in surfaces and volumes.
 pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
-    let mut reader = Reader {
-        tokens: Tokens::new(bytes, "msh", None),
-        bytes,
-        binary: false,
-        big: false,
-        old: false,
-        file: File::default(),
-    };
+    let mut reader = Reader::new(bytes);
     reader.read()?;
     let precision = if reader.binary {
         DOUBLE
@@ -41,6 +35,33 @@ pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
         reader.tokens.precision().relative()
     };
     reader.file.build(precision)
+}
+
+/// Reads the mesh of a file with the numbers at its nodes. Cells of volume may be hexahedra, prisms and pyramids as well.
+///
+/// # Errors
+/// Bytes that do not follow the format, and elements of other kinds.
+pub fn read_points(bytes: &[u8]) -> Result<PointMesh, ReadError> {
+    let mut reader = Reader::new(bytes);
+    reader.file.views = Some(Vec::new());
+    reader.read()?;
+    let File {
+        points,
+        index,
+        triangles,
+        tets,
+        others,
+        views,
+        ..
+    } = reader.file;
+    let mut mesh = PointMesh {
+        points,
+        ..PointMesh::default()
+    };
+    tets.iter().for_each(|(t, _)| mesh.add_volume(t));
+    others.iter().for_each(|cell| mesh.add_volume(cell));
+    triangles.iter().for_each(|(t, _)| mesh.add_face(t));
+    Ok(point_mesh(mesh, index.as_ref(), views.unwrap_or_default()))
 }
 
 /// Vertices of each element type, by its number.
@@ -51,7 +72,7 @@ const NODES: [usize; 32] = [
 
 /// What the file says, with points numbered from 0.
 #[derive(Default)]
-struct File {
+pub(super) struct File {
     points: Vec<DVec3>,
     /// Index of each node, unless nodes are numbered 1, 2, 3, ...
     index: Option<FxHashMap<u64, u32>>,
@@ -65,6 +86,10 @@ struct File {
     curved: usize,
     /// What a comment says, if anything.
     title: String,
+    /// Numbers at nodes, if they are wanted.
+    pub(super) views: Option<Vec<View>>,
+    /// Cells of volume that are no tetrahedra, if numbers at nodes are wanted.
+    others: Vec<Vec<u32>>,
 }
 
 /// Physical group, or 0, and entity of an element.
@@ -85,14 +110,27 @@ impl Group {
     }
 }
 
-struct Reader<'a> {
-    tokens: Tokens<'a>,
+pub(super) struct Reader<'a> {
+    pub(super) tokens: Tokens<'a>,
     bytes: &'a [u8],
-    binary: bool,
-    big: bool,
+    pub(super) binary: bool,
+    pub(super) big: bool,
     /// Version 2.
     old: bool,
-    file: File,
+    pub(super) file: File,
+}
+
+impl<'a> Reader<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        Self {
+            tokens: Tokens::new(bytes, "msh", None),
+            bytes,
+            binary: false,
+            big: false,
+            old: false,
+            file: File::default(),
+        }
+    }
 }
 
 impl Reader<'_> {
@@ -106,6 +144,12 @@ impl Reader<'_> {
                     shown(word)
                 )));
             };
+            if section == b"NodeData" && self.file.views.is_some() {
+                self.end_line();
+                self.node_data()?;
+                self.tokens.expect("$EndNodeData")?;
+                continue;
+            }
             let wanted = matches!(
                 section,
                 b"MeshFormat" | b"PhysicalNames" | b"Entities" | b"Nodes" | b"Elements"
@@ -177,7 +221,7 @@ impl Reader<'_> {
         self.bytes.len() - self.tokens.left()
     }
 
-    fn end_line(&mut self) {
+    pub(super) fn end_line(&mut self) {
         self.tokens.rest_of_line();
         self.tokens.skip(1);
     }
@@ -220,7 +264,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N], ReadError> {
+    pub(super) fn raw<const N: usize>(&mut self, what: &str) -> Result<[u8; N], ReadError> {
         let at = self.at();
         let found = self.bytes[at..].first_chunk::<N>();
         let Some(&bytes) = found else {
@@ -234,7 +278,7 @@ impl Reader<'_> {
     }
 
     /// A 32-bit number of a binary file.
-    fn int(&mut self, what: &str) -> Result<i64, ReadError> {
+    pub(super) fn int(&mut self, what: &str) -> Result<i64, ReadError> {
         if !self.binary {
             return self.tokens.integer(what);
         }
@@ -285,7 +329,13 @@ impl Reader<'_> {
         Ok(count)
     }
 
-    fn fits(&self, count: u64, what: &str, text: u64, binary: u64) -> Result<(), ReadError> {
+    pub(super) fn fits(
+        &self,
+        count: u64,
+        what: &str,
+        text: u64,
+        binary: u64,
+    ) -> Result<(), ReadError> {
         let each = if self.binary { binary } else { text };
         let left = self.tokens.left() as u64;
         // The last word of a text needs no space after it.
@@ -484,6 +534,23 @@ impl Reader<'_> {
         mut node: impl FnMut(&mut Self) -> Result<i64, ReadError>,
     ) -> Result<(), ReadError> {
         let count = self.node_count(kind)?;
+        let corners_of_other = match kind {
+            5 | 12 | 17 => 8,
+            6 | 13 | 18 => 6,
+            7 | 14 | 19 => 5,
+            _ => 0,
+        };
+        if corners_of_other > 0 && self.file.views.is_some() {
+            let mut cell = Vec::with_capacity(corners_of_other);
+            for i in 0..count {
+                let tag = node(self)?;
+                if i < corners_of_other {
+                    cell.push(self.vertex(tag)?);
+                }
+            }
+            self.file.others.push(cell);
+            return Ok(());
+        }
         let (corners, surface) = match kind {
             2 | 9 => (3, true),
             3 | 10 | 16 => (4, true),

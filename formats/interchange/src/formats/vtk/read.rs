@@ -5,7 +5,7 @@
 use super::fields::{NAMES, take_names};
 use crate::ReadError;
 use crate::binary::{Order, Scalar, id};
-use crate::parsed::{Grid, Parsed};
+use crate::parsed::{Grid, Parsed, PointMesh};
 use crate::text::{DOUBLE, SINGLE, Tokens, shown};
 use glam::DVec3;
 
@@ -50,7 +50,12 @@ const BYTE: Kind = Kind::Of(Scalar::Unsigned(size_of::<u8>()));
 
 /// Reads a file.
 pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
-    Reader::new(bytes)?.read()?.parsed("vtk")
+    Reader::new(bytes, false)?.read()?.parsed("vtk")
+}
+
+/// Reads the mesh of a file with the numbers at its points.
+pub fn read_points(bytes: &[u8]) -> Result<PointMesh, ReadError> {
+    Reader::new(bytes, true)?.read()?.point_mesh("vtk")
 }
 
 struct Reader<'a> {
@@ -61,10 +66,14 @@ struct Reader<'a> {
     grid: Grid,
     /// Whether the arrays that follow are on cells.
     on_cells: bool,
+    /// Whether arrays on points are kept.
+    keeps_points: bool,
+    /// Whether the arrays that follow are on points.
+    on_points: bool,
 }
 
 impl<'a> Reader<'a> {
-    fn new(bytes: &'a [u8]) -> Result<Self, ReadError> {
+    fn new(bytes: &'a [u8], keeps_points: bool) -> Result<Self, ReadError> {
         let mut tokens = Tokens::new(bytes, "vtk", None);
         if !looks_like(bytes) {
             return Err(tokens.error("it does not begin with '# vtk DataFile Version'"));
@@ -104,6 +113,8 @@ impl<'a> Reader<'a> {
                 ..Grid::default()
             },
             on_cells: false,
+            keeps_points,
+            on_points: false,
         })
     }
 
@@ -119,6 +130,7 @@ impl<'a> Reader<'a> {
                 b"CELL_TYPES" => self.types()?,
                 b"CELL_DATA" | b"POINT_DATA" => {
                     self.on_cells = word == b"CELL_DATA";
+                    self.on_points = !self.on_cells;
                     self.tokens.rest_of_line();
                 }
                 b"FIELD" => self.field()?,
@@ -324,6 +336,11 @@ impl<'a> Reader<'a> {
             let mut values = Vec::new();
             self.numbers(count, kind, &name, |x| values.push(id(x)))?;
             self.grid.cell_data.insert(name, values);
+        } else if self.keeps_points && self.on_points && kind != Kind::Bit {
+            let mut values = Vec::new();
+            self.numbers(count, kind, &name, |x| values.push(x))?;
+            self.grid
+                .take_point_data(unescaped(name.as_bytes()), values);
         } else if before_cells && matches!(kind, Kind::Of(Scalar::Signed(1) | Scalar::Unsigned(1)))
         {
             let mut text = Vec::new();

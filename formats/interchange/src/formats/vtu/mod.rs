@@ -5,5 +5,5 @@ mod read;
 mod spool;
 mod write;
 
-pub use read::{looks_like, read};
+pub use read::{looks_like, read, read_points};
 pub use write::{size_estimate, write, write_pieces};

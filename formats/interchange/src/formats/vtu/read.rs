@@ -4,7 +4,7 @@ use super::arrays::{Appended, Array, Arrays, Encoding, Place, malformed};
 use crate::ReadError;
 use crate::binary::{Order, Scalar, id};
 use crate::formats::vtk::fields::{NAMES, take_names};
-use crate::parsed::{Grid, Parsed, SOURCE, SYMMETRY};
+use crate::parsed::{Grid, Parsed, PointMesh, SOURCE, SYMMETRY};
 use crate::text::{DOUBLE, SINGLE, shown};
 use glam::DVec3;
 use quick_xml::escape::unescape;
@@ -32,14 +32,42 @@ fn find(bytes: &[u8], what: &[u8]) -> Option<usize> {
 /// # Errors
 /// Tags that are no XML, several pieces, arrays of unknown types or beyond the end of the file.
 pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
+    grid(bytes, false)?.parsed("vtu")
+}
+
+/// Reads the mesh of a file with the numbers at its points.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_points(bytes: &[u8]) -> Result<PointMesh, ReadError> {
+    grid(bytes, true)?.point_mesh("vtu")
+}
+
+fn grid(bytes: &[u8], keeps_points: bool) -> Result<Grid, ReadError> {
     let mut tags = Tags::new(bytes);
+    tags.keeps_points = keeps_points;
     let root = tags.root()?;
     let listed = tags.arrays()?;
+    let is_compressed = root.compressed;
     let arrays = Arrays::new(root, listed.appended, bytes.len());
     let mut grid = Grid::default();
     let mut types = None;
+    let mut on_points = Vec::new();
+    // Arrays that share their data could be any number; compressed ones have a bound of their own.
+    let mut left = match is_compressed {
+        true => usize::MAX,
+        false => bytes.len(),
+    };
     for array in &listed.arrays {
         let values = arrays.values(array)?;
+        if array.section == "PointData" {
+            left = left.checked_sub(values.len()).ok_or_else(|| {
+                malformed("its arrays at points have more numbers than the file has bytes")
+            })?;
+            // The points may come later.
+            on_points.push((array, values));
+            continue;
+        }
         take(&mut grid, &mut types, array, values)?;
     }
     if listed.pieces != 1 {
@@ -56,7 +84,10 @@ pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
             grid.types.len()
         )));
     }
-    grid.parsed("vtu")
+    for (array, values) in on_points {
+        grid.take_point_data(array.name.clone(), values);
+    }
+    Ok(grid)
 }
 
 /// Puts the values of an array where the grid has them.
@@ -122,6 +153,8 @@ struct Listed<'a> {
 struct Tags<'a> {
     bytes: &'a [u8],
     xml: quick_xml::Reader<&'a [u8]>,
+    /// Whether arrays on points are wanted.
+    keeps_points: bool,
 }
 
 impl<'a> Tags<'a> {
@@ -129,7 +162,11 @@ impl<'a> Tags<'a> {
         let mut xml = quick_xml::Reader::from_reader(bytes);
         // Only opening tags matter, and files that are cut off later may be read.
         xml.config_mut().check_end_names = false;
-        Self { bytes, xml }
+        Self {
+            bytes,
+            xml,
+            keeps_points: false,
+        }
     }
 
     /// The position behind what was read last.
@@ -212,7 +249,8 @@ impl<'a> Tags<'a> {
                 }
                 "DataArray" => {
                     let name = self.attribute(&tag, "Name")?.unwrap_or_default();
-                    if !is_wanted(&section, &name) {
+                    let on_points = section == "PointData" && self.keeps_points;
+                    if !on_points && !is_wanted(&section, &name) {
                         continue;
                     }
                     let same = |a: &Array<'_>| {
@@ -222,6 +260,10 @@ impl<'a> Tags<'a> {
                         return Err(malformed(format!("array '{name}' is there twice")));
                     }
                     let array = self.array(&tag, &section, name, has_content)?;
+                    // Texts at points are no numbers.
+                    if on_points && array.scalar.is_none() {
+                        continue;
+                    }
                     listed.arrays.push(array);
                 }
                 "AppendedData" => {
