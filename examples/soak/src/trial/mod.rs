@@ -1,13 +1,16 @@
 //! One trial: a body of a seed goes through the pipe, and what comes out is compared with what is known.
 
 mod commands;
+mod direct;
 mod pipe;
 mod subject;
 mod surface;
 mod verdict;
+mod versus;
 
 pub use subject::{Kind, Subject};
 pub use verdict::Verdict;
+pub use versus::{Figures, Versus};
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};

@@ -54,7 +54,7 @@ impl Regions {
     }
 }
 
-/// What counts as in the plane of a seed.
+/// What counts as in the plane of a seed: what is within both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flatness {
     /// Largest distance of a corner from the plane, model units.
@@ -107,12 +107,13 @@ pub struct Flats {
 
 impl Flats {
     /// Grows flat regions, largest triangles first: they know the plane best. `flatness` says what counts as flat
-    /// around a seed, and `alike(seed, triangle)` whether two triangles may be in one region. n log n.
-    pub fn new(
+    /// around a seed, by any of several measures, and `alike(seed, triangle)` whether two triangles may be in one region.
+    /// n log n.
+    pub fn new<const N: usize>(
         points: &[DVec3],
         triangles: &[[u32; 3]],
         across: &Across,
-        flatness: impl Fn(u32) -> Flatness,
+        flatness: impl Fn(u32) -> [Flatness; N],
         alike: impl Fn(u32, u32) -> bool,
     ) -> Self {
         let corners = |t: u32| triangles[t as usize].map(|v| points[v as usize]);
@@ -132,11 +133,15 @@ impl Flats {
                 (seed_of_plane, plane) = (seed, Plane::of(corners(seed)));
             }
             let vector = vectors[next as usize];
-            let flat = flatness(seed);
+            let (along, length) = (vector.dot(plane.normal), vector.length());
+            let is_flat = |off: f64| {
+                let measures = flatness(seed).into_iter();
+                let mut within = measures.map(|m| along >= m.cosine * length && off <= m.distance);
+                within.any(|within| within)
+            };
             plane.normal != DVec3::ZERO
                 && alike(seed, next)
-                && vector.dot(plane.normal) >= flat.cosine * vector.length()
-                && plane.off(corners(next)) <= flat.distance
+                && is_flat(plane.off(corners(next)))
         });
         let planes = regions.seeds.iter().map(|&s| Plane::of(corners(s)));
         Self {
@@ -169,7 +174,7 @@ mod tests {
     fn flats(bump: f64, flatness: Flatness, alike: impl Fn(u32, u32) -> bool) -> Vec<u32> {
         let (points, triangles) = strip(bump);
         let across = Edges::new(&triangles).across();
-        let flats = Flats::new(&points, &triangles, &across, |_| flatness, alike);
+        let flats = Flats::new(&points, &triangles, &across, |_| [flatness], alike);
         flats.regions.of
     }
 
@@ -204,7 +209,7 @@ mod tests {
             distance: 1.0,
             cosine: -1.0,
         };
-        let flats = Flats::new(&points, &triangles, &across, |_| flatness, |_, _| true);
+        let flats = Flats::new(&points, &triangles, &across, |_| [flatness], |_, _| true);
         assert_eq!(flats.regions.seeds, [0, 1]);
     }
 
@@ -228,7 +233,7 @@ mod tests {
             distance: f64::INFINITY,
             cosine: libm::cos(2.5_f64.to_radians()),
         };
-        let flats = Flats::new(&points, &triangles, &across, |_| flatness, |_, _| true);
+        let flats = Flats::new(&points, &triangles, &across, |_| [flatness], |_, _| true);
         assert!(flats.regions.seeds.len() >= 90 / 5);
     }
 }

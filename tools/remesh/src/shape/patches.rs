@@ -32,9 +32,11 @@ impl Patches {
     pub fn new(surface: &Surface, rules: &Rules<'_>) -> Self {
         let edges = Edges::new(&surface.triangles);
         let across = edges.across();
-        let flatness = |_| Flatness {
-            distance: rules.flat,
-            cosine: rules.feature,
+        let flatness = |_| {
+            [Flatness {
+                distance: rules.flat,
+                cosine: rules.feature,
+            }]
         };
         let labels = &surface.labels;
         let alike = |s: u32, t: u32| labels[s as usize] == labels[t as usize];
