@@ -52,10 +52,7 @@ pub struct Options {
 pub fn run(options: &Options) -> io::Result<bool> {
     fs::create_dir_all(&options.out)?;
     let table = options.out.join("versus.tsv");
-    let file = OpenOptions::new()
-        .create(true)
-        .append(true)
-        .open(&table)?;
+    let file = OpenOptions::new().create(true).append(true).open(&table)?;
     let results: Mutex<(fs::File, Vec<(u64, Versus)>)> = Mutex::new((file, Vec::new()));
     let laboratory = Laboratory {
         binaries: options.binaries.clone(),
@@ -210,7 +207,10 @@ fn row(name: &str, pairs: &[&Pair<'_>]) {
         all.sort_by(f64::total_cmp);
         all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
     };
-    let worst = pairs.iter().map(|p| p.ratio()).fold(f64::INFINITY, f64::min);
+    let worst = pairs
+        .iter()
+        .map(|p| p.ratio())
+        .fold(f64::INFINITY, f64::min);
     println!(
         "{name:<18} {:>6} {:>10} {:>10} {worst:>16.3} {:>11.2}, {:>5.2} {:>21.2}",
         pairs.len(),

@@ -12,7 +12,11 @@ use std::f64::consts::TAU;
 fn bodies_of_seeds_are_closed_and_hardly_differ_from_the_flat_ones() {
     for seed in 1..60 {
         let [bent, flat] = [folded(seed), unfolded(seed)];
-        assert!(bent.angle > 0.0 && bent.angle <= 2.0, "{seed}: {}", bent.angle);
+        assert!(
+            bent.angle > 0.0 && bent.angle <= 2.0,
+            "{seed}: {}",
+            bent.angle
+        );
         assert_eq!(flat.angle, 0.0);
         let (angle, bent, flat) = (bent.angle.to_radians(), bent.solid, flat.solid);
         is_closed(&bent.body);
@@ -22,7 +26,10 @@ fn bodies_of_seeds_are_closed_and_hardly_differ_from_the_flat_ones() {
         let vertices = bent.body.vertices.iter().zip(&flat.body.vertices);
         let moved = vertices.map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
         let reach = 8.0 * bent.facts.radius;
-        assert!(moved > 0.0 && moved <= reach * angle.tan(), "{seed}: {moved}");
+        assert!(
+            moved > 0.0 && moved <= reach * angle.tan(),
+            "{seed}: {moved}"
+        );
         let volume = bent.body.total_volume() / flat.body.total_volume();
         assert!((volume - 1.0).abs() < 0.2, "{seed}: {volume}");
     }
@@ -56,6 +63,8 @@ fn bent_bodies_are_as_symmetric_as_before() {
         ("gear", gear.build()),
         ("ratchet", ratchet.build()),
     ] {
+        // Where no point finds room in the triangles that a seed chooses, nothing is bent.
+        let mut moved = 0;
         for seed in 0..8 {
             let mut body = flat.clone();
             let bent = bend(&mut body, 0.5, seed);
@@ -66,7 +75,9 @@ fn bent_bodies_are_as_symmetric_as_before() {
                 near.fold(f64::INFINITY, f64::min)
             };
             let off = body.vertices.iter().map(image).fold(0.0, f64::max);
-            assert!(bent > 0 && off < 1e-12, "{name} {seed}: {bent}, {off}");
+            assert!(off < 1e-12, "{name} {seed}: {off}");
+            moved += bent;
         }
+        assert!(moved > 0, "{name}");
     }
 }

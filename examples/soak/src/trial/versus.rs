@@ -64,8 +64,13 @@ impl Laboratory {
     fn piped(&self, versus: &mut Versus, folder: &Path) -> io::Result<Result<Figures, String>> {
         let subject = &versus.subject;
         let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
-        let mut stages =
-            ["symdetect", "wedgecut", "tetwedge", "rotassemble --to tmesh --instances"].map(words);
+        let mut stages = [
+            "symdetect",
+            "wedgecut",
+            "tetwedge",
+            "rotassemble --to tmesh --instances",
+        ]
+        .map(words);
         if subject.symmetry.order() == 1 {
             stages[0].push("--allow-asymmetric".to_owned());
         }

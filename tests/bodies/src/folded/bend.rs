@@ -133,8 +133,7 @@ fn split_faces(body: &mut Body, all: &[Image], dice: &mut Dice) {
             let [a, b, c] = old.vertices;
             let piece = |vertices| Face { vertices, ..old };
             body.faces[target] = piece([a, b, new]);
-            body.faces
-                .extend([piece([b, c, new]), piece([c, a, new])]);
+            body.faces.extend([piece([b, c, new]), piece([c, a, new])]);
         }
     }
 }
@@ -154,7 +153,12 @@ fn split_edges(body: &mut Body, all: &[Image], dice: &mut Dice) {
     }
     let [p, q] = ends.map(|v| body.vertices[v as usize]);
     let at = kept(all, &ends, p.lerp(q, dice.between(0.3, 0.7)));
-    let third = |f: usize| body.faces[f].vertices.into_iter().find(|v| !ends.contains(v));
+    let third = |f: usize| {
+        body.faces[f]
+            .vertices
+            .into_iter()
+            .find(|v| !ends.contains(v))
+    };
     let apexes = beside.iter().filter_map(|&f| third(f));
     if apexes
         .map(|v| body.vertices[v as usize])
@@ -170,7 +174,9 @@ fn split_edges(body: &mut Body, all: &[Image], dice: &mut Dice) {
     let sides = |f: &Face| {
         let [a, b, c] = f.vertices;
         let sides = [[a, b], [b, c], [c, a]];
-        let of_orbit = sides.iter().filter(|[u, v]| edges.contains_key(&[*u.min(v), *u.max(v)]));
+        let of_orbit = sides
+            .iter()
+            .filter(|[u, v]| edges.contains_key(&[*u.min(v), *u.max(v)]));
         of_orbit.count()
     };
     if body.faces.iter().any(|f| sides(f) > 1) {
@@ -225,7 +231,9 @@ fn orbit(all: &[Image], v: u32) -> BTreeMap<u32, usize> {
 fn around(body: &Body) -> Vec<Vec<usize>> {
     let mut around = vec![Vec::new(); body.vertices.len()];
     for (f, face) in body.faces.iter().enumerate() {
-        face.vertices.iter().for_each(|&v| around[v as usize].push(f));
+        face.vertices
+            .iter()
+            .for_each(|&v| around[v as usize].push(f));
     }
     around
 }

@@ -39,7 +39,21 @@ pub fn unfolded(seed: u64) -> Folded {
 pub fn bend(body: &mut Body, angle: f64, seed: u64) -> usize {
     let sectors = body.order;
     let mut dice = Dice::new(seed);
-    bend::bend(body, sectors, angle.to_radians(), &mut dice).vertices
+    about_middle(body, |body| {
+        bend::bend(body, sectors, angle.to_radians(), &mut dice).vertices
+    })
+}
+
+/// Does something to a body that is moved so that its middle is on the plane of the coordinates meanwhile.
+fn about_middle<T>(body: &mut Body, mut what: impl FnMut(&mut Body) -> T) -> T {
+    let heights = || body.vertices.iter().map(|p| p.z);
+    let low = heights().fold(f64::INFINITY, f64::min);
+    let high = heights().fold(f64::NEG_INFINITY, f64::max);
+    let middle = 0.5 * (low + high);
+    body.vertices.iter_mut().for_each(|p| p.z -= middle);
+    let done = what(body);
+    body.vertices.iter_mut().for_each(|p| p.z += middle);
+    done
 }
 
 fn of_seed(seed: u64, bends: bool) -> Folded {
@@ -64,7 +78,12 @@ fn bent(
 ) -> Option<Folded> {
     tidy(&mut body);
     let angle = angle.map_or(0.0, f64::to_radians);
-    let Bent { vertices, angle } = bend::bend(&mut body, sectors, angle, dice);
+    // Many bodies stand on the plane of the coordinates. Bent alike on both sides of that, and not of their middle, they keep what
+    // leaves their axis its direction, and the rest only nearly.
+    let Bent { vertices, angle } = match dice.chance(0.5) {
+        true => about_middle(&mut body, |body| bend::bend(body, sectors, angle, dice)),
+        false => bend::bend(&mut body, sectors, angle, dice),
+    };
     if vertices == 0 {
         return None;
     }

@@ -129,9 +129,7 @@ fn draw(dice: &mut Dice) -> Drawn {
     if dice.chance(0.2) {
         let middles = grid.middles(&places);
         let clear = grid.clearances(&faces, &places);
-        origins = inclusions::include(
-            &mut body, &grid, &motions, &filling, &middles, &clear, dice,
-        );
+        origins = inclusions::include(&mut body, &grid, &motions, &filling, &middles, &clear, dice);
         if origins.iter().any(Option::is_some) {
             features.push("inclusions".to_owned());
         }

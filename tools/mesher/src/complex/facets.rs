@@ -9,18 +9,10 @@
 
 use crate::faces::NO_FACE;
 use geom::edges::Edges;
-use geom::flat::{Flatness, Flats};
+use geom::flat::{FOLD_COSINE, Flatness, Flats};
 use geom::measure::{corners, triangle_area};
 use glam::DVec3;
 use tmesh::Template;
-
-/// Cosine of the angle up to which what folds off the plane of a facet may belong to it, 0.1 degrees, rounded down: that from
-/// which on TetGen by itself tells facets apart, so that no edge is kept here that it would not keep of the whole body. With a
-/// larger one shallow cones and draft angles are lost: ten degrees took 4.5 % of the volume of a part.
-const FOLD_COSINE: f64 = 0.999_998_476;
-
-/// Sine of that angle, rounded up.
-pub const FOLD_SINE: f64 = 1.745_33e-3;
 
 /// How far off the plane of a facet its vertices may be, model units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -135,13 +127,6 @@ mod tests {
     }
 
     #[test]
-    fn the_cosine_and_the_sine_are_those_of_the_angle() {
-        let angle = 0.1_f64.to_radians();
-        assert!((0.0..1e-9).contains(&(libm::cos(angle) - FOLD_COSINE)));
-        assert!((0.0..1e-7).contains(&(FOLD_SINE - libm::sin(angle))));
-    }
-
-    #[test]
     fn coplanar_neighbours_with_the_same_attributes_are_one_facet() {
         // A strip of four triangles: two flat, then two tilted by far more than the tolerance.
         let vertices = [
@@ -176,9 +161,9 @@ mod tests {
         assert_eq!(facets.facets.len(), 2);
         assert_eq!((of[0], of[2]), (of[1], of[3]));
         assert_ne!(of[0], of[2]);
-        let flat = facets.facets[of[0] as usize];
-        assert!((flat.area - 1.0).abs() < 1e-12 && flat.deviation > 0.0);
-        assert!(flat.normal.z > 0.99);
+        let level = facets.facets[of[0] as usize];
+        assert!((level.area - 1.0).abs() < 1e-12 && level.deviation > 0.0);
+        assert!(level.normal.z > 0.99);
         // A wall face or a marker of its own keeps a triangle apart.
         let facets = Facets::new(&template, &edges, &[0, 1, 0, 0], flat(1e-9));
         assert_eq!(facets.facets.len(), 3);

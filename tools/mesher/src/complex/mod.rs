@@ -9,7 +9,7 @@ mod seeds;
 mod settled;
 
 pub use description::{Description, Order};
-pub use facets::{Attributes, FOLD_SINE, Facet, Facets};
+pub use facets::{Attributes, Facet, Facets};
 pub use plc::{Plc, SizeSeed};
 pub use relief::Relief;
 pub use settled::settled;

@@ -119,7 +119,7 @@ mod tests {
     fn shallow_folds_make_an_uneven_facet_that_points_are_put_back_onto() {
         // A slope of 0.046 degrees; the sides opposite to each other are 0.092 degrees apart.
         let template = roof(4e-4);
-        let facets = facets(&template, 1e-3);
+        let faces = facets(&template, 1e-3);
         assert_eq!(facets.facets.len(), 2);
         let relief = Relief::new(&template, &facets, 1e-10);
         let roof = facets.of_triangle[0] as usize;

@@ -3,7 +3,7 @@
 use super::facets::{Beside, Facets};
 use crate::input::{Rules, Surface};
 use geom::edges::{EdgeUse, Edges, apex_of};
-use geom::flat::{Flatness, Flats, Plane};
+use geom::flat::{FOLD_COSINE, Flatness, Flats, Plane};
 use geom::measure::double_area_vector;
 use geom::sets::DisjointSets;
 use glam::DVec3;
@@ -16,6 +16,8 @@ pub struct Patches {
     pub of: Vec<u32>,
     /// The plane of each patch that is a flat face.
     pub planes: Vec<Option<Plane>>,
+    /// How far off that plane its triangles may be, model units.
+    pub off: Vec<f64>,
     /// Largest coplanar group of each triangle.
     pub facet: Vec<u32>,
     /// Unit normal of each triangle.
@@ -33,10 +35,8 @@ impl Patches {
         let edges = Edges::new(&surface.triangles);
         let across = edges.across();
         let flatness = |_| {
-            [Flatness {
-                distance: rules.flat,
-                cosine: rules.feature,
-            }]
+            [(rules.flat, rules.feature), (rules.folds, FOLD_COSINE)]
+                .map(|(distance, cosine)| Flatness { distance, cosine })
         };
         let labels = &surface.labels;
         let alike = |s: u32, t: u32| labels[s as usize] == labels[t as usize];
@@ -57,9 +57,16 @@ impl Patches {
             edges,
             of: Vec::new(),
             planes: Vec::new(),
+            off: Vec::new(),
             facet: flats.regions.of,
             normals,
         };
+        let mut off = vec![rules.flat; flats.planes.len()];
+        for (t, &facet) in (0..).zip(&patches.facet) {
+            if flats.planes[facet as usize].off(surface.corners(t)) > rules.flat {
+                off[facet as usize] = rules.folds;
+            }
+        }
         let is_face = patches.faces(surface, rules, flats.planes.len());
         let mut sets = DisjointSets::new(surface.triangles.len());
         for edge in 0..patches.edges.len() {
@@ -79,6 +86,7 @@ impl Patches {
                 patches
                     .planes
                     .push(is_face[facet].then_some(flats.planes[facet]));
+                patches.off.push(off[facet]);
             }
             patches.of.push(number[first]);
         }

@@ -4,9 +4,10 @@ use super::answer::{Origin, put_onto_relief};
 use super::filled::Filled;
 use super::measures::measures;
 use super::orientations::orientations;
+use geom::flat::FOLD_SINE;
 use glam::DVec3;
 use improve::{Flats, Freedoms, Improved, Wish, improve};
-use mesher::{Climb, Error, FOLD_SINE, Plc};
+use mesher::{Climb, Error, Plc};
 use rustc_hash::FxHashSet;
 
 /// Improves the tetrahedra of a filled template, and checks all of it.
