@@ -4,7 +4,7 @@ mod common;
 
 use bodies::folded::{bend, folded, unfolded};
 use bodies::{Gear, Prism, Ratchet, Tessellation};
-use common::is_closed;
+use common::{has_volumes, is_closed, polygon};
 use glam::{DMat3, DVec3};
 use std::f64::consts::TAU;
 
@@ -63,6 +63,11 @@ fn bent_bodies_are_as_symmetric_as_before() {
         ("gear", gear.build()),
         ("ratchet", ratchet.build()),
     ] {
+        // Without an angle, only the triangles change.
+        let mut divided = flat.clone();
+        bend(&mut divided, 0.0, 1);
+        has_volumes(&divided, &[flat.volume(0)]);
+        assert!(name != "prism" || divided.volume(0) < polygon(6, 1.0) * 1.001);
         // Where no point finds room in the triangles that a seed chooses, nothing is bent.
         let mut moved = 0;
         for seed in 0..8 {

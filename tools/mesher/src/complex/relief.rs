@@ -120,9 +120,9 @@ mod tests {
         // A slope of 0.046 degrees; the sides opposite to each other are 0.092 degrees apart.
         let template = roof(4e-4);
         let faces = facets(&template, 1e-3);
-        assert_eq!(facets.facets.len(), 2);
-        let relief = Relief::new(&template, &facets, 1e-10);
-        let roof = facets.of_triangle[0] as usize;
+        assert_eq!(faces.facets.len(), 2);
+        let relief = Relief::new(&template, &faces, 1e-10);
+        let roof = faces.of_triangle[0] as usize;
         assert_eq!(relief.uneven().iter().filter(|u| **u).count(), 1);
         assert_eq!(relief.nearest(1 - roof, DVec3::ZERO), None);
         let mut points = [DVec3::new(0.5, 0.25, 0.0), DVec3::X, DVec3::Y, DVec3::Z];

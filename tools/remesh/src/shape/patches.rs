@@ -147,3 +147,71 @@ impl Patches {
         beside.iter().map(is_face).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::Sizes;
+
+    /// A cube whose upper side has a point in it, raised by this much.
+    fn cube(raised: f64) -> Surface {
+        let corner =
+            |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        let mut points: Vec<DVec3> = (0..8).map(corner).collect();
+        points.push(DVec3::new(0.4, 0.4, 1.0 + raised));
+        let quads = [
+            [0, 2, 3, 1],
+            [0, 1, 5, 4],
+            [1, 3, 7, 5],
+            [3, 2, 6, 7],
+            [2, 0, 4, 6],
+        ];
+        let halves = quads
+            .into_iter()
+            .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        let upper = [[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]];
+        let triangles: Vec<[u32; 3]> = halves.chain(upper).collect();
+        Surface {
+            labels: vec![0; triangles.len()],
+            points,
+            triangles,
+        }
+    }
+
+    /// The number of flat faces, and of patches that are none, where faces may be so uneven.
+    fn faces(surface: &Surface, folds: f64) -> [usize; 2] {
+        let none = vec![0; surface.points.len()];
+        let rules = Rules {
+            held: &vec![false; surface.points.len()],
+            bound: &none,
+            links: &[],
+            onto: &|_, p| p,
+            deviation: 1e-3,
+            noise: 1e-3,
+            flat: 1e-10,
+            folds,
+            feature: 0.75_f64.sqrt(),
+            sizes: Sizes {
+                turn: 0.5,
+                turn_is_asked: false,
+                lengths: &[],
+                local: None,
+                growth: 0.5,
+            },
+        };
+        let patches = Patches::new(surface, &rules);
+        let flat = patches.planes.iter().flatten().count();
+        [flat, patches.planes.len() - flat]
+    }
+
+    #[test]
+    fn a_face_with_shallow_folds_is_a_flat_face() {
+        assert_eq!(faces(&cube(0.0), 0.0), [6, 0]);
+        // Its largest triangle leans by 0.02 degrees, and the one opposite to it is 0.05 degrees off that.
+        assert_eq!(faces(&cube(2e-4), 1e-3), [6, 0]);
+        // Folds that are not allowed for, too high or too steep ones make it a curved one.
+        for (raised, folds) in [(2e-4, 0.0), (2e-4, 1e-5), (1e-2, 0.1)] {
+            assert_eq!(faces(&cube(raised), folds), [5, 1], "{raised} {folds}");
+        }
+    }
+}
