@@ -8,6 +8,7 @@ mod deviation;
 mod elements;
 mod exchanged;
 mod failures;
+mod folds;
 mod groups;
 mod hubs;
 mod makefiles;

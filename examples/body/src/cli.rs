@@ -131,6 +131,15 @@ pub struct Cli {
     #[arg(long, value_name = "D", default_value_t = 0.0)]
     pub jitter: f64,
 
+    /// Bend flat faces by up to this angle, degrees, at points, lines and corners chosen at random, alike in all
+    /// images
+    #[arg(long, value_name = "DEG", conflicts_with_all = ["asymmetric_tessellation", "redraw"])]
+    pub bend: Option<f64>,
+
+    /// Seed of what is bent
+    #[arg(long, value_name = "SEED", default_value_t = 0, requires = "bend")]
+    pub bend_seed: u64,
+
     /// Split flat parts differently from sector to sector
     #[arg(long)]
     pub asymmetric_tessellation: bool,

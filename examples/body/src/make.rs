@@ -11,6 +11,9 @@ type Made = Result<Body, String>;
 /// Outer radius of all bodies.
 const RADIUS: f64 = 1.0;
 
+/// Angle below which flat faces may be bent, degrees.
+const LARGEST_BEND: f64 = 20.0;
+
 /// The body, before it is placed.
 pub fn body(cli: &Cli) -> Made {
     let order = checked_order(cli)?;
@@ -31,6 +34,15 @@ pub fn body(cli: &Cli) -> Made {
         (None, true) => Tessellation::Asymmetric,
         (None, false) => Tessellation::Symmetric,
     };
+    let mut body = drawn(cli, order, tessellation)?;
+    if let Some(angle) = cli.bend {
+        let angle = within("--bend", angle, 0.0, LARGEST_BEND)?;
+        bodies::folded::bend(&mut body, angle, cli.bend_seed);
+    }
+    Ok(body)
+}
+
+fn drawn(cli: &Cli, order: u32, tessellation: Tessellation) -> Made {
     match cli.kind {
         Kind::Prism => prism(cli, order, tessellation),
         Kind::Ring => ring(cli, order, tessellation),

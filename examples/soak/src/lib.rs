@@ -3,4 +3,4 @@
 
 mod trial;
 
-pub use trial::{Kind, Laboratory, Subject, Trial, Verdict};
+pub use trial::{Figures, Kind, Laboratory, Subject, Trial, Verdict, Versus};

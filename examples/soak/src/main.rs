@@ -3,10 +3,12 @@
 //!
 //! ```text
 //! cargo run --release -p soak -- run --count 1000
+//! cargo run --release -p soak -- versus --kind folded --count 1000
 //! cargo run --release -p soak -- body --seed 17 -o body.stl
 //! ```
 
 mod campaign;
+mod versus;
 
 use clap::{Parser, Subcommand};
 use soak::{Kind, Subject};
@@ -25,6 +27,8 @@ struct Cli {
 enum What {
     /// Run trials; what fails is kept with its input, command lines and messages
     Run(campaign::Options),
+    /// Compare the meshes of the pipe, with its defaults, with those of `tetgen` on the whole bodies
+    Versus(versus::Options),
     /// Write the body of a seed, in the format the seed chooses
     Body {
         /// Seed
@@ -44,6 +48,7 @@ enum What {
 fn main() -> ExitCode {
     let outcome = match Cli::parse().what {
         What::Run(options) => campaign::run(&options),
+        What::Versus(options) => versus::run(&options),
         What::Body { seed, kind, output } => write_body(seed, kind, &output).map(|()| true),
     };
     match outcome {

@@ -201,6 +201,20 @@ impl Document {
         }
     }
 
+    /// How far off its plane a flat face may be drawn, model units: as far as the body may be off its symmetry, of which that is
+    /// noise alike, or as far as surfaces may move if that was said. What faces are off by is kept, unlike what
+    /// [`Self::deviation`] allows: it only decides which triangles are one face.
+    pub fn unevenness(&self) -> f64 {
+        let Some(found) = &self.symmetry else {
+            return 0.0;
+        };
+        found.radius
+            * match self.wishes.deviation() {
+                Deviation::Within(relative) => relative,
+                Deviation::Auto => found.tolerance,
+            }
+    }
+
     /// Diagonal of the bounding box over all templates, in the canonical frame; 0 when empty.
     pub fn diagonal(&self) -> f64 {
         let mut low = DVec3::INFINITY;

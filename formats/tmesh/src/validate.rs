@@ -192,6 +192,11 @@ fn check_numbers(document: &Document, found: &mut Collector) {
     if let Some(crate::Deviation::Within(value)) = wishes.deviation {
         check(value, false, &|| "the deviation wished for".to_owned());
     }
+    if let Some(value) = wishes.moved {
+        check(value, false, &|| {
+            "the distance that the surface was moved by".to_owned()
+        });
+    }
     if let Some(value) = wishes.min_dihedral {
         check(value, false, &|| {
             "the smallest dihedral angle wished for".to_owned()

@@ -45,6 +45,10 @@ pub struct Wishes {
     /// stay. Mirror walls may be refined all the same.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keep_surface: Option<bool>,
+    /// How far the surface is from the input's because faces that are nearly flat were meshed as flat ones, relative to the
+    /// radius about the axis. See [`crate::Document::unevenness`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<f64>,
 }
 
 /// How far the surface that is meshed may be from the input's.
@@ -146,6 +150,7 @@ impl Wishes {
             layers_across: self.layers_across.or(earlier.layers_across),
             timeout: self.timeout.or(earlier.timeout),
             keep_surface: self.keep_surface.or(earlier.keep_surface),
+            moved: self.moved.or(earlier.moved),
         }
     }
 

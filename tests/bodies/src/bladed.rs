@@ -4,7 +4,7 @@
 //! A body is made of cells of a grid along the radius, around the axis and along the flow, whose nodes are put where the
 //! blades go: blades are columns of cells, so that every body is closed, and the same in each sector.
 
-use crate::random_solid::{Facts, Solid, encoding, place, tidy};
+use crate::random_solid::{Facts, Solid, encoding, noise, place, tidy};
 use crate::{Body, Dice, Face, Material};
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -81,7 +81,8 @@ pub fn bladed(seed: u64) -> Solid {
     tidy(&mut body);
     let distances = body.vertices.iter().map(|p| p.truncate().length());
     let radius = distances.fold(0.0, f64::max);
-    let (noise, scale) = place(&mut body, &mut features, &mut dice);
+    let noise = noise(&body, &mut features, &mut dice);
+    let scale = place(&mut body, noise, &mut features, &mut dice);
     let encoding = encoding(&body, noise, &mut dice);
     Solid {
         facts: Facts {

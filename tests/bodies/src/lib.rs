@@ -14,6 +14,7 @@ mod body;
 mod chance;
 pub mod facets;
 pub mod files;
+pub mod folded;
 pub mod meshes;
 pub mod orbits;
 mod output;

@@ -45,6 +45,8 @@ pub struct Flats<'a> {
     pub of_triangle: &'a [u32],
     /// Unit normal of each facet; zero where it has none.
     pub normals: &'a [DVec3],
+    /// Sine of the angle by which parts of each facet may lean.
+    pub slopes: &'a [f64],
     /// Vertices that must stay where they are.
     pub fixed: &'a [u32],
     /// A vertex this far from the line between its neighbours is on it, model units.
@@ -209,6 +211,7 @@ fn surface(template: &Template, flats: &Flats<'_>) -> Vec<Freedom> {
     }
     for (t, &facet) in corners.iter().zip(flats.of_triangle) {
         let normal = flats.normals[facet as usize];
+        let along = ALONG.max(flats.slopes[facet as usize]);
         for &v in t {
             let p = template.vertices[v as usize];
             let freedom = &mut of_vertex[v as usize];
@@ -221,11 +224,11 @@ fn surface(template: &Template, flats: &Flats<'_>) -> Vec<Freedom> {
                 (Freedom::Free, Some((2, others))) => {
                     let [a, b] = others.map(|o| template.vertices[o as usize]);
                     match straight(a, p, b, flats.straight) {
-                        Some(d) if d.dot(normal).abs() <= ALONG => Freedom::Line(d),
+                        Some(d) if d.dot(normal).abs() <= along => Freedom::Line(d),
                         _ => Freedom::Fixed,
                     }
                 }
-                (Freedom::Line(d), Some(_)) if d.dot(normal).abs() <= ALONG => Freedom::Line(d),
+                (Freedom::Line(d), Some(_)) if d.dot(normal).abs() <= along => Freedom::Line(d),
                 (Freedom::Plane(a, b), None) if a.cross(b).dot(normal).abs() >= 1.0 - ALONG => {
                     Freedom::Plane(a, b)
                 }

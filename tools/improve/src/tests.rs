@@ -165,6 +165,7 @@ fn freedoms(template: &Template, of_triangle: &[u32], normals: &[DVec3]) -> Free
         &Flats {
             of_triangle,
             normals,
+            slopes: &vec![0.0; normals.len()],
             fixed: &[],
             straight: 1e-12,
         },
@@ -465,6 +466,7 @@ fn threads_make_no_difference() {
         &Flats {
             of_triangle: &[],
             normals: &[],
+            slopes: &[],
             fixed: &fixed,
             straight: 0.0,
         },

@@ -18,7 +18,7 @@ mod piece;
 mod tetgen;
 
 pub use cells::{Cells, Contradiction, Surface, label};
-pub use complex::{Attributes, Description, Facet, Facets, Order, Plc, SizeSeed, settled};
+pub use complex::{Attributes, Description, Facet, Facets, Order, Plc, Relief, SizeSeed, settled};
 pub use deadline::Deadline;
 pub use error::{Error, Fault, Place, RegionName};
 pub use faces::{Faces, NO_FACE, Upright, face_key, leads};

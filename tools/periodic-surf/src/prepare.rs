@@ -1,8 +1,10 @@
 //! The whole document: what stands for a curved surface is remeshed, every template with a seam gets a new surface, and what follows it the shared face.
 
 use crate::SurfaceError;
+use crate::apart::apart;
 use crate::shape::follow_shape;
 use crate::surface::{Other, impose, make};
+use geom::tolerance::ROUNDING;
 use mesher::{Climb, Deadline, LADDER, Log, Params, Piece, Sizes, TetGen};
 use tmesh::{Document, Template};
 
@@ -69,6 +71,8 @@ pub fn settle_faces(
             log,
         })
     };
+    // How far surfaces have moved that have uneven faces, model units.
+    let mut moved = 0.0_f64;
     for (index, &seam) in seams.iter().enumerate() {
         if !seam || !params.quality {
             continue;
@@ -78,6 +82,9 @@ pub fn settle_faces(
             continue;
         }
         let made = remake(&document, index)?;
+        if made.is_uneven {
+            moved = moved.max(apart(&document.templates[index], &made.template));
+        }
         document.templates[index] = made.template;
         report.advice.extend(made.advice);
         report.add(index, &document.templates[index]);
@@ -95,12 +102,16 @@ pub fn settle_faces(
                     })?;
                 document.templates[follower] = given;
                 let made = remake(&document, follower)?;
+                if made.is_uneven {
+                    moved = moved.max(apart(&document.templates[follower], &made.template));
+                }
                 document.templates[follower] = made.template;
                 report.advice.extend(made.advice);
                 report.add(follower, &document.templates[follower]);
             }
         }
     }
+    note_moved(&mut document, moved);
     if report.remade == 0 {
         let why = if seams.contains(&true) {
             "surface kept as cut, no quality is asked for"
@@ -113,6 +124,16 @@ pub fn settle_faces(
         document.wishes.keep_surface = Some(true);
     }
     Ok((document, report))
+}
+
+/// Writes into the document how much farther, in model units, its surface is from the input's.
+pub fn note_moved(document: &mut Document, by: f64) {
+    if let Some(radius) = document.symmetry.as_ref().map(|found| found.radius)
+        && by > ROUNDING * radius
+    {
+        let earlier = document.wishes.moved.unwrap_or(0.0);
+        document.wishes.moved = Some(earlier + by / radius);
+    }
 }
 
 fn has_seam(template: &Template, own: usize) -> bool {

@@ -96,6 +96,7 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) ->
         deviation: remeshing.deviation,
         noise: remeshing.noise,
         flat: remeshing.flat,
+        folds: document.unevenness(),
         feature: libm::cos(document.wishes.feature_angle().to_radians()),
         sizes: match takes_lengths(document, index) {
             true => sizes,

@@ -47,6 +47,8 @@ pub struct Rules<'a> {
     pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
     pub flat: f64,
+    /// Within this of a plane, triangles that hardly fold off it are in one plane, too, model units.
+    pub folds: f64,
     /// Cosine of the angle between the normals at a feature edge, from which on it is one.
     pub feature: f64,
     /// How long edges are to be.

@@ -6,6 +6,7 @@ use crate::leads::leader;
 use crate::settle::{Settled, settle};
 use crate::template::{Done, Job, template};
 use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
+use periodic_surf::{apart, note_moved};
 use rayon::prelude::*;
 use tmesh::{Deviation, Document, Template};
 
@@ -58,18 +59,24 @@ fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (
         .map(|index| leader(&document, index))
         .collect();
     let failed = |error| (error, remeshed);
+    let given = document.templates.clone();
     let mut done = templates(&mut document, &leaders, params, &sizes, log).map_err(failed)?;
     let advices = done.iter().filter_map(|d| d.advice.clone());
     let advice = unsettled.into_iter().chain(advices).collect();
     let facts = [settled, facts(&done)].concat();
+    let mut moved = 0.0_f64;
     for index in 0..done.len() {
         let mut template = std::mem::take(&mut done[index].filled.template);
         // A follower has the new numbers already.
         if leaders[index].is_none() {
             renumber(index, &mut template, &done).map_err(failed)?;
         }
+        if done[index].is_uneven {
+            moved = moved.max(apart(&given[index], &template));
+        }
         document.templates[index] = template;
     }
+    note_moved(&mut document, moved);
     Ok(Meshed {
         document,
         advice,

@@ -49,6 +49,8 @@ pub struct Done {
     pub advice: Option<String>,
     /// Descriptions that failed before.
     pub failed: usize,
+    /// Whether faces are uneven, so that the surface is off the one that was given.
+    pub is_uneven: bool,
 }
 
 /// Meshes a template, with the bounds eased if elements are improved afterwards. What it shares with others is settled
@@ -124,6 +126,7 @@ fn done<B: Send>(
         filled,
         switches: answer.mesh.told().to_owned(),
         failed: answer.failed,
+        is_uneven: answer.plc.relief.is_there(),
         advice: answer.advice,
     };
     Ok((done, made))

@@ -1,14 +1,18 @@
 //! One trial: a body of a seed goes through the pipe, and what comes out is compared with what is known.
 
 mod commands;
+mod direct;
 mod pipe;
 mod subject;
 mod surface;
 mod verdict;
+mod versus;
 
 pub use subject::{Kind, Subject};
 pub use verdict::Verdict;
+pub use versus::{Figures, Versus};
 
+use bodies::Encoding;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -67,7 +71,12 @@ impl Laboratory {
             }
         }
         let mut out = BufWriter::new(File::create(folder.join("body"))?);
-        bodies::write(&subject.body, subject.encoding, &mut out)?;
+        // Regions of a .poly have no names, and each cell without a point is one of its own.
+        let encoding = match subject.encoding {
+            Encoding::Poly => Encoding::Obj,
+            other => other,
+        };
+        bodies::write(&subject.body, encoding, &mut out)?;
         out.flush()?;
         drop(out);
         stages[0].extend(["--report".to_owned(), path(folder, "symmetry.json")]);
@@ -89,7 +98,8 @@ impl Laboratory {
         {
             let report = report(folder, "symmetry.json")?;
             let distance = surface::distance(&subject, &folder.join("mesh.tmesh"))?;
-            verdict = verdict::of_distance(&report, asked.deviation, distance);
+            let deviation = asked.deviation + surface::moved(folder)?;
+            verdict = verdict::of_distance(&report, deviation, distance);
         }
         Ok(Trial {
             verdict,
@@ -124,7 +134,7 @@ impl Laboratory {
         }
         let quality = report(folder, "quality.json")?;
         let tetrahedra = quality["tetrahedra"].as_u64().unwrap_or(0);
-        let moved = asked.map_or(0.0, |asked| asked.deviation);
+        let moved = asked.map_or(0.0, |asked| asked.deviation) + surface::moved(folder)?;
         let symmetry = report(folder, "symmetry.json")?;
         let verdict = verdict::of_reports(subject, &symmetry, &quality, moved);
         if verdict == Verdict::Meshed && self.twice > 0 && seed.is_multiple_of(self.twice) {

@@ -2,6 +2,7 @@
 
 use bodies::assembly::{Assembly, Claim, assembly};
 use bodies::bladed::bladed;
+use bodies::folded::{folded, unfolded};
 use bodies::random_solid::{Solid, solid};
 use bodies::{Body, Encoding};
 
@@ -14,6 +15,10 @@ pub enum Kind {
     Assemblies,
     /// Hubs with blades, twisted, swept and leant.
     Bladed,
+    /// Bodies whose flat facets are bent a little.
+    Folded,
+    /// The same bodies with the same triangles, but flat.
+    Unfolded,
 }
 
 /// A body of a seed.
@@ -30,6 +35,8 @@ pub struct Subject {
     pub regions: Vec<Claim>,
     /// Largest distance from the axis, or from the middle.
     pub radius: f64,
+    /// Largest angle by which flat facets were bent, degrees.
+    pub bent: f64,
 }
 
 /// What is known of the symmetry of a body.
@@ -61,6 +68,19 @@ impl Subject {
         match kind {
             Kind::Solids => solid(seed).into(),
             Kind::Assemblies => assembly(seed).into(),
+            Kind::Folded | Kind::Unfolded => {
+                let folded = match kind {
+                    Kind::Folded => folded(seed),
+                    _ => unfolded(seed),
+                };
+                let subject: Self = folded.solid.into();
+                // Bends may leave out what the body was made for, and solids are symmetric by chance.
+                Self {
+                    symmetry: Symmetry::AtLeast(subject.symmetry.order()),
+                    bent: folded.angle,
+                    ..subject
+                }
+            }
             Kind::Bladed => {
                 let subject: Self = bladed(seed).into();
                 // Without twist they have mirrors, and some half turns.
@@ -100,6 +120,7 @@ impl From<Solid> for Subject {
             },
             regions: (0..body.materials.len()).map(exact).collect(),
             radius: facts.radius,
+            bent: 0.0,
             body,
             encoding,
         }
@@ -129,6 +150,7 @@ impl From<Assembly> for Subject {
             symmetry: Symmetry::AtLeast(order),
             regions,
             radius: distances.fold(0.0, f64::max),
+            bent: 0.0,
             body,
             encoding,
         }

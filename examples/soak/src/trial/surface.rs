@@ -68,6 +68,16 @@ pub fn distance(subject: &Subject, mesh: &Path) -> io::Result<[f64; 2]> {
     Ok([largest, extent.radius])
 }
 
+/// How far the mesh in a folder says that faces which are nearly flat were moved, relative to the radius about the axis.
+///
+/// # Errors
+/// Fails when the mesh cannot be read.
+pub fn moved(folder: &Path) -> io::Result<f64> {
+    let file = BufReader::new(File::open(folder.join("mesh.tmesh"))?);
+    let document = tmesh::read(file).map_err(io::Error::other)?;
+    Ok(document.wishes.moved.unwrap_or(0.0))
+}
+
 /// Triangles of all copies that are in no glued face, where they are in the world.
 fn faces(document: &Document) -> Vec<[DVec3; 3]> {
     let mut glued = BTreeSet::new();

@@ -359,6 +359,7 @@ fn list_wishes(document: &Document, text: &mut String) {
         "shared faces settled",
         wishes.keep_surface.map(|k| yes(k).to_owned()),
     );
+    add("surface moved by", wishes.moved.map(number));
     if !lines.is_empty() {
         text.push_str("\nelements wished for\n");
         print_pairs(&lines, text);

@@ -12,6 +12,8 @@ mod group;
 mod inclusions;
 mod tessellation;
 
+pub(crate) use tessellation::slender;
+
 use crate::Dice;
 use crate::{Body, Encoding, Face, Material, Placement};
 use form::Form;
@@ -46,6 +48,55 @@ pub struct Facts {
 /// The solid of a seed.
 pub fn solid(seed: u64) -> Solid {
     let mut dice = Dice::new(seed);
+    let Drawn {
+        mut body,
+        mut features,
+        ..
+    } = draw(&mut dice);
+    if dice.chance(0.3) {
+        let few = body.faces.len().min(200);
+        let (splits, flips) = (dice.below(few), dice.below(4 * few));
+        tessellation::change(&mut body, splits, flips, &mut dice);
+        features.push(format!("{splits} splits, {flips} flips"));
+    }
+    let distances = body.vertices.iter().map(|p| p.truncate().length());
+    let radius = distances.fold(0.0, f64::max);
+    let noise = noise(&body, &mut features, &mut dice);
+    let scale = place(&mut body, noise, &mut features, &mut dice);
+    let encoding = encoding(&body, noise, &mut dice);
+    features.push(format!("{encoding:?}"));
+    Solid {
+        facts: Facts {
+            group: body.group,
+            order: body.order as usize,
+            radius: scale * radius,
+            features,
+        },
+        body,
+        encoding,
+    }
+}
+
+/// A body before it is changed and placed.
+struct Drawn {
+    body: Body,
+    /// Sectors of the grid that it is made of.
+    sectors: usize,
+    features: Vec<String>,
+}
+
+/// A body about the z axis as it is drawn, with the sectors of its grid, and what it is.
+pub(crate) fn drawn(dice: &mut Dice) -> (Body, u32, String) {
+    let Drawn {
+        body,
+        sectors,
+        features,
+    } = draw(dice);
+    let kind = [vec![body.group.symbol()], features].concat().join(", ");
+    (body, sectors as u32, kind)
+}
+
+fn draw(dice: &mut Dice) -> Drawn {
     let kind = dice.pick(&KINDS);
     let order = match dice.below(100) {
         0..4 => 1,
@@ -53,7 +104,7 @@ pub fn solid(seed: u64) -> Solid {
         64..86 => dice.integer(9, 16),
         _ => dice.integer(17, 64),
     };
-    let pitch = pitch(kind, order, &mut dice);
+    let pitch = pitch(kind, order, dice);
     // Fewer cells along the others where there are many around.
     let most = if order * pitch > 36 { 2 } else { 4 };
     let grid = Grid {
@@ -62,25 +113,23 @@ pub fn solid(seed: u64) -> Solid {
         levels: dice.integer(1, most),
         bored: dice.chance(0.4),
     };
-    let motions = group::motions(kind, order, pitch, &mut dice);
+    let motions = group::motions(kind, order, pitch, dice);
     let middles = dice.pick(&[0.0, 0.0, 0.2, 1.0]);
-    let faces = grid.faces(&motions, middles, &mut dice);
+    let faces = grid.faces(&motions, middles, dice);
     let mut features = Vec::new();
-    let form = random_form(kind, &grid, &mut features, &mut dice);
-    let (places, share) = form.places(&grid, &faces, &motions, &mut dice);
+    let form = random_form(kind, &grid, &mut features, dice);
+    let (places, share) = form.places(&grid, &faces, &motions, dice);
     if share < 1.0 {
         features.push(format!("deformation x {share}"));
     }
     let materials = dice.pick(&[1, 1, 1, 2, 2, 3, 4]);
-    let filling = filling::fill(&grid, &motions, materials, &mut dice);
+    let filling = filling::fill(&grid, &motions, materials, dice);
     let mut body = assemble(&grid, &faces, &places, &filling, materials);
     let mut origins = vec![None; filling.len()];
     if dice.chance(0.2) {
         let middles = grid.middles(&places);
         let clear = grid.clearances(&faces, &places);
-        origins = inclusions::include(
-            &mut body, &grid, &motions, &filling, &middles, &clear, &mut dice,
-        );
+        origins = inclusions::include(&mut body, &grid, &motions, &filling, &middles, &clear, dice);
         if origins.iter().any(Option::is_some) {
             features.push("inclusions".to_owned());
         }
@@ -99,26 +148,10 @@ pub fn solid(seed: u64) -> Solid {
     if tessellation::touches(&body) {
         features.push("touching edges".to_owned());
     }
-    if dice.chance(0.3) {
-        let few = body.faces.len().min(200);
-        let (splits, flips) = (dice.below(few), dice.below(4 * few));
-        tessellation::change(&mut body, splits, flips, &mut dice);
-        features.push(format!("{splits} splits, {flips} flips"));
-    }
-    let distances = body.vertices.iter().map(|p| p.truncate().length());
-    let radius = distances.fold(0.0, f64::max);
-    let (noise, scale) = place(&mut body, &mut features, &mut dice);
-    let encoding = encoding(&body, noise, &mut dice);
-    features.push(format!("{encoding:?}"));
-    Solid {
-        facts: Facts {
-            group,
-            order: body.order as usize,
-            radius: scale * radius,
-            features,
-        },
+    Drawn {
         body,
-        encoding,
+        sectors: grid.sectors,
+        features,
     }
 }
 
@@ -309,15 +342,25 @@ pub(crate) fn tidy(body: &mut Body) {
     body.materials = kept.iter().map(|&m| body.materials[m].clone()).collect();
 }
 
-/// Disturbs, turns, shifts and scales the body. Returns the disturbance and the scale.
-pub(crate) fn place(body: &mut Body, features: &mut Vec<String>, dice: &mut Dice) -> (f64, f64) {
-    let mut noise = 0.0;
-    if dice.chance(0.15) {
-        noise = dice
-            .log_between(1e-8, 2e-4)
-            .min(0.02 * tessellation::least_height(body));
-        features.push(format!("noise {noise:.1e}"));
+/// How far vertices are displaced at random, before the body is scaled.
+pub(crate) fn noise(body: &Body, features: &mut Vec<String>, dice: &mut Dice) -> f64 {
+    if !dice.chance(0.15) {
+        return 0.0;
     }
+    let noise = dice
+        .log_between(1e-8, 2e-4)
+        .min(0.02 * tessellation::least_height(body));
+    features.push(format!("noise {noise:.1e}"));
+    noise
+}
+
+/// Displaces vertices at random by up to `noise`, turns, shifts and scales a body; returns the scale.
+pub(crate) fn place(
+    body: &mut Body,
+    noise: f64,
+    features: &mut Vec<String>,
+    dice: &mut Dice,
+) -> f64 {
     let rotate = dice.chance(0.8).then(|| dice.seed());
     let scale = if dice.chance(0.3) {
         dice.log_between(1e-4, 1e4)
@@ -334,7 +377,7 @@ pub(crate) fn place(body: &mut Body, features: &mut Vec<String>, dice: &mut Dice
         Some(_) => format!("placed, scale {scale:.1e}"),
         None => format!("scale {scale:.1e}"),
     });
-    (noise, scale)
+    scale
 }
 
 pub(crate) fn encoding(body: &Body, noise: f64, dice: &mut Dice) -> Encoding {

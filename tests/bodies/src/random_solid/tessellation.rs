@@ -133,7 +133,8 @@ fn third(vertices: [u32; 3], u: u32, v: u32) -> u32 {
     vertices[0] ^ vertices[1] ^ vertices[2] ^ u ^ v
 }
 
-fn slender(a: DVec3, b: DVec3, c: DVec3) -> bool {
+/// Whether a triangle is narrower than those that are made here.
+pub(crate) fn slender(a: DVec3, b: DVec3, c: DVec3) -> bool {
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     (b - a).cross(c - a).length() < SLENDER * longest * longest
 }

@@ -27,10 +27,12 @@ impl Complex {
         alike: impl Fn(u32, u32) -> bool,
     ) -> Self {
         let across: Across = Edges::new(&triangles).across();
-        let flatness = |_| Flatness {
-            distance: within,
-            // What the distance leaves of folds.
-            cosine: 0.5,
+        let flatness = |_| {
+            [Flatness {
+                distance: within,
+                // What the distance leaves of folds.
+                cosine: 0.5,
+            }]
         };
         let flats = Flats::new(&points, &triangles, &across, flatness, alike);
         let mut complex = Self {

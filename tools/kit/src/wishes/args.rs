@@ -106,6 +106,7 @@ impl WishArgs {
             layers_across: self.layers_across,
             timeout: self.timeout,
             keep_surface: None,
+            moved: None,
         }
     }
 

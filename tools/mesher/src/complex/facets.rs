@@ -2,13 +2,28 @@
 //!
 //! Each facet gets a marker of its own. So TetGen merges what is flat and nothing else, and every
 //! triangle of the refined surface comes back with its marker, regions and wall.
+//!
+//! What is nearly flat is one facet, too: edges between facets stay as they are, and elements have to fit in between. Where a
+//! flat face is drawn with folds that nobody would see, they get smaller and worse for nothing. Such a facet is uneven, and
+//! [`Relief`](super::relief::Relief) has its shape.
 
 use crate::faces::NO_FACE;
 use geom::edges::Edges;
-use geom::flat::{Flatness, Flats};
+use geom::flat::{FOLD_COSINE, Flatness, Flats};
 use geom::measure::{corners, triangle_area};
 use glam::DVec3;
 use tmesh::Template;
+
+/// How far off the plane of a facet its vertices may be, model units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Flat {
+    /// On walls.
+    pub walls: f64,
+    /// Elsewhere, whatever the angle.
+    pub elsewhere: f64,
+    /// Elsewhere, where folds are shallow.
+    pub folds: f64,
+}
 
 /// What triangles of one facet have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,9 +63,8 @@ pub struct Facets {
 }
 
 impl Facets {
-    /// Groups the triangles of a template. `face` gives each triangle's wall face; vertices may be
-    /// `tolerance` (model units) off a facet's plane: the first on walls, the second elsewhere.
-    pub fn new(template: &Template, edges: &Edges, face: &[u32], tolerance: [f64; 2]) -> Self {
+    /// Groups the triangles of a template. `face` gives each triangle's wall face.
+    pub fn new(template: &Template, edges: &Edges, face: &[u32], flat: Flat) -> Self {
         let attributes = |t: u32| {
             let triangle = &template.triangles[t as usize];
             Attributes {
@@ -60,10 +74,14 @@ impl Facets {
                 face: face[t as usize],
             }
         };
-        let flatness = |seed: u32| Flatness {
-            distance: tolerance[usize::from(face[seed as usize] == NO_FACE)],
+        let flatness = |seed: u32| {
+            let [distance, folds] = match face[seed as usize] {
+                NO_FACE => [flat.elsewhere, flat.folds],
+                _ => [flat.walls; 2],
+            };
             // What is folded over is another facet, however thin the fold.
-            cosine: 0.0,
+            [(distance, 0.0), (folds, FOLD_COSINE)]
+                .map(|(distance, cosine)| Flatness { distance, cosine })
         };
         let ids: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
         let across = edges.across();
@@ -100,6 +118,14 @@ mod tests {
     use super::*;
     use tmesh::{OUTSIDE, Triangle};
 
+    fn flat(distance: f64) -> Flat {
+        Flat {
+            walls: distance,
+            elsewhere: distance,
+            folds: 0.0,
+        }
+    }
+
     #[test]
     fn coplanar_neighbours_with_the_same_attributes_are_one_facet() {
         // A strip of four triangles: two flat, then two tilted by far more than the tolerance.
@@ -130,16 +156,16 @@ mod tests {
         };
         let corners: Vec<_> = template.triangles.iter().map(|t| t.vertices).collect();
         let edges = Edges::new(&corners);
-        let facets = Facets::new(&template, &edges, &[0; 4], [0.0, 1e-9]);
+        let facets = Facets::new(&template, &edges, &[0; 4], flat(1e-9));
         let of = &facets.of_triangle;
         assert_eq!(facets.facets.len(), 2);
         assert_eq!((of[0], of[2]), (of[1], of[3]));
         assert_ne!(of[0], of[2]);
-        let flat = facets.facets[of[0] as usize];
-        assert!((flat.area - 1.0).abs() < 1e-12 && flat.deviation > 0.0);
-        assert!(flat.normal.z > 0.99);
+        let level = facets.facets[of[0] as usize];
+        assert!((level.area - 1.0).abs() < 1e-12 && level.deviation > 0.0);
+        assert!(level.normal.z > 0.99);
         // A wall face or a marker of its own keeps a triangle apart.
-        let facets = Facets::new(&template, &edges, &[0, 1, 0, 0], [1e-9; 2]);
+        let facets = Facets::new(&template, &edges, &[0, 1, 0, 0], flat(1e-9));
         assert_eq!(facets.facets.len(), 3);
     }
 }

@@ -1,8 +1,9 @@
 //! The piecewise linear complex that the mesher is given for a template.
 
 use super::description::{Description, Order, mixed};
-use super::facets::Facets;
+use super::facets::{Facets, Flat};
 use super::flat::flatten;
+use super::relief::Relief;
 use super::seeds::{Seed, seeds};
 use crate::faces::Faces;
 use crate::{Error, Piece, Sizes};
@@ -49,6 +50,8 @@ pub struct Plc {
     pub sizes: Vec<SizeSeed>,
     /// Facets; the marker of facet `f` is `f + 1`.
     pub facets: Facets,
+    /// The shape of those that are uneven.
+    pub relief: Relief,
     /// Wall faces of the template's triangles.
     pub faces: Faces,
     /// Largest coordinate, model units.
@@ -94,8 +97,19 @@ impl Plc {
         let extent = Extent::about(&template.vertices, DVec3::ZERO, DVec3::Z);
         let tolerance = Tolerance::new(extent, precision, 0.0);
         let flat = tolerance.flat();
-        let elsewhere = if description.apart { 0.0 } else { flat };
-        let facets = Facets::new(template, &edges, &faces.of_triangle, [flat, elsewhere]);
+        let flat = match description.apart {
+            true => Flat {
+                walls: flat,
+                ..Flat::default()
+            },
+            false => Flat {
+                walls: flat,
+                elsewhere: flat,
+                folds: document.unevenness(),
+            },
+        };
+        let facets = Facets::new(template, &edges, &faces.of_triangle, flat);
+        let relief = Relief::new(template, &facets, flat.elsewhere);
         let mut order: Vec<usize> = (0..corners.len()).collect();
         description.order.apply(&mut order);
         let mut plc = Self {
@@ -114,6 +128,7 @@ impl Plc {
                 .collect(),
             vertex_of_point,
             facets,
+            relief,
             faces,
             ..Self::default()
         };

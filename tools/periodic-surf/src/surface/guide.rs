@@ -21,6 +21,8 @@ pub struct Refined {
     pub rounding: f64,
     /// What became of the bounds, if they could not be met.
     pub advice: Option<String>,
+    /// Whether any facet is uneven.
+    pub is_uneven: bool,
 }
 
 /// Meshes a template as asked for, but free to put points on every facet, and gives
@@ -75,8 +77,14 @@ fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
         facets: plc.facets,
         rounding: plc.rounding,
         advice,
+        is_uneven: plc.relief.is_there(),
     };
     put_back(&mut refined, plc.shift);
+    let first_new = refined.vertex_of_point.len() as u32;
+    let facets = refined.facet.iter().map(|&f| f as usize);
+    let triangles = refined.triangles.iter().copied().zip(facets);
+    plc.relief
+        .put(&mut refined.vertices, triangles, |v| v >= first_new);
     Ok(refined)
 }
 

@@ -20,6 +20,8 @@ pub struct Made {
     pub shared: Vec<u32>,
     /// What became of the bounds, if they could not be met.
     pub advice: Option<String>,
+    /// Whether faces are uneven, so that the surface is off the input's.
+    pub is_uneven: bool,
 }
 
 /// Makes the surface of a template: its seam's faces become images of each other, its own hub
@@ -63,6 +65,7 @@ pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
         shared: shared.collect(),
         template: made,
         vertices: of_input,
+        is_uneven: guide.is_uneven,
         advice: guide.advice,
     })
 }

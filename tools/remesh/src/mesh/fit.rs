@@ -115,7 +115,7 @@ impl Mesh<'_> {
         let upright = match &self.planes[patch as usize] {
             Some(plane) => {
                 vector.dot(plane.normal) >= UPRIGHT * area
-                    && plane.off([a, b, c]) <= self.rules.flat
+                    && plane.off([a, b, c]) <= self.off[patch as usize]
             }
             None => {
                 let middle = (a + b + c) / 3.0;

@@ -32,6 +32,8 @@ pub struct Mesh<'a> {
     pub envelope: &'a Envelope,
     /// The plane of each patch that is a flat face.
     pub planes: &'a [Option<Plane>],
+    /// How far off it triangles of such a patch may be, model units.
+    pub off: &'a [f64],
     /// Positions.
     pub points: Vec<DVec3>,
     /// The planes and lines that each vertex stays on.
@@ -88,6 +90,7 @@ impl<'a> Mesh<'a> {
             rules,
             envelope,
             planes: &patches.planes,
+            off: &patches.off,
             points: surface.points.clone(),
             bound: rules.bound.to_vec(),
             fixed: vertices

@@ -72,6 +72,7 @@ fn linked(
             deviation,
             noise: deviation,
             flat: 1e-10,
+            folds: 0.0,
             feature: 0.75_f64.sqrt(),
             sizes: Sizes {
                 turn: std::f64::consts::TAU / 12.0,

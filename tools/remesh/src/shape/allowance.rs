@@ -91,7 +91,7 @@ impl Allowance {
             let corners = surface.triangles[t].map(|v| height[v as usize]);
             let largest = corners.into_iter().fold(0.0, f64::max);
             match patches.planes[patches.of[t] as usize] {
-                Some(_) => rules.flat,
+                Some(_) => patches.off[patches.of[t] as usize],
                 None if !bent[patches.of[t] as usize] => rules.noise,
                 None => largest.min(rules.deviation).max(rules.flat),
             }

@@ -3,7 +3,7 @@
 use super::facets::{Beside, Facets};
 use crate::input::{Rules, Surface};
 use geom::edges::{EdgeUse, Edges, apex_of};
-use geom::flat::{Flatness, Flats, Plane};
+use geom::flat::{FOLD_COSINE, Flatness, Flats, Plane};
 use geom::measure::double_area_vector;
 use geom::sets::DisjointSets;
 use glam::DVec3;
@@ -16,6 +16,8 @@ pub struct Patches {
     pub of: Vec<u32>,
     /// The plane of each patch that is a flat face.
     pub planes: Vec<Option<Plane>>,
+    /// How far off that plane its triangles may be, model units.
+    pub off: Vec<f64>,
     /// Largest coplanar group of each triangle.
     pub facet: Vec<u32>,
     /// Unit normal of each triangle.
@@ -32,9 +34,9 @@ impl Patches {
     pub fn new(surface: &Surface, rules: &Rules<'_>) -> Self {
         let edges = Edges::new(&surface.triangles);
         let across = edges.across();
-        let flatness = |_| Flatness {
-            distance: rules.flat,
-            cosine: rules.feature,
+        let flatness = |_| {
+            [(rules.flat, rules.feature), (rules.folds, FOLD_COSINE)]
+                .map(|(distance, cosine)| Flatness { distance, cosine })
         };
         let labels = &surface.labels;
         let alike = |s: u32, t: u32| labels[s as usize] == labels[t as usize];
@@ -55,9 +57,16 @@ impl Patches {
             edges,
             of: Vec::new(),
             planes: Vec::new(),
+            off: Vec::new(),
             facet: flats.regions.of,
             normals,
         };
+        let mut off = vec![rules.flat; flats.planes.len()];
+        for (t, &facet) in (0..).zip(&patches.facet) {
+            if flats.planes[facet as usize].off(surface.corners(t)) > rules.flat {
+                off[facet as usize] = rules.folds;
+            }
+        }
         let is_face = patches.faces(surface, rules, flats.planes.len());
         let mut sets = DisjointSets::new(surface.triangles.len());
         for edge in 0..patches.edges.len() {
@@ -77,6 +86,7 @@ impl Patches {
                 patches
                     .planes
                     .push(is_face[facet].then_some(flats.planes[facet]));
+                patches.off.push(off[facet]);
             }
             patches.of.push(number[first]);
         }
@@ -135,5 +145,73 @@ impl Patches {
             _ => beside.like <= ALIKE * beside.border,
         };
         beside.iter().map(is_face).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::Sizes;
+
+    /// A cube whose upper side has a point in it, raised by this much.
+    fn cube(raised: f64) -> Surface {
+        let corner =
+            |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        let mut points: Vec<DVec3> = (0..8).map(corner).collect();
+        points.push(DVec3::new(0.4, 0.4, 1.0 + raised));
+        let quads = [
+            [0, 2, 3, 1],
+            [0, 1, 5, 4],
+            [1, 3, 7, 5],
+            [3, 2, 6, 7],
+            [2, 0, 4, 6],
+        ];
+        let halves = quads
+            .into_iter()
+            .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]);
+        let upper = [[4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]];
+        let triangles: Vec<[u32; 3]> = halves.chain(upper).collect();
+        Surface {
+            labels: vec![0; triangles.len()],
+            points,
+            triangles,
+        }
+    }
+
+    /// The number of flat faces, and of patches that are none, where faces may be so uneven.
+    fn faces(surface: &Surface, folds: f64) -> [usize; 2] {
+        let none = vec![0; surface.points.len()];
+        let rules = Rules {
+            held: &vec![false; surface.points.len()],
+            bound: &none,
+            links: &[],
+            onto: &|_, p| p,
+            deviation: 1e-3,
+            noise: 1e-3,
+            flat: 1e-10,
+            folds,
+            feature: 0.75_f64.sqrt(),
+            sizes: Sizes {
+                turn: 0.5,
+                turn_is_asked: false,
+                lengths: &[],
+                local: None,
+                growth: 0.5,
+            },
+        };
+        let patches = Patches::new(surface, &rules);
+        let flat = patches.planes.iter().flatten().count();
+        [flat, patches.planes.len() - flat]
+    }
+
+    #[test]
+    fn a_face_with_shallow_folds_is_a_flat_face() {
+        assert_eq!(faces(&cube(0.0), 0.0), [6, 0]);
+        // Its largest triangle leans by 0.02 degrees, and the one opposite to it is 0.05 degrees off that.
+        assert_eq!(faces(&cube(2e-4), 1e-3), [6, 0]);
+        // Folds that are not allowed for, too high or too steep ones make it a curved one.
+        for (raised, folds) in [(2e-4, 0.0), (2e-4, 1e-5), (1e-2, 0.1)] {
+            assert_eq!(faces(&cube(raised), folds), [5, 1], "{raised} {folds}");
+        }
     }
 }

@@ -1,12 +1,14 @@
 //! Improvement of a filled template, and the checks of all of it.
 
-use super::answer::Origin;
+use super::answer::{Origin, put_onto_relief};
 use super::filled::Filled;
 use super::measures::measures;
 use super::orientations::orientations;
+use geom::flat::FOLD_SINE;
 use glam::DVec3;
 use improve::{Flats, Freedoms, Improved, Wish, improve};
 use mesher::{Climb, Error, Plc};
+use rustc_hash::FxHashSet;
 
 /// Improves the tetrahedra of a filled template, and checks all of it.
 ///
@@ -23,6 +25,15 @@ pub fn finish(
         what,
     };
     filled.improved = refine(climb, plc, &origin.facets, filled);
+    if filled.improved.is_some() {
+        let shared = filled.shared.iter();
+        let shared: FxHashSet<u32> = shared
+            .flat_map(|&t| filled.template.triangles[t as usize].vertices)
+            .collect();
+        put_onto_relief(plc, &origin.facets, &mut filled.template, |v| {
+            !shared.contains(&v)
+        });
+    }
     let reach = climb.piece.document.frame.origin.length() + plc.extent;
     let template = &filled.template;
     orientations(template, origin.first_new, reach).map_err(unusable)?;
@@ -40,6 +51,10 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
     } = *climb;
     let largest = params.optimize.filter(|_| params.quality)?;
     let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
+    let uneven = plc.relief.uneven().iter();
+    let slopes: Vec<f64> = uneven
+        .map(|&uneven| if uneven { FOLD_SINE } else { 0.0 })
+        .collect();
     let normals: Vec<DVec3> = plc.facets.facets.iter().map(|f| f.normal).collect();
     // Templates that share a face take it over as it is.
     let shared = filled.shared.iter();
@@ -51,6 +66,7 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
         &Flats {
             of_triangle: &of_triangle,
             normals: &normals,
+            slopes: &slopes,
             fixed: &fixed,
             straight: plc.rounding + 2.0 * plc.shift,
         },

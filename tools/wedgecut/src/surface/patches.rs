@@ -10,10 +10,12 @@ use tmesh::Triangle;
 pub fn flat_patches(points: &[DVec3], faces: &[Triangle], flatness: f64) -> Vec<u32> {
     let corners: Vec<[u32; 3]> = faces.iter().map(|f| f.vertices).collect();
     let across = Edges::new(&corners).across();
-    let flatness = |_| Flatness {
-        distance: flatness,
-        // No face of a patch is turned over.
-        cosine: 0.0,
+    let flatness = |_| {
+        [Flatness {
+            distance: flatness,
+            // No face of a patch is turned over.
+            cosine: 0.0,
+        }]
     };
     let attributes = |t: u32| {
         let f = &faces[t as usize];

@@ -117,10 +117,12 @@ fn shells(surface: &Surface, edges: &Edges) -> (Vec<u32>, usize) {
 /// The flat faces of a surface: of each triangle, the number of its face. Fans of many triangles around one corner, all of
 /// which would have to be compared, are one.
 fn faces(surface: &Surface, edges: &Edges, flat: f64) -> Vec<u32> {
-    let flatness = |_| Flatness {
-        distance: flat,
-        // What the distance leaves of folds.
-        cosine: 0.5,
+    let flatness = |_| {
+        [Flatness {
+            distance: flat,
+            // What the distance leaves of folds.
+            cosine: 0.5,
+        }]
     };
     let Surface {
         points, triangles, ..

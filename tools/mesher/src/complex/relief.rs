@@ -1,0 +1,145 @@
+//! The shape of uneven facets.
+//!
+//! The mesher takes a facet for flat, and puts points into triangles of its own between the vertices that are given. They are
+//! put back onto the triangles that were given, from which they are off by no more than the facet is uneven.
+
+use super::Facets;
+use geom::measure::corners;
+use geom::tree::Tree;
+use glam::DVec3;
+use tmesh::Template;
+
+/// The triangles of uneven facets.
+#[derive(Default)]
+pub struct Relief {
+    /// Of each facet, whether it is uneven.
+    uneven: Vec<bool>,
+    /// Triangles of uneven facets.
+    tree: Option<Tree>,
+    /// Facet of each of them.
+    facet: Vec<u32>,
+}
+
+impl Relief {
+    /// The shape of the facets of a template that are off their planes by more than `flat`, model units. n log n.
+    pub fn new(template: &Template, facets: &Facets, flat: f64) -> Self {
+        let is_uneven = |f: &super::Facet| f.deviation > flat && f.normal != DVec3::ZERO;
+        let uneven: Vec<bool> = facets.facets.iter().map(is_uneven).collect();
+        let of = template.triangles.iter().zip(&facets.of_triangle);
+        let of: Vec<_> = of.filter(|(_, f)| uneven[**f as usize]).collect();
+        let triangles = of.iter().map(|(t, _)| corners(&template.vertices, *t));
+        Self {
+            tree: (!of.is_empty()).then(|| Tree::new(triangles)),
+            facet: of.iter().map(|(_, f)| **f).collect(),
+            uneven,
+        }
+    }
+
+    /// Whether any facet is uneven.
+    pub fn is_there(&self) -> bool {
+        self.tree.is_some()
+    }
+
+    /// Of each facet, whether it is uneven.
+    pub fn uneven(&self) -> &[bool] {
+        &self.uneven
+    }
+
+    /// The point of an uneven facet that is nearest to `p`, model units; `None` for other facets.
+    pub fn nearest(&self, facet: usize, p: DVec3) -> Option<DVec3> {
+        let wanted = |t: u32| self.facet[t as usize] as usize == facet;
+        let tree = self.tree.as_ref().filter(|_| self.uneven[facet])?;
+        Some(tree.nearest_of(p, f64::INFINITY, wanted)?.point)
+    }
+
+    /// Puts points that are on a single uneven facet onto it: of triangles with their facets, the vertices that `moves`. What
+    /// is on several facets is on the edges between them.
+    pub fn put(
+        &self,
+        points: &mut [DVec3],
+        triangles: impl Iterator<Item = ([u32; 3], usize)>,
+        moves: impl Fn(u32) -> bool,
+    ) {
+        if !self.is_there() {
+            return;
+        }
+        let mut of: Vec<(u32, usize)> = triangles
+            .flat_map(|(corners, facet)| corners.map(|v| (v, facet)))
+            .filter(|&(v, _)| moves(v))
+            .collect();
+        of.sort_unstable();
+        of.dedup();
+        for of_vertex in of.chunk_by(|a, b| a.0 == b.0) {
+            let &[(v, facet)] = of_vertex else { continue };
+            let p = &mut points[v as usize];
+            if let Some(there) = self.nearest(facet, *p) {
+                *p = there;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::complex::facets::Flat;
+    use geom::edges::Edges;
+    use tmesh::{OUTSIDE, Triangle};
+
+    /// A square whose middle is raised, with one side folded down.
+    fn roof(height: f64) -> Template {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let mut vertices: Vec<DVec3> = corners.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+        vertices.extend([DVec3::new(0.5, 0.5, height), DVec3::new(0.5, -0.2, -1.0)]);
+        let triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 5, 1]];
+        let triangle = |vertices| Triangle {
+            vertices,
+            marker: 0,
+            front: OUTSIDE,
+            back: 1,
+        };
+        Template {
+            vertices,
+            triangles: triangles.map(triangle).to_vec(),
+            ..Template::default()
+        }
+    }
+
+    fn facets(template: &Template, folds: f64) -> Facets {
+        let corners: Vec<_> = template.triangles.iter().map(|t| t.vertices).collect();
+        let flat = Flat {
+            walls: 1e-10,
+            elsewhere: 1e-10,
+            folds,
+        };
+        Facets::new(template, &Edges::new(&corners), &[0; 5], flat)
+    }
+
+    #[test]
+    fn shallow_folds_make_an_uneven_facet_that_points_are_put_back_onto() {
+        // A slope of 0.046 degrees; the sides opposite to each other are 0.092 degrees apart.
+        let template = roof(4e-4);
+        let faces = facets(&template, 1e-3);
+        assert_eq!(faces.facets.len(), 2);
+        let relief = Relief::new(&template, &faces, 1e-10);
+        let roof = faces.of_triangle[0] as usize;
+        assert_eq!(relief.uneven().iter().filter(|u| **u).count(), 1);
+        assert_eq!(relief.nearest(1 - roof, DVec3::ZERO), None);
+        let mut points = [DVec3::new(0.5, 0.25, 0.0), DVec3::X, DVec3::Y, DVec3::Z];
+        let before = points;
+        // The second one is on both facets, and the third one is to stay.
+        let triangles = [([0, 1, 2], roof), ([1, 3, 3], 1 - roof)];
+        relief.put(&mut points, triangles.into_iter(), |v| v != 2);
+        assert!((points[0] - DVec3::new(0.5, 0.25, 2e-4)).length() < 1e-6);
+        assert_eq!(points[1..], before[1..]);
+    }
+
+    #[test]
+    fn folds_that_are_steeper_or_higher_are_kept() {
+        let count = |height: f64, folds: f64| facets(&roof(height), folds).facets.len();
+        assert_eq!(count(4e-4, 1e-4), 5);
+        assert_eq!(count(4e-4, 0.0), 5);
+        assert_eq!(count(1e-2, 1e-1), 5);
+        assert_eq!(count(0.0, 0.0), 2);
+    }
+}
