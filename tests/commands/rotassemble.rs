@@ -121,7 +121,11 @@ fn a_sector_of_a_hub_of_another_order_is_no_deck() {
     let turns = via_with_a_hub(&["--domain", "rotation", "--horizontal-mirror", "off"]);
     fails(&deck, &turns, 1, "wedgecut --hub none");
     // As a mesh it is welcome.
-    assert!(!run(&["--sector", "--to", "vtk"], &turns).success().is_empty());
+    assert!(
+        !run(&["--sector", "--to", "vtk"], &turns)
+            .success()
+            .is_empty()
+    );
 }
 
 #[test]
