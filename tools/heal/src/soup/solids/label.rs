@@ -131,6 +131,9 @@ fn faces(surface: &Surface, edges: &Edges, flat: f64) -> Vec<u32> {
     flats.regions.of
 }
 
+/// Pairs of triangles.
+type Pairs = Vec<[u32; 2]>;
+
 /// Whether parts of a surface meet that should not.
 enum Parts {
     AreApart,
@@ -148,7 +151,7 @@ fn check_contacts(
     surface: &Surface,
     (shell, face): (&[u32], &[u32]),
     notices: &mut Vec<String>,
-) -> Result<(Parts, Option<Vec<[u32; 2]>>), HealError> {
+) -> Result<(Parts, Option<Pairs>), HealError> {
     let of = |t: u32| (surface.solid[t as usize], surface.partner[t as usize]);
     let within = Cell::new(false);
     let pairs = RefCell::new(Vec::new());
