@@ -34,19 +34,18 @@ impl Patches {
     pub fn new(surface: &Surface, rules: &Rules<'_>) -> Self {
         let edges = Edges::new(&surface.triangles);
         let across = edges.across();
-        let flatness = |_| {
-            [(rules.flat, rules.feature), (rules.folds, FOLD_COSINE)]
-                .map(|(distance, cosine)| Flatness { distance, cosine })
-        };
         let labels = &surface.labels;
         let alike = |s: u32, t: u32| labels[s as usize] == labels[t as usize];
-        let flats = Flats::new(
-            &surface.points,
-            &surface.triangles,
-            &across,
-            flatness,
-            alike,
-        );
+        let (points, triangles) = (&surface.points, &surface.triangles);
+        let even = Flatness {
+            distance: rules.flat,
+            cosine: rules.feature,
+        };
+        let folded = Flatness {
+            distance: rules.folds,
+            cosine: FOLD_COSINE,
+        };
+        let flats = Flats::new(points, triangles, &across, |_| [even, folded], alike);
         let normals = (0..surface.triangles.len() as u32)
             .map(|t| {
                 let [a, b, c] = surface.corners(t);
@@ -67,7 +66,23 @@ impl Patches {
                 off[facet as usize] = rules.folds;
             }
         }
-        let is_face = patches.faces(surface, rules, flats.planes.len());
+        let mut planes = flats.planes;
+        let mut is_face = patches.faces(surface, rules, &off);
+        // Shallow folds are those of a flat face. Of what is curved, every facet counts: each of several that hardly turn hides
+        // what they do, but not all of them together.
+        let is_curved = |f: u32| off[f as usize] > rules.flat && !is_face[f as usize];
+        if patches.facet.iter().any(|f| is_curved(*f)) {
+            let flats = Flats::new(points, triangles, &across, |_| [even], alike);
+            let first = planes.len() as u32;
+            for (facet, of) in patches.facet.iter_mut().zip(flats.regions.of) {
+                if is_curved(*facet) {
+                    *facet = first + of;
+                }
+            }
+            planes.extend(flats.planes);
+            off.resize(planes.len(), rules.flat);
+            is_face = patches.faces(surface, rules, &off);
+        }
         let mut sets = DisjointSets::new(surface.triangles.len());
         for edge in 0..patches.edges.len() {
             if let Some([u, v]) = patches.smooth(surface, rules, edge) {
@@ -83,9 +98,7 @@ impl Patches {
             if number[first] == u32::MAX {
                 number[first] = patches.planes.len() as u32;
                 let facet = patches.facet[t as usize] as usize;
-                patches
-                    .planes
-                    .push(is_face[facet].then_some(flats.planes[facet]));
+                patches.planes.push(is_face[facet].then_some(planes[facet]));
                 patches.off.push(off[facet]);
             }
             patches.of.push(number[first]);
@@ -125,8 +138,9 @@ impl Patches {
     }
 
     /// Of each coplanar group, whether it is a flat face and not a facet of something curved: it is where hardly anything
-    /// beside it goes on smoothly with facets of at least half its width.
-    fn faces(&self, surface: &Surface, rules: &Rules<'_>, count: usize) -> Vec<bool> {
+    /// beside it goes on smoothly with facets of at least half its width. A group that is off its plane, as far as `off` says of
+    /// each, may be one of those that hardly turn: it is a face where hardly anything goes on smoothly at all.
+    fn faces(&self, surface: &Surface, rules: &Rules<'_>, off: &[f64]) -> Vec<bool> {
         let mate = |edge: usize, u: &EdgeUse| {
             let [a, b] = self.smooth(surface, rules, edge)?;
             Some(if a == *u { b } else { a })
@@ -138,13 +152,14 @@ impl Patches {
             edges: &self.edges,
             of: &self.facet,
         };
-        let beside = facets.beside(count, mate);
+        let beside = facets.beside(off.len(), mate);
         // A single triangle is one of the facets of whatever goes on smoothly beside it.
-        let is_face = |beside: &Beside| match beside.triangles {
+        let is_face = |(beside, off): (&Beside, &f64)| match beside.triangles {
             1 => beside.smooth == 0.0,
+            _ if *off > rules.flat => beside.smooth <= ALIKE * beside.border,
             _ => beside.like <= ALIKE * beside.border,
         };
-        beside.iter().map(is_face).collect()
+        beside.iter().zip(off).map(is_face).collect()
     }
 }
 
