@@ -287,3 +287,23 @@ fn turned_over(cli: &Cli, order: u32) -> Made {
         .build(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[test]
+    fn bends_that_no_facet_can_have_are_refused() {
+        let made = |bend: &str| {
+            let bend = format!("--bend={bend}");
+            let words = ["body", "prism", "--order", "6", bend.as_str()];
+            body(&Cli::parse_from(words)).map(|body| body.vertices.len())
+        };
+        assert!(made("0.01").is_ok());
+        for bend in ["-1", "NaN", "inf", "20"] {
+            let error = made(bend).expect_err(bend);
+            assert!(error.starts_with("--bend"), "{error}");
+        }
+    }
+}

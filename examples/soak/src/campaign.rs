@@ -92,15 +92,7 @@ pub fn run(options: &Options) -> io::Result<bool> {
             results.write_all(line(seed, &trial).as_bytes())?;
         }
     };
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..options.jobs.max(1))
-            .map(|_| scope.spawn(worker))
-            .collect();
-        let ends = workers
-            .into_iter()
-            .map(|w| w.join().expect("workers do not panic"));
-        ends.collect::<io::Result<Vec<()>>>()
-    })?;
+    crate::workers::run(options.jobs, worker)?;
     summary(&table, &seeds)
 }
 

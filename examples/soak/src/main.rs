@@ -9,6 +9,7 @@
 
 mod campaign;
 mod versus;
+mod workers;
 
 use clap::{Parser, Subcommand};
 use soak::{Kind, Subject};

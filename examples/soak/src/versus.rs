@@ -78,15 +78,7 @@ pub fn run(options: &Options) -> io::Result<bool> {
             results.1.push((seed, versus));
         }
     };
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..options.jobs.max(1))
-            .map(|_| scope.spawn(worker))
-            .collect();
-        let ends = workers
-            .into_iter()
-            .map(|w| w.join().expect("workers do not panic"));
-        ends.collect::<io::Result<Vec<()>>>()
-    })?;
+    crate::workers::run(options.jobs, worker)?;
     let (_, mut rows) = results.into_inner().unwrap_or_else(|e| e.into_inner());
     rows.sort_by_key(|row| row.0);
     Ok(summary(&rows))

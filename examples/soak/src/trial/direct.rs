@@ -35,7 +35,8 @@ pub fn mesh(
         .stdin(Stdio::null())
         .stdout(File::create(folder.join("direct.log"))?)
         .stderr(Stdio::null())
-        .spawn()?;
+        .spawn()
+        .map_err(|e| io::Error::new(e.kind(), format!("cannot run {}: {e}", program.display())))?;
     let status = loop {
         if let Some(status) = child.try_wait()? {
             break status;

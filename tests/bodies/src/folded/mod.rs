@@ -7,7 +7,7 @@ mod base;
 mod bend;
 mod images;
 
-use crate::random_solid::{Facts, Solid, place, tidy};
+use crate::random_solid::{Solid, place, tidy};
 use crate::{Body, Dice, Encoding};
 use bend::Bent;
 
@@ -103,15 +103,6 @@ fn bent(
         _ => Encoding::StlAscii { digits: None },
     };
     features.push(format!("{encoding:?}"));
-    let solid = Solid {
-        facts: Facts {
-            group: body.group,
-            order: body.order as usize,
-            radius: scale * radius,
-            features,
-        },
-        body,
-        encoding,
-    };
+    let solid = Solid::new(body, encoding, scale * radius, features);
     Some(Folded { solid, angle })
 }

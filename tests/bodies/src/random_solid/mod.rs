@@ -32,6 +32,22 @@ pub struct Solid {
     pub facts: Facts,
 }
 
+impl Solid {
+    /// A body with what it has of features; `radius` is the largest distance from its axis as it is placed.
+    pub(crate) fn new(body: Body, encoding: Encoding, radius: f64, features: Vec<String>) -> Self {
+        Self {
+            facts: Facts {
+                group: body.group,
+                order: body.order as usize,
+                radius,
+                features,
+            },
+            body,
+            encoding,
+        }
+    }
+}
+
 /// What is known of a solid.
 #[derive(Clone, Debug)]
 pub struct Facts {
@@ -65,16 +81,7 @@ pub fn solid(seed: u64) -> Solid {
     let scale = place(&mut body, noise, &mut features, &mut dice);
     let encoding = encoding(&body, noise, &mut dice);
     features.push(format!("{encoding:?}"));
-    Solid {
-        facts: Facts {
-            group: body.group,
-            order: body.order as usize,
-            radius: scale * radius,
-            features,
-        },
-        body,
-        encoding,
-    }
+    Solid::new(body, encoding, scale * radius, features)
 }
 
 /// A body before it is changed and placed.

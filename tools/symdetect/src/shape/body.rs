@@ -8,7 +8,7 @@ use crate::shape::motion::Target;
 use crate::shape::regions::Permutation;
 use crate::shape::samples::Samples;
 use crate::shape::smooth::SmoothSurface;
-use crate::shape::trees::Trees;
+use crate::shape::trees::{Part, Trees};
 use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
 use geom::measure::double_area_vector;
@@ -163,9 +163,7 @@ impl Shape {
         target: &Target,
         limit: f64,
     ) -> Option<Nearest> {
-        let behind = self.behind();
-        let part = behind.trees.part(&self.interfaces, triangle, target)?;
-        let within = limit + behind.smooth.most(triangle);
+        let (part, within) = self.part_behind(triangle, target, limit)?;
         part.answer(match normal {
             None => part.tree.nearest(image, within),
             Some(normal) => (part.tree).nearest_of(image, within, |t| {
@@ -182,13 +180,18 @@ impl Shape {
         target: &Target,
         limit: f64,
     ) -> Option<Nearest> {
-        let behind = self.behind();
-        let part = behind.trees.part(&self.interfaces, triangle, target)?;
-        let within = limit + behind.smooth.most(triangle);
+        let (part, within) = self.part_behind(triangle, target, limit)?;
         let distance = closest_point(image, &self.corners(known)).distance(image) + ARITHMETIC;
         let found = part.tree.nearest_below(image, within, distance);
         // It may be too far by now.
         part.answer(found.or_else(|| part.tree.nearest(image, within)))
+    }
+
+    /// The facets that the image of a triangle may be on, and how far from them it may be.
+    fn part_behind(&self, triangle: u32, target: &Target, limit: f64) -> Option<(&Part, f64)> {
+        let behind = self.behind();
+        let part = behind.trees.part(&self.interfaces, triangle, target)?;
+        Some((part, limit + behind.smooth.most(triangle)))
     }
 
     /// Whether a triangle faces where the image of another one does, whose normal then is given: where there is material on
