@@ -240,3 +240,41 @@ fn a_group_that_loses_its_half_turns_is_not_taken_for_the_whole() {
         assert!(found.symmetry.group.turning_over().is_none());
     }
 }
+
+/// A column of lobes of a few facets each, none of them a mirror image, twisted, between flat ends.
+fn lobed_column(lobes: u32, facets: u32) -> Document {
+    let n = lobes * facets;
+    let mut vertices: Vec<DVec3> = (levels(1).into_iter())
+        .flat_map(|z| {
+            (0..n).map(move |i| {
+                let a = TAU * f64::from(i) / f64::from(n);
+                let phase = f64::from(lobes) * a;
+                let r = 1.0 + 0.01 * phase.sin() + 0.005 * (2.0 * phase + 1.0).sin();
+                on_circle(r, a + 0.05 * z, z)
+            })
+        })
+        .collect();
+    let ends = vertices.len() as u32;
+    vertices.extend([DVec3::NEG_Z, DVec3::Z]);
+    let mut triangles = Vec::new();
+    for i in 0..n {
+        let next = (i + 1) % n;
+        for ring in [0, n] {
+            let [p, q] = [ring + i, ring + next];
+            triangles.extend([[p, q, q + n], [p, q + n, p + n]]);
+        }
+        triangles.extend([[ends, next, i], [ends + 1, 2 * n + i, 2 * n + next]]);
+    }
+    bodies::document(vertices, triangles)
+}
+
+#[test]
+fn facets_too_coarse_to_tell_leave_the_group_of_the_drawing() {
+    for (lobes, facets) in [(6, 3), (6, 4), (7, 3), (7, 4), (8, 3)] {
+        let body = lobed_column(lobes, facets);
+        let found = detect(&body, None, &Params::default(), &mut |_| ()).unwrap();
+        let symmetry = found.symmetry;
+        assert_eq!(symmetry.group.order, lobes);
+        assert!(symmetry.residual < 1e-3, "{}", symmetry.residual);
+    }
+}
