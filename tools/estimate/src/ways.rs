@@ -84,6 +84,11 @@ impl<'a> Ways<'a> {
         ranked
     }
 
+    /// Whether a way has no more elements than are accepted.
+    pub fn is_accepted(&self, way: &Way) -> bool {
+        way.elements <= self.limit(way)
+    }
+
     /// The fastest way within the accepted number of elements, else the one with the fewest. `base`: the
     /// elements that cannot be avoided, over those of the whole body.
     fn best(&self, ways: &[Way], base: f64) -> Option<Way> {

@@ -58,6 +58,11 @@ impl Told {
 const SHARP: f64 = 20.0;
 /// Rounds of splitting, collapsing, flipping and moving: vertices settle within five (Botsch and Kobbelt).
 const ROUNDS: usize = 6;
+/// How often needles are split in each round: in all, strips between features become squares that are up to 64 times as long
+/// as wide. Measured on fans, impellers and wheels from CAD kernels: with one, the first percentile of the dihedral angle
+/// is 14.7 to 20 degrees, with two 16.6 to 23 for as many elements; with four, an impeller whose blades end in strips of
+/// a thousandth of its radius gets 3.5 times as many.
+const HALVINGS: usize = 2;
 /// What narrow facets may cost where features are joined, relative to what they cost where all stay. A choice: features are
 /// what the shape is known by, and a tenth of the elements is a low price for them. Measured on fans, propellers and
 /// impellers from CAD kernels: needles between features cost a quarter to a half; a fan where joining saves a hundredth
@@ -176,7 +181,9 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
                 }
             }
             if round > 0 && !is_sized {
-                told.split += split_needles(&mut mesh, &active);
+                for _ in 0..HALVINGS {
+                    told.split += split_needles(&mut mesh, &active);
+                }
             }
         }
         let known = rows(&mesh);

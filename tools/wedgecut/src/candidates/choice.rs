@@ -5,7 +5,7 @@ use super::places::{HARMFUL, Places};
 use crate::body::Body;
 use crate::cell::{angle, hub_order, may_have_hub};
 use crate::cutting::{Candidate, Cut};
-use crate::params::Hub;
+use crate::params::{Domain, Hub};
 use estimate::{Bounds, CostModel, Estimate, Hubs, Way, Ways};
 use tmesh::{Group, Kind};
 
@@ -15,6 +15,34 @@ pub struct Choice {
     pub list: Vec<Candidate>,
     /// The reason for the first.
     pub why: String,
+}
+
+/// Elements over those of the usual planes for which half turns, rotary reflections or mirror planes are given up: what they
+/// halve the wedge by. Estimates of one body differ by less.
+const MUCH_LESS: f64 = 0.5;
+
+/// Kinds of wedges with the ways to mesh them.
+struct Ranking {
+    kinds: Vec<Group>,
+    /// The best way of each order.
+    all: Vec<Way>,
+    /// The same, best first; at least one.
+    ways: Vec<Way>,
+    /// Whether the best has no more elements than are accepted.
+    is_accepted: bool,
+}
+
+impl Ranking {
+    fn new(kinds: Vec<Group>, ways: &Ways<'_>) -> Option<Self> {
+        let ranked = ways.ranked();
+        let is_accepted = ways.is_accepted(ranked.first()?);
+        Some(Self {
+            kinds,
+            all: ways.list.clone(),
+            ways: ranked,
+            is_accepted,
+        })
+    }
 }
 
 /// Orders what is left of the groups by the cost that a first wedge tells.
@@ -38,8 +66,6 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
         };
         kinds.into_iter().filter(wanted).collect::<Vec<Group>>()
     };
-    let kinds: Vec<Group> = orders.iter().flat_map(|&n| kinds_of(n)).collect();
-    let cuts: Vec<estimate::Cut> = kinds.iter().map(|&g| describe(body, g, first)).collect();
     let bounds = Bounds {
         radius_edge: body.document.wishes.radius_edge(),
         hubs: match body.params.hub {
@@ -48,14 +74,27 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
             Hub::Auto => Hubs::Free,
         },
     };
-    let ways = Ways::new(&estimate, &cuts, bounds);
-    let ranked = ways.ranked();
-    let chosen = ranked.first()?;
+    let ranked = |kinds: Vec<Group>| {
+        let cuts: Vec<estimate::Cut> = kinds.iter().map(|&g| describe(body, g, first)).collect();
+        Ranking::new(kinds, &Ways::new(&estimate, &cuts, bounds))
+    };
+    let mut ranking = ranked(orders.iter().flat_map(|&n| kinds_of(n)).collect())?;
+    // Where planes that nobody asked for cost much, fewer of them may do better, if the larger wedges take no longer.
+    if !ranking.is_accepted && body.params.domain == Domain::Auto {
+        let usual = ranking.ways[0];
+        let other = ranked(orders.iter().flat_map(|&n| groups.all_at(n)).collect())?;
+        let way = other.ways[0];
+        if way.meshed <= usual.meshed && way.elements <= MUCH_LESS * usual.elements {
+            ranking = other;
+        }
+    }
+    let Ranking { kinds, ways, .. } = &ranking;
+    let chosen = &ways[0];
     let planes = |way: &Way| {
         let hub = way.hub.map(|r| format!(" with a hub of {r:.3}"));
         hub.unwrap_or_default() + turning_over(kinds[way.cut])
     };
-    let list: Vec<String> = (ways.list.iter())
+    let list: Vec<String> = (ranking.all.iter())
         .map(|way| {
             let order = kinds[way.cut].order;
             format!("{order}{} {:.2}", planes(way), way.elements)
@@ -69,8 +108,7 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
         planes(chosen),
         list.join(", "),
     );
-    let list = ranked
-        .iter()
+    let list = (ways.iter())
         .flat_map(|way| with_fewer_planes(body, groups, kinds[way.cut], way.hub))
         .collect();
     Some(Choice { list, why })
@@ -114,9 +152,9 @@ fn harm(body: &Body<'_>, group: Group, first: &Cut) -> f64 {
             .map(|place| place.harm)
     };
     match group.kind {
-        Kind::C | Kind::Ch => first.place.harm,
+        Kind::C | Kind::Ch if !first.candidate.group.has_vertical_mirrors() => first.place.harm,
         Kind::Cv | Kind::Dh => 0.0,
-        Kind::S | Kind::D | Kind::Dd => least().unwrap_or(0.0),
+        _ => least().unwrap_or(0.0),
     }
 }
 

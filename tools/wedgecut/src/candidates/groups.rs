@@ -99,6 +99,14 @@ impl Groups {
             .collect()
     }
 
+    /// The subgroups of an order, and its rotations by themselves where they are not among them.
+    pub fn all_at(&self, order: u32) -> Vec<Group> {
+        let rotations = Group::new(Kind::C, order);
+        let is_more = self.plain != rotations.kind && !rotations.is_trivial();
+        let rotations = is_more.then_some(rotations);
+        rotations.into_iter().chain(self.at(order)).collect()
+    }
+
     /// The same without a hub, or with one of the radius asked for, as they are tried where nothing is chosen: the
     /// most copies first.
     pub fn unchosen(&self, order: u32, hub: Hub) -> Vec<Candidate> {
