@@ -9,8 +9,14 @@ pub const PLACES: usize = 16;
 /// Angles for the first side of a wedge whose sides may be anywhere, radians, best first: the middle of the largest
 /// gap between the angles of the vertices modulo the wedge's `opening`, so that the sides cut edges cleanly
 /// between vertices, the smallest such angle when several gaps are equal; then the same about a
-/// part of the opening further on each.
-pub fn clear_angles(vertices: &[DVec3], opening: f64, axis_tolerance: f64) -> Vec<f64> {
+/// part of the opening further on each. `near` and `detail`, radians: within the first of a side, vertices are put on it; sides
+/// that pass them farther off, but by no more than the second, leave strips that are too narrow to be told apart.
+pub fn clear_angles(
+    vertices: &[DVec3],
+    opening: f64,
+    axis_tolerance: f64,
+    [near, detail]: [f64; 2],
+) -> Vec<f64> {
     // Angles that differ by less are equal, and so are gaps: rounding does not choose.
     let equal = f64::EPSILON.sqrt() * opening;
     let mut angles: Vec<f64> = vertices
@@ -38,7 +44,10 @@ pub fn clear_angles(vertices: &[DVec3], opening: f64, axis_tolerance: f64) -> Ve
         let around = best + part * k as f64;
         let off = |gap: (f64, f64)| (middle(gap) - around + 0.5 * opening).rem_euclid(opening);
         let is_near = |gap: &(f64, f64)| (off(*gap) - 0.5 * opening).abs() <= 0.5 * part;
-        let is_open = |gap: &(f64, f64)| gap.1 - gap.0 > equal;
+        let is_open = |gap: &(f64, f64)| {
+            let width = gap.1 - gap.0;
+            width > equal && !(2.0 * near < width && width <= 2.0 * detail)
+        };
         largest(&mut gaps().filter(is_open).filter(is_near)).map(middle)
     });
     std::iter::once(best).chain(others).collect()
@@ -56,10 +65,14 @@ mod tests {
         };
         let vertices = [at(0.0), at(10.0), at(90.0), at(100.0), at(200.0)];
         // Modulo 90: 0, 10, 0, 10, 20; the largest gap is 20 to 90.
-        let angles = clear_angles(&vertices, std::f64::consts::FRAC_PI_2, 1e-9);
+        let angles = clear_angles(&vertices, std::f64::consts::FRAC_PI_2, 1e-9, [0.0; 2]);
         assert!((angles[0].to_degrees() - 55.0).abs() < 1e-9, "{angles:?}");
         // Further on, one for each part with a gap: between 0 and 10, and between 10 and 20.
         let others: Vec<f64> = angles[1..].iter().map(|a| a.to_degrees().round()).collect();
         assert_eq!(others, [5.0, 15.0]);
+        let wide = clear_angles(&vertices, std::f64::consts::FRAC_PI_2, 1e-9, [0.05, 0.1]);
+        assert_eq!(wide, angles[..1]);
+        let on_sides = clear_angles(&vertices, std::f64::consts::FRAC_PI_2, 1e-9, [0.1, 0.1]);
+        assert_eq!(on_sides, angles);
     }
 }

@@ -193,7 +193,10 @@ impl Places {
         let opening = angle(group);
         let vertices = body.canonical();
         let slicing = slicing(body);
-        let clear = clear_angles(&vertices, opening, body.tolerance.on_plane());
+        let tolerance = &body.tolerance;
+        let seen =
+            [tolerance.on_plane(), tolerance.detail()].map(|d| d / tolerance.extent().radius);
+        let clear = clear_angles(&vertices, opening, tolerance.on_plane(), seen);
         let mut list: Vec<_> = clear.into_iter().map(|a| (a, slicing(a))).collect();
         // Stable: of places that differ by less than an element the clearest stays first.
         let class = |harm: Harm| (CostModel::CALIBRATED.sliced * harm.total()).round();
