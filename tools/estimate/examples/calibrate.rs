@@ -199,7 +199,8 @@ fn harm(body: &Document, wedge: &Document, volume: f64) -> f64 {
     let points = surface.vertices.iter();
     let points: Vec<_> = points.map(|&p| wedge.frame.to_canonical(p)).collect();
     let size = edge_of_volume(volume);
-    sliced::harm(&points, &surface.triangles, 0.0, 1e-6, |_| size).sliced
+    let size = |_: &_| size;
+    sliced::harm(&points, &surface.triangles, 0.0, 1e-6, (size, |_| true)).sliced
 }
 
 impl Sample {

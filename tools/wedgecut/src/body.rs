@@ -4,6 +4,7 @@ use crate::error::CutError;
 use crate::graph::Graph;
 use crate::params::{Params, Seam};
 use estimate::edge_of_volume;
+use geom::edges::Edges;
 use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use sizing::field::mean_volume;
@@ -95,6 +96,31 @@ impl<'a> Body<'a> {
             let caps = [t.front, t.back].into_iter().filter_map(cap);
             caps.fold(extent, f64::min)
         }
+    }
+
+    /// Whether each vertex stays where it is, as far as is known: where the surface will be remeshed, those on features do.
+    pub fn stay(&self) -> Vec<bool> {
+        let equal = self.tolerance.equal() / self.tolerance.extent().radius;
+        if self.document.deviation(equal) <= equal {
+            return vec![true; self.surface.vertices.len()];
+        }
+        let mut stay = vec![false; self.surface.vertices.len()];
+        let feature = libm::cos(self.document.wishes.feature_angle().to_radians());
+        let triangles = &self.surface.triangles;
+        let normal = |t: u32| {
+            let [a, b, c] = geom::measure::corners(&self.surface.vertices, &triangles[t as usize]);
+            geom::measure::double_area_vector(a, b, c).normalize_or_zero()
+        };
+        let corners: Vec<[u32; 3]> = triangles.iter().map(|t| t.vertices).collect();
+        let edges = Edges::new(&corners);
+        for e in 0..edges.len() {
+            let is_smooth = matches!(edges.around(e), [u, v]
+                if normal(u.triangle).dot(normal(v.triangle)) > feature);
+            if !is_smooth {
+                edges.ends[e].iter().for_each(|&v| stay[v as usize] = true);
+            }
+        }
+        stay
     }
 
     /// The points in the canonical frame.

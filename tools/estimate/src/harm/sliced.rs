@@ -34,7 +34,7 @@ pub fn harm(
     triangles: &[Triangle],
     angle: f64,
     tolerance: f64,
-    size: impl Fn(&Triangle) -> f64,
+    (size, stays): (impl Fn(&Triangle) -> f64, impl Fn(u32) -> bool),
 ) -> Harm {
     let (sin, cos) = (libm::sin(angle), libm::cos(angle));
     let normal = DVec3::new(-sin, cos, 0.0);
@@ -43,18 +43,21 @@ pub fn harm(
         heights: vertices.iter().map(|p| p.dot(normal)).collect(),
         normal: |p: DVec3| (p.dot(outward) > 0.0).then_some(normal),
         tolerance,
+        stays,
     };
     harm_of(vertices, triangles, cut, size)
 }
 
 /// A surface that cuts a body.
-pub struct Surface<N> {
+pub struct Surface<N, S> {
     /// How far each vertex is from it, model units, of either sign.
     pub heights: Vec<f64>,
     /// Its unit normal near a point; `None` where it does not reach.
     pub normal: N,
     /// Points within this are in it, and what is shorter will be collapsed, model units.
     pub tolerance: f64,
+    /// Whether a vertex stays where it is: what the surface passes closely costs nothing where triangles are made anew.
+    pub stays: S,
 }
 
 /// The harm of a surface. Sliced: the sum, over
@@ -65,7 +68,7 @@ pub struct Surface<N> {
 pub fn harm_of(
     vertices: &[DVec3],
     triangles: &[Triangle],
-    cut: Surface<impl Fn(DVec3) -> Option<DVec3>>,
+    cut: Surface<impl Fn(DVec3) -> Option<DVec3>, impl Fn(u32) -> bool>,
     size: impl Fn(&Triangle) -> f64,
 ) -> Harm {
     let tolerance = cut.tolerance;
@@ -107,18 +110,24 @@ pub fn harm_of(
             .map(|i| corners[i].distance(corners[(i + 1) % 3]))
             .fold(size, f64::min);
         let shorter = |than: f64| libm::log((side / than).max(1.0));
-        harm.sliced += (length / size).max(1.0) * (1.0 / sine - 1.0) + shorter(length);
+        harm.sliced += (length / size).max(1.0) * (1.0 / sine - 1.0);
         // One corner is alone on its side of the plane.
         let alone = (0..3).find(|&i| {
             let is_below = |k: usize| height[k] < 0.0;
             is_below(i) != is_below((i + 1) % 3) && is_below(i) != is_below((i + 2) % 3)
         });
+        let stays = |i: usize| (cut.stays)(triangle.vertices[i]);
+        if alone.is_none_or(stays) {
+            harm.sliced += shorter(length);
+        }
         let Some(i) = alone else { continue };
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        harm.near += shorter(height[i].abs());
+        if stays(i) {
+            harm.near += shorter(height[i].abs());
+        }
         // A side in the plane leaves no strip.
         let strip = height[j].abs().max(height[k].abs());
-        if strip > 0.0 && strip < size {
+        if strip > 0.0 && strip < size && stays(j) && stays(k) {
             harm.near += NEEDLE * (corners[j].distance(corners[k]) / strip - 1.0).max(0.0);
         }
     }
@@ -145,7 +154,7 @@ mod tests {
             front: tmesh::OUTSIDE,
             back: 1,
         };
-        move |angle| harm(&vertices, &[triangle], angle, 1e-9, |_| 0.4).total()
+        move |angle| harm(&vertices, &[triangle], angle, 1e-9, (|_| 0.4, |_| true)).total()
     }
 
     #[test]

@@ -238,7 +238,8 @@ impl Places {
             return None;
         }
         let vertices = body.canonical();
-        let harm_of = |graph: &Graph| harm_of_graph(body, &vertices, graph);
+        let stay = body.stay();
+        let harm_of = |graph: &Graph| harm_of_graph(body, (&vertices, &stay), graph);
         // The first of those that differ by less than an element, which of the graphs has the fewest knots.
         let least = |graphs: &mut dyn Iterator<Item = Graph>| {
             let all = graphs.map(|graph| (harm_of(&graph), graph));
@@ -280,16 +281,27 @@ fn slicing(body: &Body<'_>) -> impl Fn(f64) -> Harm {
     let vertices = body.canonical();
     let size = body.element_size();
     let plane = body.tolerance.on_plane().max(body.tolerance.detail());
-    move |angle| sliced::harm(&vertices, &body.surface.triangles, angle, plane, &size)
+    let stay = body.stay();
+    move |angle| {
+        let stays = |v: u32| stay[v as usize];
+        sliced::harm(
+            &vertices,
+            &body.surface.triangles,
+            angle,
+            plane,
+            (&size, stays),
+        )
+    }
 }
 
 /// The harm of a graph.
-fn harm_of_graph(body: &Body<'_>, vertices: &[DVec3], graph: &Graph) -> Harm {
+fn harm_of_graph(body: &Body<'_>, (vertices, stay): (&[DVec3], &[bool]), graph: &Graph) -> Harm {
     let step = f64::EPSILON.cbrt() * body.tolerance.extent().size();
     let cut = sliced::Surface {
         heights: vertices.iter().map(|p| graph.straighten(*p).y).collect(),
         normal: |p: DVec3| graph.normal(p, step),
         tolerance: body.tolerance.on_plane().max(body.tolerance.detail()),
+        stays: |v: u32| stay[v as usize],
     };
     sliced::harm_of(vertices, &body.surface.triangles, cut, body.element_size())
 }
