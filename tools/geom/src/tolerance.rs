@@ -17,6 +17,13 @@ use glam::DVec3;
 /// details of 1e-4 themselves.
 pub const ROUNDING: f64 = 1e-10;
 
+/// The promise of assembled meshes: coordinates agree to this share of the size, which is the diagonal of the bounding
+/// box. A vertex has to fall on its image to this; vertices nearer than this coincide; the frame of a
+/// promise has to be a rotation to this, and a radius is known to this. Copies of a vertex that were not
+/// welded are some 1e-16 of the size apart, and edges as short as this would have no direction left to
+/// compute with.
+pub const PROMISE: f64 = 1e-12;
+
 /// Multiple of a coordinate's precision within which values count as equal. Two points, each off by up to `sqrt(3)`
 /// times the precision through its three coordinates, and by as much again through the axis' place and once more
 /// through its direction: 10.4, rounded up to a power of two.

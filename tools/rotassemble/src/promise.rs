@@ -1,6 +1,6 @@
 //! The symmetry that a mesh has by the way it is made of instances.
 
-use geom::tolerance::ROUNDING;
+use geom::tolerance::PROMISE;
 use std::collections::BTreeSet;
 use tmesh::{Document, Group, Isometry, Outside, Promise, Template};
 
@@ -83,7 +83,7 @@ fn outside(document: &Document, places: &[Places]) -> Option<Outside> {
     (radius < reach[farthest]).then_some(Outside { group, radius })
 }
 
-/// A radius in six digits, not below `x` but by what computing may have lost of it: short enough for titles, and what holds
+/// A radius in six digits, not below `x` but by half of what promises are held to: short enough for titles, and what holds
 /// outside of `x` holds outside of more. Vertices so near to the radius count as within it whoever checks.
 fn rounded_up(x: f64) -> f64 {
     let nearest = format!("{x:.5e}");
@@ -95,7 +95,7 @@ fn rounded_up(x: f64) -> f64 {
     };
     let value = |digits: u32| format!("{digits}e{}", exponent - 5).parse().unwrap_or(x);
     let below = value(digits);
-    if below >= x * (1.0 - ROUNDING) {
+    if below >= x * (1.0 - 0.5 * PROMISE) {
         below
     } else {
         value(digits + 1)
@@ -184,6 +184,7 @@ mod tests {
             (0.0, 0.0),
             (0.119_999_999_999_999_94, 0.12),
             (0.120_000_000_000_000_01, 0.12),
+            (0.88 * (1.0 + 5e-12), 0.880_001),
             (0.123_456_01, 0.123_457),
             (9.999_991e20, 1e21),
             (3.7e-310, 3.7e-310),

@@ -19,11 +19,18 @@ pub struct Harm {
     pub sliced: f64,
     /// By what it passes closely, in the same unit, less certain; good enough to choose among places.
     pub near: f64,
+    /// The same, of what may be made anew.
+    pub crumbs: f64,
 }
 
 impl Harm {
-    /// Both together.
+    /// All together.
     pub fn total(self) -> f64 {
+        self.kept() + self.crumbs
+    }
+
+    /// Without what may be made anew.
+    pub fn kept(self) -> f64 {
         self.sliced + self.near
     }
 }
@@ -56,7 +63,7 @@ pub struct Surface<N, S> {
     pub normal: N,
     /// Points within this are in it, and what is shorter will be collapsed, model units.
     pub tolerance: f64,
-    /// Whether a vertex stays where it is: what the surface passes closely costs nothing where triangles are made anew.
+    /// Whether a vertex stays where it is, or what is around it may be made anew.
     pub stays: S,
 }
 
@@ -110,25 +117,27 @@ pub fn harm_of(
             .map(|i| corners[i].distance(corners[(i + 1) % 3]))
             .fold(size, f64::min);
         let shorter = |than: f64| libm::log((side / than).max(1.0));
-        harm.sliced += (length / size).max(1.0) * (1.0 / sine - 1.0);
+        harm.sliced += (length / size).max(1.0) * (1.0 / sine - 1.0) + shorter(length);
         // One corner is alone on its side of the plane.
         let alone = (0..3).find(|&i| {
             let is_below = |k: usize| height[k] < 0.0;
             is_below(i) != is_below((i + 1) % 3) && is_below(i) != is_below((i + 2) % 3)
         });
-        let stays = |i: usize| (cut.stays)(triangle.vertices[i]);
-        if alone.is_none_or(stays) {
-            harm.sliced += shorter(length);
-        }
         let Some(i) = alone else { continue };
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        if stays(i) {
-            harm.near += shorter(height[i].abs());
-        }
+        let mut add = |vertices: &[usize], near: f64| {
+            let mut stay = vertices.iter().map(|&i| (cut.stays)(triangle.vertices[i]));
+            match stay.all(|stays| stays) {
+                true => harm.near += near,
+                false => harm.crumbs += near,
+            }
+        };
+        add(&[i], shorter(height[i].abs()));
         // A side in the plane leaves no strip.
         let strip = height[j].abs().max(height[k].abs());
-        if strip > 0.0 && strip < size && stays(j) && stays(k) {
-            harm.near += NEEDLE * (corners[j].distance(corners[k]) / strip - 1.0).max(0.0);
+        if strip > 0.0 && strip < size {
+            let needles = corners[j].distance(corners[k]) / strip - 1.0;
+            add(&[j, k], NEEDLE * needles.max(0.0));
         }
     }
     harm

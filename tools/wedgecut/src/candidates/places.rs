@@ -199,7 +199,7 @@ impl Places {
         let clear = clear_angles(&vertices, opening, tolerance.on_plane(), seen);
         let mut list: Vec<_> = clear.into_iter().map(|a| (a, slicing(a))).collect();
         // Stable: of places that differ by less than an element the clearest stays first.
-        let class = |harm: Harm| (CostModel::CALIBRATED.sliced * harm.total()).round();
+        let class = |harm: Harm| (CostModel::CALIBRATED.sliced * harm.kept()).round();
         list.sort_by(|a, b| class(a.1).total_cmp(&class(b.1)));
         let mut warning = None;
         if let Some(angle) = body.params.start_angle {
@@ -233,7 +233,7 @@ impl Places {
 
     /// The seam between the blades, where it harms less than a plane does.
     fn between(body: &Body<'_>, opening: f64, plane: Harm) -> Option<Place> {
-        let elements = |harm: Harm| (CostModel::CALIBRATED.sliced * harm.total()).round();
+        let elements = |harm: Harm| (CostModel::CALIBRATED.sliced * harm.kept()).round();
         if elements(plane) == 0.0 {
             return None;
         }
@@ -312,7 +312,7 @@ fn harm_of_graph(body: &Body<'_>, (vertices, stay): (&[DVec3], &[bool]), graph: 
 /// # Errors
 /// The same of a place that makes the mesh useless.
 fn is_harmful(angle: f64, harm: Harm, best: (f64, Harm)) -> Result<Option<String>, CutError> {
-    let (given, least) = (harm.total(), best.1.total());
+    let (given, least) = (harm.kept(), best.1.kept());
     if given <= least + HARMFUL {
         return Ok(None);
     }
