@@ -721,6 +721,19 @@ fn antiprisms_and_rotary_reflections_get_all_copies() {
 }
 
 #[test]
+fn half_turns_that_cost_twice_the_elements_are_left_out() {
+    let params = Params {
+        hub: crate::Hub::Auto,
+        ..DEFAULT
+    };
+    let body = antiprism(Kind::Dd, 4, &[[1.0, 0.0]], Some(4));
+    let (wedge, _) = crate::cut(body, &params).unwrap();
+    // Between mirror planes alone there are as few elements as in the whole; the half turns' plane cuts corners off large
+    // faces.
+    assert_eq!(wedge.instances.len(), 8);
+}
+
+#[test]
 fn a_start_angle_that_no_half_turn_has_gives_a_seam() {
     let mut body = Body::regular(4, &[1.0]);
     body.heights = vec![0.0; 9];
