@@ -108,7 +108,7 @@ impl<'a> Body<'a> {
         let feature = libm::cos(self.document.wishes.feature_angle().to_radians());
         let triangles = &self.surface.triangles;
         let normal = |t: u32| {
-            let [a, b, c] = geom::measure::corners(&self.surface.vertices, &triangles[t as usize]);
+            let [a, b, c] = geom::measure::corners(&self.surface.vertices, triangles[t as usize]);
             geom::measure::double_area_vector(a, b, c).normalize_or_zero()
         };
         let corners: Vec<[u32; 3]> = triangles.iter().map(|t| t.vertices).collect();

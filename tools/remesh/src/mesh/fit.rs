@@ -103,13 +103,19 @@ impl Mesh<'_> {
         }
     }
 
-    /// Whether a new triangle has area, faces as the shape does, and is not there already.
+    /// Whether a triangle of a patch lies in a wall that the patch is no part of. Copies of the body would touch there.
+    fn lies_in_wall(&self, corners: [u32; 3], patch: u32) -> bool {
+        let [a, b, c] = corners.map(|v| self.bound[v as usize]);
+        a & b & c & !self.planes_of[patch as usize] != 0 || self.images.lies_in_face(corners, patch)
+    }
+
+    /// Whether a new triangle has area, faces as the shape does, is in no wall and not there already.
     fn is_sound(&self, change: &Change, corners: [u32; 3], patch: u32) -> bool {
         let [a, b, c] = corners.map(|v| self.points[v as usize]);
         let vector = double_area_vector(a, b, c);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         let area = vector.length();
-        if area <= self.rules.flat * longest {
+        if area <= self.rules.flat * longest || self.lies_in_wall(corners, patch) {
             return false;
         }
         let upright = match &self.planes[patch as usize] {

@@ -45,6 +45,16 @@ impl Images {
         self.maps.iter().any(|map| map[0].get(&v) == Some(&v))
     }
 
+    /// Whether a triangle of a patch lies in a face of a link that the patch is no part of.
+    pub fn lies_in_face(&self, corners: [u32; 3], patch: u32) -> bool {
+        let links = self.maps.iter().enumerate();
+        let mut others = links.filter(|(i, _)| self.faces[patch as usize] & 1 << i == 0);
+        others.any(|(_, map)| {
+            map.iter()
+                .any(|side| corners.iter().all(|v| side.contains_key(v)))
+        })
+    }
+
     /// Notes that a vertex of a link has an image.
     pub fn add(&mut self, link: usize, [v, image]: [u32; 2]) {
         self.maps[link][0].insert(v, image);
@@ -63,5 +73,25 @@ impl Images {
         for map in self.maps.iter_mut().flatten() {
             map.remove(&v);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_of_other_patches_may_not_lie_in_a_linked_face() {
+        let mut images = Images {
+            maps: vec![Default::default()],
+            faces: vec![0, 1],
+        };
+        for v in 0..3 {
+            images.add(0, [v, v + 3]);
+        }
+        assert!(images.lies_in_face([0, 1, 2], 0) && images.lies_in_face([5, 3, 4], 0));
+        // The face itself, and triangles that reach out of it.
+        assert!(!images.lies_in_face([0, 1, 2], 1));
+        assert!(!images.lies_in_face([0, 1, 6], 0) && !images.lies_in_face([0, 1, 3], 0));
     }
 }

@@ -55,6 +55,8 @@ pub struct Mesh<'a> {
     around: Vec<Vec<u32>>,
     /// Of each patch, whether it is the largest of its label, and stays so that the label does.
     pub keeps: Vec<bool>,
+    /// The planes and lines that all of each patch is on.
+    pub planes_of: Vec<u32>,
     /// Whether features may be joined that are detail.
     pub joins: bool,
     /// How often that was done.
@@ -104,6 +106,7 @@ impl<'a> Mesh<'a> {
             patch: patches.of.clone(),
             around,
             keeps: largest(surface, patches),
+            planes_of: planes_of(surface, rules.bound, patches),
             joins: false,
             joined: 0,
             loose: vec![false; curves.count],
@@ -269,6 +272,17 @@ impl<'a> Mesh<'a> {
         self.width.pop();
         self.around.pop();
     }
+}
+
+/// Of each patch, the planes and lines that all of its vertices are on.
+fn planes_of(surface: &Surface, bound: &[u32], patches: &Patches) -> Vec<u32> {
+    let mut planes = vec![u32::MAX; patches.planes.len()];
+    for (corners, &patch) in surface.triangles.iter().zip(&patches.of) {
+        for &v in corners {
+            planes[patch as usize] &= bound[v as usize];
+        }
+    }
+    planes
 }
 
 /// Of each patch, whether it has the most triangles of those of its label.
