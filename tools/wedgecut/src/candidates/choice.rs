@@ -80,7 +80,8 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     };
     let mut ranking = ranked(orders.iter().flat_map(|&n| kinds_of(n)).collect())?;
     // Where planes that nobody asked for cost much, fewer of them may do better, if the larger wedges take no longer.
-    if !ranking.is_accepted && body.params.domain == Domain::Auto {
+    let is_free = body.params.domain == Domain::Auto && body.params.order.is_none();
+    if !ranking.is_accepted && is_free {
         let usual = ranking.ways[0];
         let other = ranked(orders.iter().flat_map(|&n| groups.all_at(n)).collect())?;
         let way = other.ways[0];
