@@ -19,7 +19,7 @@ pub struct Harm {
     pub sliced: f64,
     /// By what it passes closely, in the same unit, less certain; good enough to choose among places.
     pub near: f64,
-    /// The same, of what may be made anew.
+    /// The same by what does not stay, between features of a surface that is remeshed: that may be made anew.
     pub crumbs: f64,
 }
 
@@ -35,7 +35,8 @@ impl Harm {
     }
 }
 
-/// The harm of the half plane at `angle` (radians) that begins at the axis, which is z; see [`harm_of`].
+/// The harm of the half plane at `angle` (radians) that begins at the axis, which is z, with the size of elements and whether
+/// vertices stay; see [`harm_of`].
 pub fn harm(
     vertices: &[DVec3],
     triangles: &[Triangle],
@@ -63,14 +64,15 @@ pub struct Surface<N, S> {
     pub normal: N,
     /// Points within this are in it, and what is shorter will be collapsed, model units.
     pub tolerance: f64,
-    /// Whether a vertex stays where it is, or what is around it may be made anew.
+    /// Whether a vertex stays where it is; triangles at others may be made anew.
     pub stays: S,
 }
 
 /// The harm of a surface. Sliced: the sum, over
 /// the segments in which it meets the triangles, of how far the inverse sine of the angle between them is
 /// above one, times the segment's length in elements, and of the logarithm of how much shorter than
-/// element and triangle the segment is. Near: the same for corners and sides of triangles beside the surface.
+/// element and triangle the segment is. Near, or crumbs where a vertex does not stay: the same for corners and sides of
+/// triangles beside the surface.
 /// `size` is that of elements beside a triangle, model units.
 pub fn harm_of(
     vertices: &[DVec3],
