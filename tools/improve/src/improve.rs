@@ -60,7 +60,7 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         .map(|(&r, &v)| (r, v * cube))
         .collect();
     let mut work = Work {
-        mesh: Mesh::new(template, wish.scale, goal.lenient(), &limits),
+        mesh: Mesh::of_template(template, wish.scale, goal.lenient(), &limits),
         freedoms,
         wish,
         tried: Tried::default(),

@@ -7,6 +7,7 @@
 //! triangulation of the surface stay.
 
 mod ahead;
+mod coarsen;
 mod flip;
 mod freedom;
 mod improve;
@@ -19,5 +20,6 @@ mod stars;
 #[cfg(test)]
 mod tests;
 
+pub use coarsen::{Coarse, Face, coarsen};
 pub use freedom::{Flats, Freedoms};
 pub use improve::{Improved, Wish, improve};

@@ -25,26 +25,18 @@ pub struct Mesh<'a> {
 }
 
 impl<'a> Mesh<'a> {
-    /// Takes over the tetrahedra of a template. Linear.
+    /// Takes over tetrahedra between positions. Linear.
     pub fn new(
-        template: &Template,
-        scale: f64,
+        positions: Vec<DVec3>,
+        tets: Vec<Tet>,
         goal: Goal,
         limits: &'a FxHashMap<u32, f64>,
     ) -> Self {
-        let positions: Vec<DVec3> = template.vertices.iter().map(|&p| p * scale).collect();
-        let tets = template.tets.clone();
         let grade = |t: &Tet| goal.grade(t.vertices.map(|v| positions[v as usize]));
         let (grades, stars) = rayon::join(
             || tets.iter().map(grade).collect(),
             || Stars::new(positions.len(), &tets),
         );
-        let inner = template.triangles.iter().filter(|t| t.front == t.back);
-        let fixed_faces: FxHashSet<_> = inner.map(|t: &Triangle| sorted(t.vertices)).collect();
-        let fixed_edges = fixed_faces
-            .iter()
-            .flat_map(|&[a, b, c]| [[a, b], [a, c], [b, c]])
-            .collect();
         Self {
             positions,
             limits,
@@ -52,9 +44,27 @@ impl<'a> Mesh<'a> {
             tets,
             grades,
             stars,
-            fixed_faces,
-            fixed_edges,
+            fixed_faces: FxHashSet::default(),
+            fixed_edges: FxHashSet::default(),
         }
+    }
+
+    /// Takes over the tetrahedra of a template, and keeps its surface inside of regions. Linear.
+    pub fn of_template(
+        template: &Template,
+        scale: f64,
+        goal: Goal,
+        limits: &'a FxHashMap<u32, f64>,
+    ) -> Self {
+        let positions = template.vertices.iter().map(|&p| p * scale).collect();
+        let mut mesh = Self::new(positions, template.tets.clone(), goal, limits);
+        let inner = template.triangles.iter().filter(|t| t.front == t.back);
+        mesh.fixed_faces = inner.map(|t: &Triangle| sorted(t.vertices)).collect();
+        let fixed = mesh.fixed_faces.iter();
+        mesh.fixed_edges = fixed
+            .flat_map(|&[a, b, c]| [[a, b], [a, c], [b, c]])
+            .collect();
+        mesh
     }
 
     /// Grades bad tetrahedra by another goal, which grades good ones alike.

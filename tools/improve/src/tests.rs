@@ -62,7 +62,7 @@ fn long_edges_are_removed() {
     for n in [3, 4, 5, 6, 7] {
         let template = ring(n, 4.0);
         let before = volume(&template, &template.tets);
-        let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+        let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
         let worst = mesh.grade(0).quality;
         assert!(worst < 1.0);
         let removed = flip(&mut mesh, 0);
@@ -72,13 +72,13 @@ fn long_edges_are_removed() {
         assert!(tets.iter().all(|t| t.region == 7));
         assert!((volume(&template, &tets) - before).abs() < 1e-12);
         let again = Template { tets, ..template };
-        let mesh = Mesh::new(&again, 1.0, goal, &limits);
+        let mesh = Mesh::of_template(&again, 1.0, goal, &limits);
         let grades = (0..mesh.len() as u32).map(|t| mesh.grade(t).quality);
         assert!(grades.fold(f64::INFINITY, f64::min) > worst);
     }
     // Nothing that could take its place is better.
     let flat = ring(6, 0.6);
-    let mut mesh = Mesh::new(&flat, 1.0, goal, &limits);
+    let mut mesh = Mesh::of_template(&flat, 1.0, goal, &limits);
     assert!(!flip(&mut mesh, 0));
     assert_eq!(mesh.into_tets(), flat.tets);
 }
@@ -97,20 +97,20 @@ fn faces_of_the_surface_and_sizes_are_respected() {
             back: 7,
         });
     }
-    let mut mesh = Mesh::new(&template, 1.0, goal, &none);
+    let mut mesh = Mesh::of_template(&template, 1.0, goal, &none);
     assert!(!flip(&mut mesh, 0));
     template.triangles.clear();
     // Another region beyond.
     template.tets[2].region = 8;
-    let mut mesh = Mesh::new(&template, 1.0, goal, &none);
+    let mut mesh = Mesh::of_template(&template, 1.0, goal, &none);
     assert!(!flip(&mut mesh, 0));
     // Two that are larger than the three before.
     let template = ring(3, 4.0);
     let limits = FxHashMap::from_iter([(7, 1.0)]);
-    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
     assert!(!flip(&mut mesh, 0));
     let limits = FxHashMap::from_iter([(7, 12.0), (8, 1.0)]);
-    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
     assert!(flip(&mut mesh, 0));
 }
 
@@ -182,7 +182,7 @@ fn inner_vertices_go_to_the_middle() {
     let kinds: Vec<_> = (0..7).map(|v| freedoms.of(v)).collect();
     assert_eq!(kinds[0], Freedom::Free);
     assert!(kinds[1..].iter().all(|&k| k == Freedom::Fixed));
-    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
     let least = |mesh: &Mesh<'_>| {
         (0..8)
             .map(|t| mesh.grade(t).quality)
@@ -206,7 +206,7 @@ fn a_vertex_next_to_another_one_goes_to_the_middle() {
         let template = octahedron(DVec3::X * (1.0 - distance));
         let (of_triangle, normals) = facets(&template);
         let freedoms = freedoms(&template, &of_triangle, &normals);
-        let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+        let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
         assert!(smooth(&mut mesh, &freedoms, 0), "{distance}");
         assert!(mesh.positions[0].length() < 0.3, "{}", mesh.positions[0]);
     }
@@ -220,7 +220,7 @@ fn new_vertices_come_where_nothing_else_helps() {
     let template = ring(4, 2.0);
     let before = volume(&template, &template.tets);
     let freedoms = freedoms(&template, &[], &[]);
-    let mut mesh = Mesh::new(&template, 1.0, goal, &limits);
+    let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
     let worst = mesh.grade(0).quality;
     assert!(worst < 1.0);
     let found = insert::find(&mesh, &freedoms, 0).expect("a place");
@@ -247,7 +247,7 @@ fn new_vertices_come_where_nothing_else_helps() {
     let mut regions = template;
     regions.tets[2..].iter_mut().for_each(|t| t.region = 8);
     for (other, most) in [(divided, 2), (regions, 2)] {
-        let mesh = Mesh::new(&other, 1.0, goal, &limits);
+        let mesh = Mesh::of_template(&other, 1.0, goal, &limits);
         for tet in 0..4 {
             let found = insert::find(&mesh, &freedoms, tet);
             assert!(found.is_none_or(|f| f.replaces_at_most(most)), "{tet}");

@@ -40,6 +40,13 @@ impl Params {
             switches: String::new(),
         }
     }
+
+    /// The smallest dihedral angle that improvement is to reach, degrees: what remains of a straight angle, halved, and the one asked
+    /// for at least. `None` where elements stay as the mesher makes them.
+    pub fn angle(&self) -> Option<f64> {
+        let largest = self.optimize.filter(|_| self.quality)?;
+        Some((0.5 * (180.0 - largest)).max(self.min_dihedral))
+    }
 }
 
 impl Default for Params {

@@ -7,6 +7,7 @@
 
 mod apart;
 mod cli;
+mod coarse;
 mod error;
 mod memory;
 mod prepare;
@@ -17,6 +18,7 @@ mod surface;
 
 pub use apart::apart;
 pub use cli::Cli;
+pub use coarse::{Left, coarsened};
 pub use error::{SurfaceError, failure};
 pub use memory::MemoryArgs;
 pub use prepare::{Report, note_moved, prepare, settle_faces};

@@ -62,8 +62,7 @@ pub fn template<B: Send>(
     climb: &Climb<'_>,
     beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
 ) -> Result<(Done, Option<B>), Error> {
-    let improves = climb.params.quality && climb.params.optimize.is_some();
-    let asks = match improves {
+    let asks = match climb.params.angle().is_some() {
         true => Asks::Eased(EASING),
         false => Asks::AsWished,
     };
@@ -82,7 +81,7 @@ fn done<B: Send>(
             .log
             .detail(&format!("template {}: {text}", climb.piece.index))
     };
-    let (mut filled, origin) = fill(climb.piece, &answer)?;
+    let (mut filled, origin) = fill(climb, &answer)?;
     climb.log.progress(&Progress {
         template: climb.piece.index,
         step: "improving elements",
@@ -108,6 +107,12 @@ fn done<B: Send>(
         say(&format!(
             "{} tetrahedra to be improved, {} remain; {} vertices moved, {} added, {} edges and faces replaced",
             done.bad, done.left, done.moved, done.inserted, done.flipped,
+        ));
+    }
+    if filled.removed > 0 {
+        say(&format!(
+            "{} vertices of the mesher's were taken out that the elements do not need",
+            filled.removed
         ));
     }
     say(&format!(

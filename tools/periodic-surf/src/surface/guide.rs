@@ -1,7 +1,8 @@
 //! The guide: the surface of a template after TetGen refined it freely, walls included.
 
+use crate::coarse::{Left, coarsened};
 use glam::DVec3;
-use mesher::{Answer, Asks, Cells, Climb, EASING, Error, Facets, Place, label, settled};
+use mesher::{Answer, Asks, Climb, EASING, Error, Facets, Place, label, settled};
 use std::convert::Infallible;
 
 /// A refined surface.
@@ -53,13 +54,14 @@ fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
     if !answer.keeps_points() {
         return Err(unusable("input points were moved or left out".to_owned()));
     }
+    let cells = label(&answer.plc, &*answer.mesh).map_err(|c| {
+        let place = Place(answer.plc.to_model(c.place));
+        unusable(format!("there are {} near {place}", c.what))
+    })?;
+    let Left { surface, .. } = coarsened(climb, &answer, cells);
     let Answer {
         plc, mesh, advice, ..
     } = answer;
-    let Cells { surface, .. } = label(&plc, &*mesh).map_err(|c| {
-        let place = Place(plc.to_model(c.place));
-        unusable(format!("there are {} near {place}", c.what))
-    })?;
     let template = climb.piece.template;
     let mut refined = Refined {
         vertices: mesh

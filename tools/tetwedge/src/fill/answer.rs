@@ -4,7 +4,8 @@ use super::filled::{Filled, NONE};
 use super::preserved::restore_preserved;
 use super::walls::{on_shifted_facets, restore_walls};
 use glam::DVec3;
-use mesher::{Answer, Cells, Elements, Error, Piece, Place, Plc, Surface, face_key, label};
+use mesher::{Answer, Climb, Elements, Error, Piece, Place, Plc, Surface, face_key, label};
+use periodic_surf::{Left, coarsened};
 use tmesh::{OUTSIDE, Template, Tet, Triangle};
 
 /// What is known of a filled template that is not finished.
@@ -22,13 +23,13 @@ pub struct Origin {
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
-pub fn fill(piece: Piece<'_>, answer: &Answer) -> Result<(Filled, Origin), Error> {
+pub fn fill(climb: &Climb<'_>, answer: &Answer) -> Result<(Filled, Origin), Error> {
     let (plc, mesh) = (&answer.plc, &*answer.mesh);
     let Piece {
         index,
         template: input,
         ..
-    } = piece;
+    } = climb.piece;
     let unusable = |what: String| Error::Unusable {
         template: index,
         what,
@@ -39,12 +40,20 @@ pub fn fill(piece: Piece<'_>, answer: &Answer) -> Result<(Filled, Origin), Error
     if !answer.keeps_points() {
         return Err(unusable("input points were moved or left out".to_owned()));
     }
-    let Cells { region, surface } = label(plc, mesh).map_err(|c| {
+    let cells = label(plc, mesh).map_err(|c| {
         let place = Place(plc.to_model(c.place));
         unusable(format!("there are {} near {place}", c.what))
     })?;
 
-    let numbering = Numbering::new(mesh, &region, &surface, &plc.vertex_of_point);
+    let in_voids = cells.region.iter().filter(|&&r| r == OUTSIDE);
+    let dropped = in_voids.count();
+    let Left {
+        mut tets,
+        surface,
+        removed,
+    } = coarsened(climb, answer, cells);
+
+    let numbering = Numbering::new(mesh, &tets, &surface, &plc.vertex_of_point);
     let renumber = |v: u32| numbering.new_id[v as usize];
     let triangles: Vec<Triangle> = surface
         .iter()
@@ -58,17 +67,9 @@ pub fn fill(piece: Piece<'_>, answer: &Answer) -> Result<(Filled, Origin), Error
         .iter()
         .map(|&f| plc.facets.facets[f].attributes.face)
         .collect();
-    let tets: Vec<Tet> = mesh
-        .tetrahedra()
-        .iter()
-        .zip(&region)
-        .filter(|&(_, &region)| region != tmesh::OUTSIDE)
-        .map(|(t, &region)| Tet {
-            vertices: t.map(|v| renumber(v as u32)),
-            region,
-        })
-        .collect();
-    let dropped = mesh.tetrahedra().len() - tets.len();
+    for t in &mut tets {
+        t.vertices = t.vertices.map(renumber);
+    }
     let mut filled = Filled {
         template: Template {
             vertices: numbering.positions(input, answer),
@@ -85,6 +86,7 @@ pub fn fill(piece: Piece<'_>, answer: &Answer) -> Result<(Filled, Origin), Error
             all.filter(|&t| faces[t as usize] >= others).collect()
         },
         dropped,
+        removed,
         improved: None,
     };
     // Old vertices come first, in their order.
@@ -139,15 +141,13 @@ struct Numbering {
 impl Numbering {
     fn new(
         mesh: &dyn Elements,
-        region: &[u32],
+        tets: &[Tet],
         surface: &[Surface],
         vertex_of_point: &[u32],
     ) -> Self {
         let mut new_id = vec![NONE; mesh.points().len()];
-        for (t, &region) in mesh.tetrahedra().iter().zip(region) {
-            if region != OUTSIDE {
-                t.iter().for_each(|&v| new_id[v as usize] = 0);
-            }
+        for t in tets {
+            t.vertices.iter().for_each(|&v| new_id[v as usize] = 0);
         }
         for s in surface {
             s.triangle

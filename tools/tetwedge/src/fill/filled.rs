@@ -19,6 +19,8 @@ pub struct Filled {
     pub shared: Vec<u32>,
     /// Tetrahedra in cells that are to be empty, left out.
     pub dropped: usize,
+    /// Vertices of the mesher's that the elements do not need, taken out.
+    pub removed: usize,
     /// What was improved, unless elements are to stay as the mesher left them.
     pub improved: Option<Improved>,
 }
@@ -37,6 +39,7 @@ impl Filled {
             triangles: Vec::new(),
             shared: self.shared.clone(),
             dropped: 0,
+            removed: 0,
             improved: None,
         }
     }

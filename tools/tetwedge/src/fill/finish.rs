@@ -40,8 +40,7 @@ pub fn finish(
     measures(climb.piece.template, plc, &origin.faces, template).map_err(unusable)
 }
 
-/// Improves the tetrahedra, as far as elements are to be optimized: the smallest angle to reach is what
-/// remains of a straight angle, halved, and the one asked for at least.
+/// Improves the tetrahedra, as far as elements are to be optimized.
 fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -> Option<Improved> {
     let Climb {
         piece,
@@ -49,7 +48,8 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
         sizes,
         ..
     } = *climb;
-    let largest = params.optimize.filter(|_| params.quality)?;
+    // The mesher was asked for less.
+    let angle = params.angle()?;
     let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
     let uneven = plc.relief.uneven().iter();
     let slopes: Vec<f64> = uneven
@@ -73,8 +73,7 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
     );
     let regions = piece.document.regions.iter().zip(&sizes.of_region);
     let wish = Wish {
-        // The mesher was asked for less than `min_dihedral`.
-        angle: (0.5 * (180.0 - largest)).max(params.min_dihedral),
+        angle,
         radius_edge: params.radius_edge,
         min_dihedral: params.min_dihedral,
         max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),
