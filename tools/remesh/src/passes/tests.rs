@@ -1,5 +1,8 @@
 //! Surfaces that are remeshed, without any document.
 
+use super::split::split;
+use crate::mesh::Mesh;
+use crate::shape::{Allowance, Curves, Envelope, Patches};
 use crate::{Link, Remeshed, Rules, Sizes, Surface, remesh};
 use geom::contacts::contacts;
 use geom::measure::volume_of_region;
@@ -357,7 +360,6 @@ fn lens(width: f64) -> Surface {
     }
     let mut quad = |[a, b, c, d]: [u32; 4]| surface.triangles.extend([[a, b, c], [a, c, d]]);
     for i in 0..across {
-        let of = |sides: [u32; 4]| sides.map(|side| 4 * i + side);
         for sides in [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3]] {
             quad(sides.map(|side: u32| 4 * i + side));
         }
@@ -393,4 +395,56 @@ fn strips_between_sides_of_a_blade_go_where_they_are_detail() {
     // Within less than the strips are wide, they stay.
     let made = done(&lens, 1e-3, &held);
     assert!(made.is_none_or(|made| made.told.joined == 0));
+}
+
+/// A step between two wide facets, much lower than wide, that faces neither way that they do: halves of its needles face as it does.
+#[test]
+fn needles_that_do_not_face_as_the_shape_are_halved() {
+    let rows = [(-2.0, 0.0), (0.0, 0.0), (0.0, 0.01), (2.0, 0.01)];
+    let ends = [0.0, 4.0];
+    let points = rows.into_iter().flat_map(|(x, y)| {
+        // Twisted, so that no two triangles are in one plane.
+        ends.map(|z: f64| DVec3::new(x + 0.001 * y * z, y + 0.01 * x * x * z, z))
+    });
+    let surface = Surface {
+        points: points.collect(),
+        triangles: (0..3)
+            .flat_map(|i| [[0, 1, 3], [0, 3, 2]].map(|t| t.map(|v| 2 * i + v)))
+            .collect(),
+        labels: vec![0; 6],
+    };
+    let bound = vec![0; surface.points.len()];
+    let rules = Rules {
+        held: &vec![false; surface.points.len()],
+        bound: &bound,
+        links: &[],
+        onto: &nowhere,
+        deviation: 0.05,
+        noise: 0.05,
+        flat: 1e-10,
+        folds: 0.0,
+        // Nothing is a feature.
+        feature: -1.0,
+        sizes: Sizes {
+            turn: std::f64::consts::TAU / 12.0,
+            turn_is_asked: false,
+            lengths: &[],
+            local: None,
+            growth: 0.5,
+        },
+    };
+    let patches = Patches::new(&surface, &rules);
+    assert_eq!(patches.planes.len(), 1);
+    let curves = Curves::new(&surface, &rules, &patches);
+    let allowance = Allowance::new(&surface, &rules, &patches, &curves);
+    let envelope = Envelope::new(&surface, &patches, &curves, &allowance);
+    let mut mesh = Mesh::new(
+        &surface,
+        rules,
+        (&patches, &curves),
+        (&envelope, &allowance),
+    );
+    // The diagonal of the step, between its two needles.
+    assert!(split(&mut mesh, [2, 5]));
+    assert_eq!(mesh.at_edge(2, 5), []);
 }
