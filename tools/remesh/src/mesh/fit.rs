@@ -5,10 +5,14 @@ use super::change::{Change, Fitted, Sample};
 use crate::shape::Near;
 use geom::measure::double_area_vector;
 use geom::tree::closest_point;
+use glam::DVec3;
 
 /// Least cosine of the angle between a triangle and the shape that it stands for: 45 degrees, half of what would fold it
 /// over its neighbours if they are off as much.
 pub const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Angle between what is the same direction but for rounding, radians: that of the corners of a needle, half of all digits, as
+/// its height has as many fewer than its length.
+const ROUNDING: f64 = 1.0 / (1_u64 << (f64::MANTISSA_DIGITS / 2)) as f64;
 
 impl Mesh<'_> {
     /// Whether a change keeps to the rules; where the input's points are then.
@@ -109,6 +113,18 @@ impl Mesh<'_> {
         a & b & c & !self.planes_of[patch as usize] != 0 || self.images.lies_in_face(corners, patch)
     }
 
+    /// Whether a new triangle faces as one of its patch does that goes, but for rounding: as what is cut out of it. Needles along
+    /// the edge of something thin face anywhere, and would stay as they are if their parts had to face as the shape does.
+    fn faces_as_before(&self, change: &Change, vector: DVec3, patch: u32) -> bool {
+        let normal = vector.normalize_or_zero();
+        let gone = change.gone.iter().map(|&t| t as usize);
+        let mut before = gone.filter(|&t| self.patch[t] == patch).map(|t| {
+            let [a, b, c] = self.triangles[t].map(|v| self.points[v as usize]);
+            double_area_vector(a, b, c).normalize_or_zero()
+        });
+        before.any(|old| old.dot(normal) > 0.0 && old.cross(normal).length() <= ROUNDING)
+    }
+
     /// Whether a new triangle has area, faces as the shape does, is in no wall and not there already.
     fn is_sound(&self, change: &Change, corners: [u32; 3], patch: u32) -> bool {
         let [a, b, c] = corners.map(|v| self.points[v as usize]);
@@ -127,6 +143,7 @@ impl Mesh<'_> {
                 let middle = (a + b + c) / 3.0;
                 let normal = self.envelope.at(patch, middle).map(|at| at.0);
                 normal.is_some_and(|n| vector.dot(n) >= UPRIGHT * area)
+                    || self.faces_as_before(change, vector, patch)
             }
         };
         upright && {

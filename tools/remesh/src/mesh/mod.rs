@@ -137,6 +137,16 @@ impl<'a> Mesh<'a> {
                 self.samples[t as usize].push(Sample { point, reach });
             }
         }
+        // Of triangles that are needles, ends may be near to what is far from the middle.
+        for [a, b] in self.edges() {
+            if let [t, u] = self.at_edge(a, b)[..]
+                && self.curve(a, b).is_none()
+            {
+                let reach = self.envelope.reach(t).max(self.envelope.reach(u));
+                let point = 0.5 * (surface.points[a as usize] + surface.points[b as usize]);
+                self.samples[t as usize].push(Sample { point, reach });
+            }
+        }
         for (i, &ends) in (0..).zip(&curves.ends) {
             let reach = self.envelope.reach_of_edge(i);
             let samples = ends.map(|v| Sample {

@@ -17,10 +17,17 @@ pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
         Some(Splitting::With((link, true, original))) => (original, (link, [a, b])),
         Some(Splitting::With((link, false, image))) => ([a, b], (link, image)),
     };
-    let Some(place) = place(mesh, first) else {
-        return false;
-    };
-    let (link, second) = second;
+    let mut places = places(mesh, first).into_iter();
+    places.any(|place| both(mesh, first, second, place))
+}
+
+/// Splits an edge there, and its image by a link where the image of that place is.
+fn both(
+    mesh: &mut Mesh<'_>,
+    first: [u32; 2],
+    (link, second): (usize, [u32; 2]),
+    place: DVec3,
+) -> bool {
     let image = (mesh.rules.links[link].image)(place);
     let new = mesh.points.len() as u32;
     let changes = vec![halved(mesh, first, place), halved(mesh, second, image)];
@@ -35,9 +42,11 @@ pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
 
 /// Splits an edge that is nobody's image but its own.
 fn alone(mesh: &mut Mesh<'_>, edge: [u32; 2], links: &[usize]) -> bool {
-    let Some(place) = place(mesh, edge) else {
-        return false;
-    };
+    let mut places = places(mesh, edge).into_iter();
+    places.any(|place| alone_at(mesh, edge, links, place))
+}
+
+fn alone_at(mesh: &mut Mesh<'_>, edge: [u32; 2], links: &[usize], place: DVec3) -> bool {
     let new = mesh.points.len() as u32;
     let change = halved(mesh, edge, place);
     if make(mesh, &change) {
@@ -59,9 +68,12 @@ fn make(mesh: &mut Mesh<'_>, change: &Change) -> bool {
     })
 }
 
-/// Where an edge is split.
-fn place(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> Option<DVec3> {
-    let &first = mesh.at_edge(a, b).first()?;
+/// Where an edge may be split, best first: where the shape is nearest to its middle, or right there. Along the edge of something
+/// thin, the nearest place may be on its other side, and halves of needles would face there.
+fn places(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> Vec<DVec3> {
+    let Some(&first) = mesh.at_edge(a, b).first() else {
+        return Vec::new();
+    };
     let patch = mesh.patch[first as usize];
     let middle = 0.5 * (mesh.points[a as usize] + mesh.points[b as usize]);
     let near = match mesh.curve(a, b) {
@@ -72,7 +84,10 @@ fn place(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> Option<DVec3> {
         None => mesh.envelope.nearest(Near::Patch(patch), middle),
     };
     let bound = mesh.bound[a as usize] & mesh.bound[b as usize];
-    near.and_then(|p| mesh.rules.put(bound, p))
+    let all = near.into_iter().chain([middle]);
+    let mut places: Vec<DVec3> = all.filter_map(|p| mesh.rules.put(bound, p)).collect();
+    places.dedup();
+    places
 }
 
 /// Adds a vertex there, and halves the triangles at the edge by it.

@@ -1,5 +1,8 @@
 //! Surfaces that are remeshed, without any document.
 
+use super::split::split;
+use crate::mesh::Mesh;
+use crate::shape::{Allowance, Curves, Envelope, Patches};
 use crate::{Link, Remeshed, Rules, Sizes, Surface, remesh};
 use geom::contacts::contacts;
 use geom::measure::volume_of_region;
@@ -342,4 +345,106 @@ fn needles_between_features_go_where_they_are_detail() {
     // Within much less than the needles are high, they are features and stay.
     let made = done(&globe, 1e-4, &held);
     assert!(made.is_none_or(|made| made.told.joined == 0));
+}
+
+/// A lens that is drawn long, whose sides meet at strips that are so wide.
+fn lens(width: f64) -> Surface {
+    let (across, long) = (8, 4.0);
+    let mut surface = Surface::default();
+    for i in 0..=across {
+        let x = 2.0 * f64::from(i) / f64::from(across) - 1.0;
+        let y = 0.3 * (1.0 - x * x) + 0.5 * width;
+        for (y, z) in [(-y, 0.0), (y, 0.0), (-y, long), (y, long)] {
+            surface.points.push(DVec3::new(x, y, z));
+        }
+    }
+    let mut quad = |[a, b, c, d]: [u32; 4]| surface.triangles.extend([[a, b, c], [a, c, d]]);
+    for i in 0..across {
+        for sides in [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3]] {
+            quad(sides.map(|side: u32| 4 * i + side));
+        }
+    }
+    quad([0, 2, 3, 1]);
+    quad([0, 1, 3, 2].map(|side| 4 * across + side));
+    surface.labels = vec![0; surface.triangles.len()];
+    surface
+}
+
+/// Strips between the sides of a blade, as flat as they are, are detail: sides meet at an edge then.
+#[test]
+fn strips_between_sides_of_a_blade_go_where_they_are_detail() {
+    let lens = lens(0.01);
+    let held = vec![false; lens.points.len()];
+    assert!(is_closed(&lens) && smallest_angle(&lens) < 0.2);
+    let made = done(&lens, 0.02, &held).expect("strips along both edges");
+    assert!(made.told.joined > 0, "{:?}", made.told);
+    let surface = &made.surface;
+    assert!(is_closed(surface));
+    let edges = surface
+        .triangles
+        .iter()
+        .flat_map(|t| [0, 1, 2].map(|i| [t[i], t[(i + 1) % 3]]));
+    let lengths = edges.map(|ends| {
+        let [a, b] = ends.map(|v| surface.points[v as usize]);
+        a.distance(b)
+    });
+    let shortest = lengths.fold(f64::INFINITY, f64::min);
+    assert!(shortest > 0.02, "{shortest}");
+    let distances = [farthest(surface, &lens), farthest(&lens, surface)];
+    assert!(distances.iter().all(|d| *d <= 0.02), "{distances:?}");
+    // Within less than the strips are wide, they stay.
+    let made = done(&lens, 1e-3, &held);
+    assert!(made.is_none_or(|made| made.told.joined == 0));
+}
+
+/// A step between two wide facets, much lower than wide, that faces neither way that they do: halves of its needles face as it does.
+#[test]
+fn needles_that_do_not_face_as_the_shape_are_halved() {
+    let rows = [(-2.0, 0.0), (0.0, 0.0), (0.0, 0.01), (2.0, 0.01)];
+    let ends = [0.0, 4.0];
+    let points = rows.into_iter().flat_map(|(x, y)| {
+        // Twisted, so that no two triangles are in one plane.
+        ends.map(|z: f64| DVec3::new(x + 0.001 * y * z, y + 0.01 * x * x * z, z))
+    });
+    let surface = Surface {
+        points: points.collect(),
+        triangles: (0..3)
+            .flat_map(|i| [[0, 1, 3], [0, 3, 2]].map(|t| t.map(|v| 2 * i + v)))
+            .collect(),
+        labels: vec![0; 6],
+    };
+    let bound = vec![0; surface.points.len()];
+    let rules = Rules {
+        held: &vec![false; surface.points.len()],
+        bound: &bound,
+        links: &[],
+        onto: &nowhere,
+        deviation: 0.05,
+        noise: 0.05,
+        flat: 1e-10,
+        folds: 0.0,
+        // Nothing is a feature.
+        feature: -1.0,
+        sizes: Sizes {
+            turn: std::f64::consts::TAU / 12.0,
+            turn_is_asked: false,
+            lengths: &[],
+            local: None,
+            growth: 0.5,
+        },
+    };
+    let patches = Patches::new(&surface, &rules);
+    assert_eq!(patches.planes.len(), 1);
+    let curves = Curves::new(&surface, &rules, &patches);
+    let allowance = Allowance::new(&surface, &rules, &patches, &curves);
+    let envelope = Envelope::new(&surface, &patches, &curves, &allowance);
+    let mut mesh = Mesh::new(
+        &surface,
+        rules,
+        (&patches, &curves),
+        (&envelope, &allowance),
+    );
+    // The diagonal of the step, between its two needles.
+    assert!(split(&mut mesh, [2, 5]));
+    assert_eq!(mesh.at_edge(2, 5), []);
 }

@@ -108,20 +108,11 @@ impl Allowance {
 /// surface is farther than noise from a plane. Flat faces do not.
 fn bent(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
     let count = patches.planes.len();
-    let (mut vector, mut area, mut border) =
-        (vec![DVec3::ZERO; count], vec![0.0; count], vec![0.0; count]);
+    let widths = patches.widths(surface);
+    let mut vector = vec![DVec3::ZERO; count];
     for (t, &patch) in patches.of.iter().enumerate() {
         let [a, b, c] = surface.corners(t as u32);
-        area[patch as usize] += triangle_area(a, b, c);
         vector[patch as usize] += patches.normals[t] * triangle_area(a, b, c);
-    }
-    for (edge, ends) in patches.edges.ends.iter().enumerate() {
-        let [a, b] = ends.map(|v| surface.points[v as usize]);
-        let around = patches.edges.around(edge);
-        let of = |u: &EdgeUse| patches.of[u.triangle as usize] as usize;
-        if !matches!(around, [u, v] if of(u) == of(v)) {
-            around.iter().for_each(|u| border[of(u)] += a.distance(b));
-        }
     }
     let mut angle = vec![0.0_f64; count];
     for (t, &patch) in patches.of.iter().enumerate() {
@@ -132,8 +123,7 @@ fn bent(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
     }
     let is_bent = |patch: usize| {
         // The height of a roof whose sides are off by that angle. What has no border is closed, and bends.
-        let width = 4.0 * area[patch] / border[patch];
-        let rise = 0.5 * width * angle[patch];
+        let rise = 0.5 * widths[patch] * angle[patch];
         patches.planes[patch].is_none() && rise.is_nan() | (rise > rules.noise)
     };
     (0..count).map(is_bent).collect()

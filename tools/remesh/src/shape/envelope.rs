@@ -3,7 +3,7 @@
 use super::{Allowance, Curves, Patches};
 use crate::input::Surface;
 use geom::measure::double_area_vector;
-use geom::tree::{Tree, closest_point};
+use geom::tree::{Nearest, Tree, closest_point};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -18,13 +18,28 @@ pub struct Envelope {
 
 /// Triangles or edges.
 struct Part {
-    tree: Tree,
+    /// Of each group, a patch or curve: others may be nearer, and then one tree of all is looked at for nothing.
+    groups: Vec<Group>,
     corners: Vec<[DVec3; 3]>,
-    /// Patch or curve.
-    group: Vec<u32>,
     reach: Vec<f64>,
     /// Largest reach of a group.
     most: Vec<f64>,
+}
+
+/// The triangles or edges of a patch or curve.
+struct Group {
+    tree: Tree,
+    members: Vec<u32>,
+}
+
+impl Group {
+    fn nearest(&self, p: DVec3, within: f64) -> Option<Nearest> {
+        let found = self.tree.nearest(p, within)?;
+        Some(Nearest {
+            triangle: self.members[found.triangle as usize],
+            ..found
+        })
+    }
 }
 
 /// What is near.
@@ -82,15 +97,13 @@ impl Envelope {
     /// The nearest point of a patch or curve, wherever it is.
     pub fn nearest(&self, near: Near, p: DVec3) -> Option<DVec3> {
         let (part, group) = self.part(near);
-        let wanted = |t: u32| part.group[t as usize] == group;
-        Some(part.tree.nearest_of(p, f64::INFINITY, wanted)?.point)
+        Some(part.groups[group as usize].nearest(p, f64::INFINITY)?.point)
     }
 
     /// The unit normal of the shape near a point of a patch, and the length of edges wanted there.
     pub fn at(&self, patch: u32, p: DVec3) -> Option<(DVec3, f64)> {
         let part = &self.faces;
-        let wanted = |t: u32| part.group[t as usize] == patch;
-        let found = part.tree.nearest_of(p, f64::INFINITY, wanted)?;
+        let found = part.groups[patch as usize].nearest(p, f64::INFINITY)?;
         let t = found.triangle as usize;
         let weights = barycentric(part.corners[t], found.point);
         let normal: DVec3 = (0..3).map(|i| self.normals[t][i] * weights[i]).sum();
@@ -115,20 +128,26 @@ impl Part {
         for (&group, &reach) in group.iter().zip(reach) {
             most[group as usize] = most[group as usize].max(reach);
         }
+        let mut members = vec![Vec::new(); count];
+        for (t, &group) in (0..).zip(group) {
+            members[group as usize].push(t);
+        }
+        let of_members = |members: Vec<u32>| Group {
+            tree: Tree::new(members.iter().map(|&t: &u32| corners[t as usize])),
+            members,
+        };
         Self {
-            tree: Tree::new(corners.iter().copied()),
+            groups: members.into_iter().map(of_members).collect(),
             corners,
-            group: group.to_vec(),
             reach: reach.to_vec(),
             most,
         }
     }
 
     fn near(&self, (group, least): (u32, f64), p: DVec3) -> Option<(u32, f64)> {
-        let wanted = |t: u32| self.group[t as usize] == group;
         // Just above the largest reach, so that what is at it counts.
         let within = self.most[group as usize].max(least) * (1.0 + f64::EPSILON.sqrt());
-        let found = self.tree.nearest_of(p, within, wanted)?;
+        let found = self.groups[group as usize].nearest(p, within)?;
         Some((found.triangle, found.distance))
     }
 

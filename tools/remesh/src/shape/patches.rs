@@ -4,7 +4,7 @@ use super::facets::{Beside, Facets};
 use crate::input::{Rules, Surface};
 use geom::edges::{EdgeUse, Edges, apex_of};
 use geom::flat::{FOLD_COSINE, Flatness, Flats, Plane};
-use geom::measure::double_area_vector;
+use geom::measure::{double_area_vector, triangle_area};
 use geom::sets::DisjointSets;
 use glam::DVec3;
 
@@ -103,7 +103,64 @@ impl Patches {
             }
             patches.of.push(number[first]);
         }
+        patches.leave_strips(surface, rules);
         patches
+    }
+
+    /// Takes flat faces that are narrower than noise for what they are parts of where that is curved: next to something curved,
+    /// or to another one that is. How they lie means nothing, and held in their planes, strips as an exporter draws them
+    /// between two edges of a blade would stay needles. Between flat faces, however narrow, they are a shape of their own, and
+    /// what lies in walls or linked faces stays there.
+    fn leave_strips(&mut self, surface: &Surface, rules: &Rules<'_>) {
+        let widths = self.widths(surface);
+        let mut walls = vec![u32::MAX; self.planes.len()];
+        let mut is_linked = vec![false; self.planes.len()];
+        for (t, &p) in self.of.iter().enumerate() {
+            let [a, b, c] = surface.triangles[t].map(|v| rules.bound[v as usize]);
+            walls[p as usize] &= a & b & c;
+            let mut links = rules.links.iter();
+            is_linked[p as usize] |= links.any(|link| link.labels.contains(&surface.labels[t]));
+        }
+        let is_strip = |p: usize| widths[p] <= rules.noise && walls[p] == 0 && !is_linked[p];
+        let mut beside = vec![Vec::new(); self.planes.len()];
+        for edge in 0..self.edges.len() {
+            let around = self.edges.around(edge).iter();
+            let all: Vec<u32> = around.map(|u| self.of[u.triangle as usize]).collect();
+            for &p in &all {
+                beside[p as usize].extend(all.iter().filter(|&&q| q != p));
+            }
+        }
+        let curved = (0..).zip(&self.planes).filter(|(_, plane)| plane.is_none());
+        let mut next: Vec<u32> = curved.map(|(p, _)| p).collect();
+        while let Some(p) = next.pop() {
+            for &q in &beside[p as usize] {
+                if self.planes[q as usize].is_some() && is_strip(q as usize) {
+                    self.planes[q as usize] = None;
+                    next.push(q);
+                }
+            }
+        }
+    }
+
+    /// The width of each patch, model units: that of a square with the same area to its border, twice that of a long
+    /// strip. NaN or infinite for what has no border.
+    pub fn widths(&self, surface: &Surface) -> Vec<f64> {
+        let (mut area, mut border) = (vec![0.0; self.planes.len()], vec![0.0; self.planes.len()]);
+        for (t, &patch) in self.of.iter().enumerate() {
+            let [a, b, c] = surface.corners(t as u32);
+            area[patch as usize] += triangle_area(a, b, c);
+        }
+        for (edge, ends) in self.edges.ends.iter().enumerate() {
+            let [a, b] = ends.map(|v| surface.points[v as usize]);
+            let around = self.edges.around(edge);
+            let of = |u: &EdgeUse| self.of[u.triangle as usize] as usize;
+            if !matches!(around, [u, v] if of(u) == of(v)) {
+                around.iter().for_each(|u| border[of(u)] += a.distance(b));
+            }
+        }
+        let each = area.into_iter().zip(border);
+        each.map(|(area, border): (f64, f64)| 4.0 * area / border)
+            .collect()
     }
 
     /// The two triangles at an edge of a smooth surface.
@@ -217,6 +274,37 @@ mod tests {
         let patches = Patches::new(surface, &rules);
         let flat = patches.planes.iter().flatten().count();
         [flat, patches.planes.len() - flat]
+    }
+
+    /// Two rows of facets of an arc that meet at a strip so wide, or two flat faces in place of the arcs.
+    fn blade(width: f64, is_curved: bool) -> Surface {
+        let mut surface = Surface::default();
+        for i in 0..4 {
+            let x = f64::from(i);
+            let y = x - if is_curved { 0.1 * x * x } else { 0.0 };
+            for z in [0.0, 5.0] {
+                surface.points.push(DVec3::new(x, y, z));
+                surface.points.push(DVec3::new(x, -y - width, z));
+            }
+        }
+        let quad = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+        for i in 0..3 {
+            let first = 4 * i;
+            let upper = quad([0, 2, 6, 4].map(|v| first + v));
+            let lower = quad([1, 5, 7, 3].map(|v| first + v));
+            surface.triangles.extend(upper.into_iter().chain(lower));
+        }
+        surface.triangles.extend(quad([0, 1, 3, 2]));
+        surface.labels = vec![0; surface.triangles.len()];
+        surface
+    }
+
+    #[test]
+    fn a_strip_narrower_than_noise_is_no_face_beside_what_is_curved() {
+        // Noise is a thousandth, and the width of a strip twice its own.
+        assert_eq!(faces(&blade(4e-4, true), 0.0), [0, 3]);
+        assert_eq!(faces(&blade(6e-4, true), 0.0), [1, 2]);
+        assert_eq!(faces(&blade(4e-4, false), 0.0), [3, 0]);
     }
 
     #[test]
