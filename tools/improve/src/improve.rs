@@ -70,6 +70,8 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
     work.done.bad = work.bad().len();
     work.pursue();
     work.mesh.change_goal(goal);
+    // What was not worth it then may be now.
+    work.tried.vertices.clear();
     work.pursue();
     work.count_what_is_left();
     let Work { mesh, done, .. } = work;
