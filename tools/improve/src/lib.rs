@@ -1,4 +1,4 @@
-//! Makes the worst tetrahedra of a mesh better: moves vertices, replaces edges and faces, adds vertices.
+//! Makes the tetrahedra of a mesh better: takes vertices out that are not needed, moves vertices, replaces edges and faces, adds vertices.
 //!
 //! The mesher sees a wedge with a surface that it must keep where copies meet, and cannot do there what it
 //! does inside. Here a seam is the inside that it is in the assembled mesh: the star of a vertex on it
