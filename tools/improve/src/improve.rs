@@ -10,11 +10,6 @@ use geom::tet::TetMeasures;
 use rustc_hash::FxHashMap;
 use tmesh::Template;
 
-/// Searches for new vertices at a time, over the root of the number of tetrahedra. Measured on impellers of 3 to 12 blades: with one, a sixth
-/// to a half more elements stay past the radius-edge bound; with four, improvement takes up to twice as long there, and as
-/// long as before where few are bad.
-const SEARCHES: usize = 4;
-
 /// What is asked of the elements.
 pub struct Wish<'a> {
     /// Smallest dihedral angle, degrees.
@@ -174,13 +169,13 @@ impl Work<'_> {
     }
 
     /// Gives the worst tetrahedra new vertices, where that helps; returns how many of them. Looking for the place of a vertex
-    /// takes a hundred times as long as for anything else, so that only some times the root of the number of all tetrahedra are
-    /// looked at; and those that are better than the goal's step are not worth more elements.
+    /// takes a hundred times as long as for anything else, so that only the root of the number of all tetrahedra is looked
+    /// at; and those that are better than the goal's step are not worth more elements.
     fn add_vertices(&mut self) -> usize {
         let goal = *self.mesh.goal();
         let mut bad = self.bad();
         bad.retain(|&(quality, _)| goal.is_worth_a_vertex(quality));
-        bad.truncate(SEARCHES * self.mesh.len().isqrt());
+        bad.truncate(self.mesh.len().isqrt());
         let before = self.done.inserted;
         for (quality, tet) in bad {
             let mesh = &mut self.mesh;
