@@ -1,12 +1,13 @@
 //! Replaces a few tetrahedra by others with the same hull.
 //!
-//! An inner edge goes with the ring of tetrahedra around it, which is filled by the best triangulation
+//! An edge goes with the ring of tetrahedra around it, which is filled by the best triangulation
 //! of the ring (G. Klincsek, "Minimal triangulations of polygonal domains", 1980; J. Shewchuk, "Two
 //! discrete optimization algorithms for the topological improvement of tetrahedral meshes", 2002); the face
-//! between two tetrahedra goes for an edge.
+//! between two tetrahedra goes for an edge. Around an edge inside of a flat facet of the surface, the ring is open.
 
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
+use crate::surface::Diagonal;
 use arrayvec::ArrayVec;
 use geom::tet::{EDGES, FACES};
 
@@ -20,6 +21,8 @@ const FILLING: usize = 2 * (RING - 2);
 pub struct Flip {
     old: Ring,
     new: ArrayVec<(Corners, Grade), FILLING>,
+    /// The edge of the surface that goes.
+    diagonal: Option<Diagonal>,
 }
 
 impl Flip {
@@ -27,6 +30,9 @@ impl Flip {
     pub fn apply(&self, mesh: &mut Mesh<'_>) {
         mesh.renew();
         mesh.replace(&self.old, &self.new);
+        if let Some(diagonal) = self.diagonal {
+            mesh.replace_diagonal(diagonal);
+        }
     }
 }
 
@@ -47,7 +53,11 @@ fn remove_edge(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Flip> {
     if mesh.is_fixed_edge(a, b) {
         return None;
     }
-    let (old, ring) = ring(mesh, tet, a, b)?;
+    let Around {
+        old,
+        ring,
+        diagonal,
+    } = around(mesh, tet, a, b)?;
     let (above, most) = mesh.bounds(&old, GAIN, HALF_DIGITS);
     let region = mesh.region(tet);
     let n = ring.len();
@@ -104,15 +114,24 @@ fn remove_edge(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Flip> {
             open.extend([(i, k), (k, j)]);
         }
     }
-    Some(Flip { old, new })
+    Some(Flip { old, new, diagonal })
 }
 
 /// Tetrahedra or vertices around an edge.
 pub type Ring = ArrayVec<u32, RING>;
 
-/// The tetrahedra around an inner edge of a region, and the vertices around it, counter-clockwise seen
-/// from `b`.
-pub fn ring(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<(Ring, Ring)> {
+/// What is around an edge.
+pub struct Around {
+    /// The tetrahedra.
+    pub old: Ring,
+    /// The vertices, counter-clockwise seen from the edge's end.
+    pub ring: Ring,
+    /// Where the ring is open: the edge of the surface, and that from the last to the first of the vertices.
+    pub diagonal: Option<Diagonal>,
+}
+
+/// What is around an edge from `a` to `b` inside of a region, or inside of a flat facet around one.
+pub fn around(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Around> {
     let region = mesh.region(tet);
     let mut old = Ring::new();
     for &t in mesh.star(a) {
@@ -123,22 +142,34 @@ pub fn ring(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<(Ring, Ring)> {
             old.push(t);
         }
     }
-    if old.len() < 3 {
-        return None;
-    }
     let mut steps = ArrayVec::<_, RING>::new();
     for &t in &old {
         steps.push(opposite_side(mesh.corners(t), a, b)?);
     }
-    let first = steps[0][0];
-    let mut around = Ring::new();
+    let open = steps
+        .iter()
+        .find(|s| steps.iter().all(|other| other[1] != s[0]));
+    let first = open.or(steps.first())?[0];
+    let mut ring = Ring::from_iter([first]);
     let mut here = first;
-    for _ in 0..steps.len() {
-        around.push(here);
+    for _ in &steps {
         here = steps.iter().find(|s| s[0] == here)?[1];
+        if here == first {
+            break;
+        }
+        ring.try_push(here).ok()?;
     }
-    let whole = here == first && (1..around.len()).all(|i| around[i] != first);
-    whole.then_some((old, around))
+    let diagonal = open.map(|_| Diagonal {
+        old: [a, b],
+        new: [first, here],
+    });
+    let whole = ring.len() == steps.len() + usize::from(diagonal.is_some());
+    let is_free = diagonal.is_none_or(|d| mesh.surface().has(d));
+    (ring.len() >= 3 && whole && is_free).then_some(Around {
+        old,
+        ring,
+        diagonal,
+    })
 }
 
 /// The two corners that are neither `a` nor `b`, in the order that is counter-clockwise about the way from
@@ -185,5 +216,9 @@ fn remove_face(mesh: &Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> Option<Fl
         new.push((corners, grade));
     }
     let old = old.into_iter().collect();
-    Some(Flip { old, new })
+    Some(Flip {
+        old,
+        new,
+        diagonal: None,
+    })
 }

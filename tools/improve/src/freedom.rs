@@ -49,6 +49,8 @@ pub struct Flats<'a> {
     pub slopes: &'a [f64],
     /// Vertices that must stay where they are.
     pub fixed: &'a [u32],
+    /// Surface triangles that must stay.
+    pub kept: &'a [u32],
     /// A vertex this far from the line between its neighbours is on it, model units.
     pub straight: f64,
 }
@@ -61,6 +63,8 @@ pub struct Freedoms {
     master_of: FxHashMap<u32, u32>,
     /// Image of a master, with the step that takes one to the other.
     image_of: FxHashMap<u32, (u32, Isometry)>,
+    /// Of each surface triangle, the facet in which its edges may be replaced.
+    facets: Vec<Option<u32>>,
 }
 
 /// Of a plane and a line in it, the sine of the angle between them is below this: normals are those of the largest triangle of
@@ -75,6 +79,7 @@ impl Freedoms {
             exact: FxHashMap::default(),
             master_of: FxHashMap::default(),
             image_of: FxHashMap::default(),
+            facets: replaceable((template, own), flats),
         };
         flats.fixed.iter().for_each(|&v| freedoms.fix(v));
         for gluing in &template.gluings {
@@ -145,6 +150,11 @@ impl Freedoms {
         self.fix(image);
     }
 
+    /// Of each surface triangle, the facet in which its edges may be replaced, if it is in one.
+    pub fn facets(&self) -> &[Option<u32>] {
+        &self.facets
+    }
+
     /// The vertex to move for `v` to move: the master for its image.
     pub fn mover(&self, v: u32) -> u32 {
         self.master_of.get(&v).copied().unwrap_or(v)
@@ -177,6 +187,34 @@ impl Freedoms {
             p
         }
     }
+}
+
+/// Of each surface triangle of a template, number `own`, the facet in which its edges may be replaced: flat ones, but not where
+/// it is glued to another triangle.
+fn replaceable((template, own): (&Template, usize), flats: &Flats<'_>) -> Vec<Option<u32>> {
+    let is_flat = |f: usize| flats.slopes[f] == 0.0 && flats.normals[f] != DVec3::ZERO;
+    let facets = flats.of_triangle.iter();
+    let mut list: Vec<Option<u32>> = facets
+        .map(|&f| is_flat(f as usize).then_some(f))
+        .collect();
+    let mut keep = |t: u32| {
+        if let Some(facet) = list.get_mut(t as usize) {
+            *facet = None;
+        }
+    };
+    flats.kept.iter().for_each(|&t| keep(t));
+    for gluing in &template.gluings {
+        let own = gluing.other_than(own).is_none();
+        for &[here, there] in &gluing.triangle_pairs {
+            if !(own && here == there) {
+                keep(here);
+                if own {
+                    keep(there);
+                }
+            }
+        }
+    }
+    list
 }
 
 /// Whether two partners have the same freedom.

@@ -6,6 +6,7 @@ use crate::freedom::Freedoms;
 use crate::insert;
 use crate::mesh::{Corners, Mesh};
 use crate::quality::Goal;
+use crate::surface::Surface;
 use geom::tet::TetMeasures;
 use rustc_hash::FxHashMap;
 use tmesh::Template;
@@ -45,8 +46,8 @@ pub struct Improved {
     pub inserted: usize,
 }
 
-/// Improves the tetrahedra of a template. Surface triangles, walls and numbers of vertices stay; new vertices have
-/// numbers beyond. The number of threads makes no difference to the result.
+/// Improves the tetrahedra of a template. Walls and numbers of vertices stay, and surface triangles but for edges inside
+/// of flat facets; new vertices have numbers beyond. The number of threads makes no difference to the result.
 ///
 /// At first elements past the radius-edge bound are worth little less than good ones, and they and slivers get vertices. What is still
 /// past a bound after that is worth any angle down to the smallest one asked for. From the start, that would spoil
@@ -67,6 +68,9 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         looked_at: 0,
         done: Improved::default(),
     };
+    let triangles = template.triangles.iter().map(|t| t.vertices).collect();
+    let surface = Surface::new(triangles, freedoms.facets().to_vec());
+    work.mesh.set_surface(surface);
     work.done.bad = work.bad().len();
     work.pursue();
     work.mesh.change_goal(goal);
@@ -85,6 +89,10 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
     template
         .vertices
         .extend(added.iter().map(|&p| p / wish.scale));
+    let surface = mesh.surface().triangles();
+    for (triangle, &vertices) in template.triangles.iter_mut().zip(surface) {
+        triangle.vertices = vertices;
+    }
     template.tets = mesh.into_tets();
     done
 }
@@ -145,7 +153,8 @@ impl Work<'_> {
         // helped.
         let first = self.add_vertices();
         let mut added = first;
-        while added > 0 && 2 * added >= first {
+        let lf: usize = std::env::var("LF").ok().and_then(|s| s.parse().ok()).unwrap_or(2);
+        while added > 0 && lf * added >= first {
             self.rounds();
             added = self.add_vertices();
         }
@@ -175,7 +184,7 @@ impl Work<'_> {
         let goal = *self.mesh.goal();
         let mut bad = self.bad();
         bad.retain(|&(quality, _)| goal.is_worth_a_vertex(quality));
-        bad.truncate(self.mesh.len().isqrt());
+        let k: usize = std::env::var("SE").ok().and_then(|s| s.parse().ok()).unwrap_or(1); bad.truncate(k * self.mesh.len().isqrt());
         let before = self.done.inserted;
         for (quality, tet) in bad {
             let mesh = &mut self.mesh;

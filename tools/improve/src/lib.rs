@@ -16,6 +16,7 @@ mod mesh;
 mod quality;
 mod smooth;
 mod stars;
+mod surface;
 
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 
 use crate::quality::{Goal, Grade};
 use crate::stars::Stars;
+use crate::surface::{Diagonal, Surface, sorted};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Template, Tet, Triangle};
@@ -22,6 +23,8 @@ pub struct Mesh<'a> {
     /// Faces and edges inside of a region that are part of the surface.
     fixed_faces: FxHashSet<[u32; 3]>,
     fixed_edges: FxHashSet<[u32; 2]>,
+    /// Triangles of the surface whose edges may be replaced.
+    surface: Surface,
 }
 
 impl<'a> Mesh<'a> {
@@ -46,7 +49,23 @@ impl<'a> Mesh<'a> {
             stars,
             fixed_faces: FxHashSet::default(),
             fixed_edges: FxHashSet::default(),
+            surface: Surface::default(),
         }
+    }
+
+    /// Edges of the surface may be replaced from now on.
+    pub fn set_surface(&mut self, surface: Surface) {
+        self.surface = surface;
+    }
+
+    /// Triangles of the surface.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Replaces an edge of the surface.
+    pub fn replace_diagonal(&mut self, diagonal: Diagonal) {
+        self.surface.replace(diagonal);
     }
 
     /// Takes over the tetrahedra of a template, and keeps its surface inside of regions. Linear.
@@ -236,9 +255,4 @@ impl<'a> Mesh<'a> {
             self.grades.swap_remove(hole as usize);
         }
     }
-}
-
-fn sorted(mut t: [u32; 3]) -> [u32; 3] {
-    t.sort_unstable();
-    t
 }

@@ -167,6 +167,7 @@ fn freedoms(template: &Template, of_triangle: &[u32], normals: &[DVec3]) -> Free
             normals,
             slopes: &vec![0.0; normals.len()],
             fixed: &[],
+            kept: &[],
             straight: 1e-12,
         },
     )
@@ -468,6 +469,7 @@ fn threads_make_no_difference() {
             normals: &[],
             slopes: &[],
             fixed: &fixed,
+            kept: &[],
             straight: 0.0,
         },
     );
