@@ -3,11 +3,12 @@
 //! An edge goes with the ring of tetrahedra around it, which is filled by the best triangulation
 //! of the ring (G. Klincsek, "Minimal triangulations of polygonal domains", 1980; J. Shewchuk, "Two
 //! discrete optimization algorithms for the topological improvement of tetrahedral meshes", 2002); the face
-//! between two tetrahedra goes for an edge. Around an edge inside of a flat facet of the surface, the ring is open.
+//! between two tetrahedra goes for an edge. Around an edge inside of a flat facet or a seam, the
+//! ring is open, and there may be another one on the other side.
 
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
-use crate::surface::Diagonal;
+use crate::surface::{Beyond, Diagonal};
 use arrayvec::ArrayVec;
 use geom::tet::{EDGES, FACES};
 
@@ -19,24 +20,50 @@ const FILLING: usize = 2 * (RING - 2);
 
 /// Tetrahedra, and those that are better in their place.
 pub struct Flip {
-    old: Ring,
-    new: ArrayVec<(Corners, Grade), FILLING>,
+    /// Around an edge inside of the surface, those on both sides of it.
+    parts: ArrayVec<Part, 2>,
     /// The edge of the surface that goes.
     diagonal: Option<Diagonal>,
 }
+
+/// Tetrahedra of one region that are replaced.
+struct Part {
+    old: Old,
+    new: Filling,
+}
+
+/// Which ones: their numbers change when others are replaced.
+enum Old {
+    /// Those of a region at an edge.
+    Edge(u32, [u32; 2]),
+    /// The two at a face.
+    Face([u32; 2]),
+}
+
+/// Tetrahedra in the place of others.
+type Filling = ArrayVec<(Corners, Grade), FILLING>;
 
 impl Flip {
     /// Puts the better ones in their place.
     pub fn apply(&self, mesh: &mut Mesh<'_>) {
         mesh.renew();
-        mesh.replace(&self.old, &self.new);
+        for Part { old, new } in &self.parts {
+            match *old {
+                Old::Edge(region, [a, b]) => {
+                    let old: Vec<u32> = at_edge(mesh, region, a, b).collect();
+                    mesh.replace(&old, new);
+                }
+                Old::Face(old) => mesh.replace(&old, new),
+            }
+        }
         if let Some(diagonal) = self.diagonal {
             mesh.replace_diagonal(diagonal);
         }
     }
 }
 
-/// What could replace one tetrahedron and some of its neighbours. Depends on what there is at its corners only.
+/// What could replace one tetrahedron and some of its neighbours. Depends on what there is at its corners, and at their
+/// partners on seams, only.
 pub fn find(mesh: &Mesh<'_>, tet: u32) -> Option<Flip> {
     let corners = mesh.corners(tet);
     EDGES
@@ -53,13 +80,32 @@ fn remove_edge(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Flip> {
     if mesh.is_fixed_edge(a, b) {
         return None;
     }
-    let Around {
-        old,
-        ring,
-        diagonal,
-    } = around(mesh, tet, a, b)?;
-    let (above, most) = mesh.bounds(&old, GAIN, HALF_DIGITS);
-    let region = mesh.region(tet);
+    let sides = sides(mesh, mesh.region(tet), a, b)?;
+    let old: ArrayVec<u32, { 2 * RING }> = sides.iter().flat_map(|s| s.old.clone()).collect();
+    let (above, _) = mesh.bounds(&old, GAIN, HALF_DIGITS);
+    let mut parts = ArrayVec::new();
+    for side in &sides {
+        parts.push(Part {
+            old: Old::Edge(side.region, side.edge),
+            new: fill(mesh, side, above)?,
+        });
+    }
+    Some(Flip {
+        parts,
+        diagonal: sides[0].open.map(|new| Diagonal { old: [a, b], new }),
+    })
+}
+
+/// The best tetrahedra in the place of those around an edge, if they are all better than `above`.
+fn fill(mesh: &Mesh<'_>, side: &Side, above: f64) -> Option<Filling> {
+    let Side {
+        region,
+        edge: [a, b],
+        ref old,
+        ref ring,
+        ..
+    } = *side;
+    let (_, most) = mesh.bounds(old, GAIN, HALF_DIGITS);
     let n = ring.len();
     // The ring runs counter-clockwise seen from b.
     let pair = |i: usize, k: usize, j: usize| -> [Corners; 2] {
@@ -114,42 +160,72 @@ fn remove_edge(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Flip> {
             open.extend([(i, k), (k, j)]);
         }
     }
-    Some(Flip { old, new, diagonal })
+    Some(new)
 }
 
 /// Tetrahedra or vertices around an edge.
-pub type Ring = ArrayVec<u32, RING>;
+type Ring = ArrayVec<u32, RING>;
 
-/// What is around an edge.
-pub struct Around {
+/// What is around an edge inside of a region.
+struct Side {
+    region: u32,
+    /// The edge, from `a` to `b`.
+    edge: [u32; 2],
     /// The tetrahedra.
-    pub old: Ring,
-    /// The vertices, counter-clockwise seen from the edge's end.
-    pub ring: Ring,
-    /// Where the ring is open: the edge of the surface, and that from the last to the first of the vertices.
-    pub diagonal: Option<Diagonal>,
+    old: Ring,
+    /// The vertices, counter-clockwise seen from `b`.
+    ring: Ring,
+    /// The first and the last of them, where the ring is open.
+    open: Option<[u32; 2]>,
 }
 
-/// What is around an edge from `a` to `b` inside of a region, or inside of a flat facet around one.
-pub fn around(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Around> {
-    let region = mesh.region(tet);
-    let mut old = Ring::new();
-    for &t in mesh.star(a) {
-        if mesh.corners(t).contains(&b) {
-            if old.is_full() || mesh.region(t) != region {
+/// What is around an edge that may be replaced: one closed ring, or an open one and what is beyond its ends.
+fn sides(mesh: &Mesh<'_>, region: u32, a: u32, b: u32) -> Option<ArrayVec<Side, 2>> {
+    let side = around(mesh, region, a, b)?;
+    let mut sides = ArrayVec::new();
+    if let Some(new) = side.open {
+        let diagonal = Diagonal { old: [a, b], new };
+        let other = match mesh.surface().beyond(diagonal, region)? {
+            Beyond::Nothing => None,
+            Beyond::Region(other) => Some((diagonal, other)),
+            Beyond::Twins(diagonal, other) => Some((diagonal, other)),
+        };
+        if let Some((Diagonal { old: [a, b], new }, region)) = other {
+            let [first, last] = new;
+            let other = around(mesh, region, a, b).filter(|s| s.open == Some([last, first]))?;
+            if side.old.iter().any(|t| other.old.contains(t)) {
                 return None;
             }
-            old.push(t);
+            sides.push(other);
         }
     }
+    sides.insert(0, side);
+    Some(sides)
+}
+
+/// The tetrahedra of a region at an edge.
+fn at_edge<'m>(
+    mesh: &'m Mesh<'_>,
+    region: u32,
+    a: u32,
+    b: u32,
+) -> impl Iterator<Item = u32> + use<'m> {
+    let star = mesh.star(a).iter().copied();
+    star.filter(move |&t| mesh.corners(t).contains(&b) && mesh.region(t) == region)
+}
+
+/// What is around an edge from `a` to `b` inside of a region.
+fn around(mesh: &Mesh<'_>, region: u32, a: u32, b: u32) -> Option<Side> {
+    let mut old = Ring::new();
     let mut steps = ArrayVec::<_, RING>::new();
-    for &t in &old {
+    for t in at_edge(mesh, region, a, b) {
+        old.try_push(t).ok()?;
         steps.push(opposite_side(mesh.corners(t), a, b)?);
     }
-    let open = steps
+    let start = steps
         .iter()
         .find(|s| steps.iter().all(|other| other[1] != s[0]));
-    let first = open.or(steps.first())?[0];
+    let first = start.or(steps.first())?[0];
     let mut ring = Ring::from_iter([first]);
     let mut here = first;
     for _ in &steps {
@@ -159,16 +235,14 @@ pub fn around(mesh: &Mesh<'_>, tet: u32, a: u32, b: u32) -> Option<Around> {
         }
         ring.try_push(here).ok()?;
     }
-    let diagonal = open.map(|_| Diagonal {
-        old: [a, b],
-        new: [first, here],
-    });
-    let whole = ring.len() == steps.len() + usize::from(diagonal.is_some());
-    let is_free = diagonal.is_none_or(|d| mesh.surface().has(d));
-    (ring.len() >= 3 && whole && is_free).then_some(Around {
+    let open = start.map(|_| [first, here]);
+    let whole = ring.len() == steps.len() + usize::from(open.is_some());
+    (ring.len() >= 3 && whole).then_some(Side {
+        region,
+        edge: [a, b],
         old,
         ring,
-        diagonal,
+        open,
     })
 }
 
@@ -215,10 +289,11 @@ fn remove_face(mesh: &Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> Option<Fl
         }
         new.push((corners, grade));
     }
-    let old = old.into_iter().collect();
     Some(Flip {
-        old,
-        new,
+        parts: ArrayVec::from_iter([Part {
+            old: Old::Face(old),
+            new,
+        }]),
         diagonal: None,
     })
 }

@@ -1,9 +1,10 @@
 //! Where a vertex may be moved to without changing the shape, its facets, or a wall.
 
+use crate::surface::Surface;
 use geom::edges::Edges;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use tmesh::{FixedSet, Isometry, Template};
+use tmesh::{FixedSet, Gluing, Isometry, Template};
 
 /// Directions in which a vertex may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,8 +64,8 @@ pub struct Freedoms {
     master_of: FxHashMap<u32, u32>,
     /// Image of a master, with the step that takes one to the other.
     image_of: FxHashMap<u32, (u32, Isometry)>,
-    /// Of each surface triangle, the facet in which its edges may be replaced.
-    facets: Vec<Option<u32>>,
+    /// Where edges of the surface may be replaced.
+    surface: Surface,
 }
 
 /// Of a plane and a line in it, the sine of the angle between them is below this: normals are those of the largest triangle of
@@ -79,7 +80,7 @@ impl Freedoms {
             exact: FxHashMap::default(),
             master_of: FxHashMap::default(),
             image_of: FxHashMap::default(),
-            facets: replaceable((template, own), flats),
+            surface: Surface::new((template, own), flats),
         };
         flats.fixed.iter().for_each(|&v| freedoms.fix(v));
         for gluing in &template.gluings {
@@ -94,6 +95,9 @@ impl Freedoms {
                 plane.nearest(p).distance(p) <= flats.straight
             };
             let plane = gluing.vertices_there().all(is_on).then_some(plane);
+            if plane.is_none() {
+                freedoms.free_inside(template, gluing);
+            }
             for &[here, there] in &gluing.vertex_pairs {
                 if here == there {
                     freedoms.keep_on(here, FixedSet::of(gluing.step));
@@ -110,6 +114,29 @@ impl Freedoms {
             }
         }
         freedoms
+    }
+
+    /// Vertices inside of a seam that is not flat may go anywhere: it is any surface between its borders.
+    fn free_inside(&mut self, template: &Template, gluing: &Gluing) {
+        let sides = gluing.triangle_pairs.iter().flatten();
+        let mut open: FxHashMap<u32, usize> = FxHashMap::default();
+        for &t in sides {
+            for v in template.triangles[t as usize].vertices {
+                *open.entry(v).or_default() += 1;
+            }
+        }
+        for v in template.triangles.iter().flat_map(|t| t.vertices) {
+            if let Some(count) = open.get_mut(&v) {
+                *count = count.wrapping_sub(1);
+            }
+        }
+        for &[here, there] in &gluing.vertex_pairs {
+            if here != there && [here, there].iter().all(|v| open.get(v) == Some(&0)) {
+                for v in [here, there] {
+                    self.of_vertex[v as usize] = Freedom::Free;
+                }
+            }
+        }
     }
 
     fn fix(&mut self, v: u32) {
@@ -150,9 +177,9 @@ impl Freedoms {
         self.fix(image);
     }
 
-    /// Of each surface triangle, the facet in which its edges may be replaced, if it is in one.
-    pub fn facets(&self) -> &[Option<u32>] {
-        &self.facets
+    /// The surface, and where edges of it may be replaced.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
     }
 
     /// The vertex to move for `v` to move: the master for its image.
@@ -189,39 +216,11 @@ impl Freedoms {
     }
 }
 
-/// Of each surface triangle of a template, number `own`, the facet in which its edges may be replaced: flat ones, but not where
-/// it is glued to another triangle.
-fn replaceable((template, own): (&Template, usize), flats: &Flats<'_>) -> Vec<Option<u32>> {
-    let is_flat = |f: usize| flats.slopes[f] == 0.0 && flats.normals[f] != DVec3::ZERO;
-    let facets = flats.of_triangle.iter();
-    let mut list: Vec<Option<u32>> = facets
-        .map(|&f| is_flat(f as usize).then_some(f))
-        .collect();
-    let mut keep = |t: u32| {
-        if let Some(facet) = list.get_mut(t as usize) {
-            *facet = None;
-        }
-    };
-    flats.kept.iter().for_each(|&t| keep(t));
-    for gluing in &template.gluings {
-        let own = gluing.other_than(own).is_none();
-        for &[here, there] in &gluing.triangle_pairs {
-            if !(own && here == there) {
-                keep(here);
-                if own {
-                    keep(there);
-                }
-            }
-        }
-    }
-    list
-}
-
 /// Whether two partners have the same freedom.
 fn alike(of_vertex: &[Freedom], master: u32, image: u32, step: Isometry) -> bool {
     match [master, image].map(|v| of_vertex[v as usize]) {
         [Freedom::Line(a), Freedom::Line(b)] => step.apply(a).cross(b).length() <= ALONG,
-        [Freedom::Plane(..), Freedom::Plane(..)] => true,
+        [Freedom::Plane(..), Freedom::Plane(..)] | [Freedom::Free, Freedom::Free] => true,
         _ => false,
     }
 }

@@ -1,23 +1,31 @@
 //! Triangles of the surface, while edges between them are replaced.
 //!
-//! Inside of a flat facet the shape does not depend on how it is triangulated. An edge there goes like one inside, with
-//! the tetrahedra around it, from one of its triangles to the other; both then have the other diagonal of the quadrilateral
-//! that they are (J. Shewchuk, "Two discrete optimization algorithms for the topological improvement of tetrahedral
-//! meshes", 2002).
+//! Inside of a flat facet the shape does not depend on how it is triangulated, and a seam is inside of the assembled
+//! mesh. An edge there goes like any other, with the tetrahedra around it, from one of its triangles to the other: both then
+//! have the other diagonal of the quadrilateral that they are (J. Shewchuk, "Two discrete optimization algorithms for the
+//! topological improvement of tetrahedral meshes", 2002). Where there is material on the other side, the ring is closed there.
 
+use crate::freedom::Flats;
+use glam::DVec3;
 use rustc_hash::FxHashMap;
+use tmesh::{Gluing, OUTSIDE, Template};
 
-/// The triangles, and the facets in which their edges may be replaced.
-#[derive(Default)]
+/// The triangles of a template's surface, and where their edges may be replaced.
+#[derive(Clone, Default)]
 pub struct Surface {
     triangles: Vec<[u32; 3]>,
-    facets: Vec<Option<u32>>,
+    /// Edges between triangles with the same number may be replaced.
+    patches: Vec<Option<u32>>,
+    /// Regions on both sides of each triangle.
+    regions: Vec<[u32; 2]>,
+    /// The triangle that each one on a seam is glued to, and the partners of its vertices.
+    twins: FxHashMap<u32, (u32, [u32; 3])>,
     /// Number of the triangle between three vertices.
     numbers: FxHashMap<[u32; 3], u32>,
 }
 
 /// An edge between two triangles, and what is there when it is replaced.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diagonal {
     /// The edge that goes.
     pub old: [u32; 2],
@@ -25,18 +33,92 @@ pub struct Diagonal {
     pub new: [u32; 2],
 }
 
+/// What is on the other side of two triangles.
+#[derive(Debug, PartialEq)]
+pub enum Beyond {
+    /// No tetrahedra of the template.
+    Nothing,
+    /// Tetrahedra of another region.
+    Region(u32),
+    /// Those of a region at two other triangles, which are glued to them.
+    Twins(Diagonal, u32),
+}
+
 impl Surface {
-    /// Triangles, each with the facet in which its edges may be replaced, if it is in one. Linear.
-    pub fn new(triangles: Vec<[u32; 3]>, facets: Vec<Option<u32>>) -> Self {
-        let free = triangles.iter().zip(&facets).enumerate();
-        let numbers = free
-            .filter(|(_, (_, facet))| facet.is_some())
+    /// The surface of a template, number `own`, with its facets. Linear.
+    pub fn new((template, own): (&Template, usize), flats: &Flats<'_>) -> Self {
+        let triangles = &template.triangles;
+        let is_flat = |f: usize| flats.slopes[f] == 0.0 && flats.normals[f] != DVec3::ZERO;
+        let facets = flats.of_triangle.iter();
+        let mut patches: Vec<Option<u32>> =
+            facets.map(|&f| is_flat(f as usize).then_some(f)).collect();
+        patches.resize(triangles.len(), None);
+        let mut surface = Self {
+            triangles: triangles.iter().map(|t| t.vertices).collect(),
+            patches,
+            regions: triangles.iter().map(|t| [t.front, t.back]).collect(),
+            ..Self::default()
+        };
+        let first = flats.normals.len() as u32;
+        let mut kinds: FxHashMap<_, u32> = FxHashMap::default();
+        for (g, gluing) in template.gluings.iter().enumerate() {
+            if gluing.other_than(own).is_some() {
+                surface.keep(gluing.triangle_pairs.iter().map(|p| p[0]));
+                continue;
+            }
+            surface.glue(gluing, |t, side| {
+                let of = &triangles[t as usize];
+                let kind = (g, side, of.marker, of.front, of.back);
+                let next = first + kinds.len() as u32;
+                *kinds.entry(kind).or_insert(next)
+            });
+        }
+        surface.keep(flats.kept.iter().copied());
+        let free = surface.triangles.iter().zip(&surface.patches).enumerate();
+        surface.numbers = free
+            .filter(|(_, (_, patch))| patch.is_some())
             .map(|(i, (t, _))| (sorted(*t), i as u32))
             .collect();
-        Self {
-            triangles,
-            facets,
-            numbers,
+        surface
+    }
+
+    /// Triangles stay as they are.
+    fn keep(&mut self, triangles: impl Iterator<Item = u32>) {
+        for t in triangles {
+            self.patches[t as usize] = None;
+        }
+    }
+
+    /// Notes which triangles of a seam are the same in the assembled mesh; `patch` numbers those on each side that may have
+    /// edges between them replaced. Faces that are their own images have nothing beyond.
+    fn glue(&mut self, gluing: &Gluing, mut patch: impl FnMut(u32, usize) -> u32) {
+        let pairs = gluing.vertex_pairs.iter();
+        let partners: FxHashMap<u32, u32> = pairs.map(|&[here, there]| (here, there)).collect();
+        for &[here, there] in &gluing.triangle_pairs {
+            if here == there {
+                continue;
+            }
+            let own = self.triangles[here as usize];
+            let other = self.triangles[there as usize];
+            let images = own.map(|v| partners.get(&v).copied().unwrap_or(v));
+            if sorted(images) != sorted(other) {
+                self.keep([here, there].into_iter());
+                continue;
+            }
+            let back = other.map(|v| {
+                if v == images[0] {
+                    own[0]
+                } else if v == images[1] {
+                    own[1]
+                } else {
+                    own[2]
+                }
+            });
+            self.twins.insert(here, (there, images));
+            self.twins.insert(there, (here, back));
+            for (side, t) in [here, there].into_iter().enumerate() {
+                self.patches[t as usize] = Some(patch(t, side));
+            }
         }
     }
 
@@ -45,27 +127,84 @@ impl Surface {
         &self.triangles
     }
 
-    /// Whether the triangles at an edge to both other vertices are in one facet, and may be others.
-    pub fn has(&self, Diagonal { old: [a, b], new }: Diagonal) -> bool {
-        let [Some(one), Some(other)] = new.map(|c| self.numbers.get(&sorted([a, b, c])).copied())
-        else {
-            return false;
-        };
-        let [s, t] = [one, other].map(|t| self.triangles[t as usize]);
-        self.facets[one as usize] == self.facets[other as usize] && runs(s, a, b) != runs(t, a, b)
+    /// What is beyond the triangles at an edge to both other vertices, seen from a region, if they may be others.
+    pub fn beyond(&self, diagonal: Diagonal, region: u32) -> Option<Beyond> {
+        let [one, other] = self.at(diagonal)?;
+        let regions = self.regions[one as usize];
+        if regions != self.regions[other as usize] || regions[0] == regions[1] {
+            return None;
+        }
+        match [one, other].map(|t| self.twins.get(&t)) {
+            [None, None] => {
+                let beyond = regions.into_iter().find(|&r| r != region)?;
+                Some(match beyond {
+                    OUTSIDE => Beyond::Nothing,
+                    beyond => Beyond::Region(beyond),
+                })
+            }
+            [Some(_), Some(_)] => {
+                let twin = self.twin(diagonal, [one, other])?;
+                let twins = self.at(twin)?;
+                let apart = twins.iter().all(|t| ![one, other].contains(t));
+                let beyond = self.regions[twins[0] as usize];
+                let beyond = beyond.into_iter().find(|&r| r != OUTSIDE)?;
+                apart.then_some(Beyond::Twins(twin, beyond))
+            }
+            _ => None,
+        }
     }
 
-    /// Replaces an edge.
-    pub fn replace(&mut self, Diagonal { old, new }: Diagonal) {
-        let [a, b] = old;
-        let numbers = new.map(|c| self.numbers.remove(&sorted([a, b, c])));
-        // Of the first, the edge's end goes to the corner of the other; of the other, the edge's start to the corner of the first.
-        let changes = [(b, new[1]), (a, new[0])];
-        for (number, (from, to)) in numbers.into_iter().zip(changes) {
-            let Some(number) = number else { continue };
-            let triangle = &mut self.triangles[number as usize];
-            *triangle = triangle.map(|v| if v == from { to } else { v });
-            self.numbers.insert(sorted(*triangle), number);
+    /// The triangles at an edge to both other vertices, if they may be others.
+    fn at(&self, Diagonal { old: [a, b], new }: Diagonal) -> Option<[u32; 2]> {
+        let number = |c: u32| self.numbers.get(&sorted([a, b, c])).copied();
+        let both = [number(new[0])?, number(new[1])?];
+        let [s, t] = both.map(|t| self.triangles[t as usize]);
+        let [p, q] = both.map(|t| self.patches[t as usize]);
+        (p == q && runs(s, a, b) != runs(t, a, b)).then_some(both)
+    }
+
+    /// The image of an edge between two triangles of a seam.
+    fn twin(&self, Diagonal { old, new }: Diagonal, both: [u32; 2]) -> Option<Diagonal> {
+        let image = |t: u32, v: u32| {
+            let place = self.triangles[t as usize].iter().position(|&u| u == v)?;
+            Some(self.twins.get(&t)?.1[place])
+        };
+        let [one, other] = both;
+        let ends = |t: u32| Some([image(t, old[0])?, image(t, old[1])?]);
+        let twin = Diagonal {
+            old: ends(one)?,
+            new: [image(one, new[0])?, image(other, new[1])?],
+        };
+        (ends(other)? == twin.old).then_some(twin)
+    }
+
+    /// Replaces an edge, and its image on a seam.
+    pub fn replace(&mut self, diagonal: Diagonal) {
+        let Some(both) = self.at(diagonal) else {
+            return;
+        };
+        let twin = self.twin(diagonal, both);
+        self.put(both, diagonal, twin);
+        if let Some(twin) = twin
+            && let Some(both) = self.at(twin)
+        {
+            self.put(both, twin, Some(diagonal));
+        }
+    }
+
+    /// Gives both triangles at an edge the other diagonal, and their images that of the image.
+    fn put(&mut self, both: [u32; 2], diagonal: Diagonal, twin: Option<Diagonal>) {
+        for (i, t) in both.into_iter().enumerate() {
+            // An end of the edge goes to the corner of the other triangle.
+            let change =
+                |d: Diagonal| move |v: u32| if v == d.old[1 - i] { d.new[1 - i] } else { v };
+            let triangle = &mut self.triangles[t as usize];
+            self.numbers.remove(&sorted(*triangle));
+            *triangle = triangle.map(change(diagonal));
+            self.numbers.insert(sorted(*triangle), t);
+            if let (Some(twin), Some((_, images))) = (twin, self.twins.get_mut(&t)) {
+                *images = images.map(change(twin));
+            }
         }
     }
 }
@@ -84,35 +223,135 @@ pub fn sorted(mut t: [u32; 3]) -> [u32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tmesh::{Isometry, Triangle};
+
+    const DIAGONAL: Diagonal = Diagonal {
+        old: [0, 2],
+        new: [1, 3],
+    };
+
+    fn triangle(vertices: [u32; 3], front: u32, back: u32) -> Triangle {
+        Triangle {
+            vertices,
+            marker: 0,
+            front,
+            back,
+        }
+    }
+
+    /// The surface of a template whose triangles are in the given facets of ten, of which the last one has no normal, and the one
+    /// before it leans.
+    fn surface(template: &Template, of_triangle: &[u32], kept: &[u32]) -> Surface {
+        let mut slopes = [0.0; 10];
+        let mut normals = [DVec3::Z; 10];
+        slopes[8] = 0.1;
+        normals[9] = DVec3::ZERO;
+        let flats = Flats {
+            of_triangle,
+            normals: &normals,
+            slopes: &slopes,
+            fixed: &[],
+            kept,
+            straight: 1e-12,
+        };
+        Surface::new((template, 0), &flats)
+    }
+
+    fn square(front: u32, back: u32) -> Template {
+        Template {
+            triangles: vec![
+                triangle([0, 1, 2], front, back),
+                triangle([2, 3, 0], front, back),
+            ],
+            ..Template::default()
+        }
+    }
 
     #[test]
     fn diagonals_are_exchanged() {
-        let square = vec![[0, 1, 2], [2, 3, 0]];
-        let diagonal = Diagonal {
-            old: [0, 2],
-            new: [1, 3],
-        };
-        let mut surface = Surface::new(square.clone(), vec![Some(7); 2]);
-        assert!(surface.has(diagonal));
-        surface.replace(diagonal);
-        assert!(!surface.has(diagonal));
+        let mut flat = surface(&square(OUTSIDE, 5), &[7, 7], &[]);
+        assert_eq!(flat.beyond(DIAGONAL, 5), Some(Beyond::Nothing));
+        flat.replace(DIAGONAL);
+        assert_eq!(flat.beyond(DIAGONAL, 5), None);
         // Both still run the same way around.
-        assert_eq!(surface.triangles(), [[0, 1, 3], [2, 3, 1]]);
+        assert_eq!(flat.triangles(), [[0, 1, 3], [2, 3, 1]]);
         let back = Diagonal {
-            old: [1, 3],
+            old: [3, 1],
             new: [0, 2],
         };
-        assert!(surface.has(back));
-        surface.replace(back);
-        let all: Vec<[u32; 3]> = surface.triangles().iter().map(|&t| sorted(t)).collect();
-        assert_eq!(all, [[0, 1, 2], [0, 2, 3]].map(sorted));
+        assert_eq!(flat.beyond(back, 5), Some(Beyond::Nothing));
+        flat.replace(back);
+        let all: Vec<[u32; 3]> = flat.triangles().iter().map(|&t| sorted(t)).collect();
+        assert!(all.contains(&[0, 1, 2]) && all.contains(&[0, 2, 3]));
+        assert_eq!(flat.beyond(DIAGONAL, 5), Some(Beyond::Nothing));
+    }
 
-        // Not across facets, not where one has to stay, not on one side of a sheet only.
-        for facets in [[Some(7), Some(8)], [Some(7), None], [None, None]] {
-            assert!(!Surface::new(square.clone(), facets.to_vec()).has(diagonal));
+    #[test]
+    fn shapes_borders_and_sheets_stay() {
+        let all = square(OUTSIDE, 5);
+        for (facets, kept) in [
+            ([7, 6], &[][..]),
+            ([8, 8], &[]),
+            ([9, 9], &[]),
+            ([7, 7], &[1]),
+        ] {
+            assert_eq!(surface(&all, &facets, kept).beyond(DIAGONAL, 5), None);
         }
-        let folded = vec![[0, 1, 2], [0, 3, 2]];
-        assert!(!Surface::new(folded, vec![Some(7); 2]).has(diagonal));
-        assert!(!Surface::default().has(diagonal));
+        // Not a sheet inside of a region, not triangles that lie on each other, and not what is no triangle.
+        let sheet = square(5, 5);
+        assert_eq!(surface(&sheet, &[7, 7], &[]).beyond(DIAGONAL, 5), None);
+        let mut folded = square(OUTSIDE, 5);
+        folded.triangles[1].vertices = [0, 3, 2];
+        assert_eq!(surface(&folded, &[7, 7], &[]).beyond(DIAGONAL, 5), None);
+        let other = Diagonal {
+            old: [0, 2],
+            new: [1, 4],
+        };
+        assert_eq!(surface(&all, &[7, 7], &[]).beyond(other, 5), None);
+        // Where two regions meet, both are asked.
+        let between = surface(&square(4, 5), &[7, 7], &[]);
+        assert_eq!(between.beyond(DIAGONAL, 5), Some(Beyond::Region(4)));
+        assert_eq!(between.beyond(DIAGONAL, 4), Some(Beyond::Region(5)));
+    }
+
+    /// Two squares, the second with the image of each vertex ten further on.
+    fn seam(other: u32) -> Template {
+        let mut template = square(OUTSIDE, 5);
+        template.triangles.extend([
+            triangle([12, 11, 10], OUTSIDE, 5),
+            triangle([10, 13, 12], OUTSIDE, 5),
+        ]);
+        template.gluings = vec![Gluing {
+            name: "seam".to_owned(),
+            other,
+            step: Isometry::rotation(1, 7),
+            vertex_pairs: (0..4).map(|v| [v, 10 + v]).collect(),
+            triangle_pairs: vec![[0, 2], [1, 3]],
+        }];
+        template
+    }
+
+    #[test]
+    fn both_sides_of_a_seam_change_together() {
+        // It may be in no facet at all, and in several.
+        let template = seam(0);
+        let mut both = surface(&template, &[9, 7, 6, 5], &[]);
+        let image = Diagonal {
+            old: [10, 12],
+            new: [11, 13],
+        };
+        assert_eq!(both.beyond(DIAGONAL, 5), Some(Beyond::Twins(image, 5)));
+        assert_eq!(both.beyond(image, 5), Some(Beyond::Twins(DIAGONAL, 5)));
+        both.replace(image);
+        let expected = [[0, 1, 3], [2, 3, 1], [13, 11, 10], [11, 13, 12]];
+        assert_eq!(both.triangles(), expected);
+        let back = |first: u32| Diagonal {
+            old: [first + 1, first + 3],
+            new: [first, first + 2],
+        };
+        assert_eq!(both.beyond(back(0), 5), Some(Beyond::Twins(back(10), 5)));
+        // Not if one side has to stay, and not where another template is beyond.
+        assert_eq!(surface(&template, &[7; 4], &[3]).beyond(DIAGONAL, 5), None);
+        assert_eq!(surface(&seam(1), &[7; 4], &[]).beyond(DIAGONAL, 5), None);
     }
 }

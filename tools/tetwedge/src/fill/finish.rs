@@ -1,7 +1,7 @@
 //! Improvement of a filled template, and the checks of all of it.
 
 use super::answer::{Origin, put_onto_relief};
-use super::filled::{Filled, NONE};
+use super::filled::Filled;
 use super::measures::measures;
 use super::orientations::orientations;
 use geom::flat::FOLD_SINE;
@@ -61,8 +61,6 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
     let fixed: Vec<u32> = shared
         .flat_map(|&t| filled.template.triangles[t as usize].vertices)
         .collect();
-    let preserved = filled.triangles.iter().filter(|&&t| t != NONE);
-    let kept: Vec<u32> = preserved.chain(&filled.shared).copied().collect();
     let freedoms = Freedoms::new(
         (&filled.template, piece.index),
         &Flats {
@@ -70,7 +68,7 @@ fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -
             normals: &normals,
             slopes: &slopes,
             fixed: &fixed,
-            kept: &kept,
+            kept: &filled.shared,
             straight: plc.rounding + 2.0 * plc.shift,
         },
     );
