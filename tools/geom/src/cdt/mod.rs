@@ -8,6 +8,7 @@
 
 mod enclosed;
 mod label;
+mod order;
 mod patch;
 mod triangulation;
 

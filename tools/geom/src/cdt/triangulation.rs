@@ -1,5 +1,6 @@
 //! The triangulation as arrays.
 
+use super::order::insertion_order;
 use crate::points::weld::Welder;
 use crate::rounding::power_of_two;
 use spade::handles::FixedVertexHandle;
@@ -89,14 +90,14 @@ impl Cdt {
                 return Err(CdtError::Coincident(first, i));
             }
         }
-        let sites = (0..).zip(sites).map(|(index, place)| Site { place, index });
         // Points first, segments after them: where both are given at once, spade takes what it left for later in the
         // order of a hash table, which is another one in every run.
-        let mut inner = ConstrainedDelaunayTriangulation::<Site>::bulk_load(sites.collect())
-            .map_err(|_| CdtError::Coordinate)?;
+        let mut inner = ConstrainedDelaunayTriangulation::<Site>::new();
         let mut vertices = vec![FixedVertexHandle::from_index(0); points.len()];
-        for vertex in inner.vertices() {
-            vertices[vertex.data().index as usize] = vertex.fix();
+        for index in insertion_order(&sites) {
+            let place = sites[index as usize];
+            let vertex = inner.insert(Site { place, index });
+            vertices[index as usize] = vertex.map_err(|_| CdtError::Coordinate)?;
         }
         for &ends in segments {
             let [a, b] = ends.map(|v| vertices[v as usize]);
