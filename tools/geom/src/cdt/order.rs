@@ -3,9 +3,13 @@
 //! In rounds of a random half each, and along a space-filling curve in each round (N. Amenta, S. Choi, G. Rote, "Incremental constructions
 //! con BRIO", 2003): each point is found near the one before it, and however points are spread, few triangles are made that do not
 //! stay. Sweeping over all of them, as spade does when it is given all at once, takes 150 times as long for the 53,000 points of a
-//! wall that is graded from 1e-4 to 1 of its size, and as long for points that are spread evenly.
+//! wall that is graded from 1e-4 to 1 of its size, and as long for points that are spread evenly. But it is the same way across all
+//! squares of a grid, which has to be one or the other: on 60 parts, the smallest angles are 5 % larger with it.
 
 use spade::Point2;
+
+/// So many points are swept over: it takes 20 ms at most.
+pub const SWEPT: usize = 4096;
 
 /// Points of the first round at most: their order hardly matters.
 const FIRST: usize = 64;
@@ -39,13 +43,18 @@ pub fn insertion_order(places: &[Point2<f64>]) -> Vec<u32> {
     order
 }
 
-/// Puts numbers in an order that has nothing to do with theirs (Fisher and Yates, with a generator of D. Knuth's, MMIX).
+/// The number after another one that looks random; the upper bits do (D. Knuth, MMIX).
+pub fn next(state: u64) -> u64 {
+    state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407)
+}
+
+/// Puts numbers in an order that has nothing to do with theirs (Fisher and Yates).
 fn shuffle(list: &mut [u32]) {
     let mut state = 1_u64;
     for i in (1..list.len()).rev() {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        state = next(state);
         list.swap(i, ((state >> 33) % (i as u64 + 1)) as usize);
     }
 }

@@ -1,11 +1,12 @@
 //! The triangulation as arrays.
 
-use super::order::insertion_order;
+use super::order::{SWEPT, insertion_order};
 use crate::points::weld::Welder;
 use crate::rounding::power_of_two;
 use spade::handles::FixedVertexHandle;
 use spade::{
-    ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation,
+    ConstrainedDelaunayTriangulation, HasPosition, InsertionError, Point2, PositionInTriangulation,
+    Triangulation,
 };
 use thiserror::Error;
 
@@ -70,6 +71,18 @@ pub struct Cdt {
     scale: f64,
 }
 
+/// Triangulates points one by one.
+fn inserted(
+    sites: &[Point2<f64>],
+) -> Result<ConstrainedDelaunayTriangulation<Site>, InsertionError> {
+    let mut inner = ConstrainedDelaunayTriangulation::new();
+    for index in insertion_order(sites) {
+        let place = sites[index as usize];
+        inner.insert(Site { place, index })?;
+    }
+    Ok(inner)
+}
+
 impl Cdt {
     /// Triangulates points with the given segments, pairs of point indices. A segment that passes through a point
     /// is divided there.
@@ -92,12 +105,17 @@ impl Cdt {
         }
         // Points first, segments after them: where both are given at once, spade takes what it left for later in the
         // order of a hash table, which is another one in every run.
-        let mut inner = ConstrainedDelaunayTriangulation::<Site>::new();
+        let inner = match sites.len() <= SWEPT {
+            true => {
+                let sites = (0..).zip(sites).map(|(index, place)| Site { place, index });
+                ConstrainedDelaunayTriangulation::bulk_load(sites.collect())
+            }
+            false => inserted(&sites),
+        };
+        let mut inner = inner.map_err(|_| CdtError::Coordinate)?;
         let mut vertices = vec![FixedVertexHandle::from_index(0); points.len()];
-        for index in insertion_order(&sites) {
-            let place = sites[index as usize];
-            let vertex = inner.insert(Site { place, index });
-            vertices[index as usize] = vertex.map_err(|_| CdtError::Coordinate)?;
+        for vertex in inner.vertices() {
+            vertices[vertex.data().index as usize] = vertex.fix();
         }
         for &ends in segments {
             let [a, b] = ends.map(|v| vertices[v as usize]);
@@ -184,6 +202,38 @@ fn site(p: [f64; 2], scale: f64) -> Point2<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn many_points_are_triangulated_as_few_are() {
+        // More towards a corner, without four on a circle.
+        let mut state = 1_u64;
+        let mut random = || {
+            state = super::super::order::next(state);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut points = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        points.extend((0..2 * SWEPT).map(|_| [random().powi(3), random().powi(3)]));
+        let sites: Vec<Point2<f64>> = points.iter().map(|&p| site(p, 1.0)).collect();
+        let swept = (0..)
+            .zip(&sites)
+            .map(|(index, &place)| Site { place, index });
+        let swept = ConstrainedDelaunayTriangulation::<Site>::bulk_load(swept.collect()).unwrap();
+        let all = |inner: &ConstrainedDelaunayTriangulation<Site>| {
+            let faces = inner.inner_faces();
+            let mut list: Vec<[u32; 3]> = faces
+                .map(|f| {
+                    let mut corners = f.vertices().map(|v| v.data().index);
+                    corners.sort_unstable();
+                    corners
+                })
+                .collect();
+            list.sort_unstable();
+            list
+        };
+        assert!(all(&inserted(&sites).unwrap()) == all(&swept));
+        let cdt = Cdt::new(&points, &[[0, 2], [0, 1]]).unwrap();
+        assert!(cdt.has_segment([2, 0]) && cdt.triangles.len() == 2 * points.len() - 6);
+    }
 
     #[test]
     fn sides_and_neighbours_fit() {

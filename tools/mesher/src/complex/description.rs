@@ -49,7 +49,8 @@ pub struct Description {
     /// diagonal is from 1 to 2). Symmetric bodies have many cospherical points, and these make TetGen lose its way.
     pub stir: Option<f64>,
     /// Points from which on TetGen inserts them in random rounds, instead of the 64 it takes; below that the
-    /// order depends on where the points are alone, and is the same for all descriptions.
+    /// order depends on where the points are alone, and is the same for all descriptions. With 0 it takes them in the
+    /// order given.
     pub rounds_from: Option<u32>,
     /// Whether triangles off the walls are facets of their own unless they are exactly coplanar: nothing is
     /// uneven then, but their edges all stay.
