@@ -25,8 +25,11 @@ pub struct Face {
 
 /// What is asked of the elements that are left.
 pub struct Coarse<'a> {
-    /// Smallest dihedral angle, degrees.
+    /// Dihedral angle of good ones, degrees.
     pub angle: f64,
+    /// Smallest dihedral angle that there may be in the place of worse ones, degrees. Improvement brings back the rest, by vertices
+    /// inside and on flat facets, so that what has all corners on the surface must be good in any case.
+    pub min_dihedral: f64,
     /// Largest radius-edge ratio.
     pub radius_edge: f64,
     /// Largest volume by region, cubes of the unit of the positions.
@@ -36,13 +39,6 @@ pub struct Coarse<'a> {
     /// Number of the first vertex that may go.
     pub first: u32,
 }
-
-/// Quality that tetrahedra must have in the place of worse ones; where good ones are there, they must be good. It is the part of
-/// the angle that the mesher is asked for, since improvement brings back the rest: by vertices inside, so that what has all
-/// corners on the surface must be good in any case. Measured on rings, vias, gears, impellers and ten parts from CAD kernels: with
-/// 0.1 to 0.6 there are 2 to 8 % fewer elements, but more of the worst, on a wheel up to three times as many; with 0.9 half as many
-/// vertices can go.
-const MENDABLE: f64 = 2.0 / 3.0;
 
 /// What is there instead may have this part of the largest volume: what is larger than that is split by the mesher, which leaves elements
 /// of a third to half of it, so that sizes are met in the mean.
@@ -62,6 +58,8 @@ struct Work<'w, 'a> {
     /// Faces at each vertex of the surface.
     at: FxHashMap<u32, Vec<u32>>,
     gone: Vec<bool>,
+    /// Quality that tetrahedra must have in the place of worse ones.
+    least: f64,
     wish: &'w Coarse<'a>,
 }
 
@@ -87,6 +85,7 @@ pub fn coarsen(
     let mut work = Work {
         mesh: Mesh::new(points, std::mem::take(tets), goal, &limits),
         gone: vec![false; faces.len()],
+        least: goal.of_angle(wish.min_dihedral).min(1.0),
         faces,
         at,
         wish,
@@ -195,7 +194,7 @@ impl Work<'_, '_> {
     fn find(&self, v: u32) -> Option<Collapse> {
         let old = self.mesh.star(v);
         let (worst, most) = self.mesh.bounds(old, 0.0, 0.0);
-        let mut least = worst.clamp(MENDABLE, 1.0);
+        let mut least = worst.clamp(self.least, 1.0);
         let mut best = None;
         for to in self.targets(v) {
             if let Some(collapse) = self.collapse((v, to), least, most) {
@@ -375,6 +374,7 @@ mod tests {
     fn wish(max_volume: &FxHashMap<u32, f64>) -> Coarse<'_> {
         Coarse {
             angle: 25.0,
+            min_dihedral: 10.0,
             radius_edge: 1.4,
             max_volume,
             local: None,

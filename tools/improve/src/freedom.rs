@@ -1,6 +1,6 @@
 //! Where a vertex may be moved to without changing the shape, its facets, or a wall.
 
-use crate::surface::Surface;
+use crate::surface::{Sheet, Surface};
 use geom::edges::Edges;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -33,11 +33,27 @@ impl Freedom {
 }
 
 /// What a vertex of a wall or of the axis must keep to the last bit.
-#[derive(Clone, Copy, Debug, Default)]
-struct Exact {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Exact {
     vertical: Option<FixedSet>,
     level: bool,
     axis: bool,
+}
+
+impl Exact {
+    /// The nearest place to `p` that has it.
+    pub fn place(&self, p: DVec3) -> DVec3 {
+        let p = if self.axis {
+            DVec3::new(0.0, 0.0, p.z)
+        } else {
+            self.vertical.map_or(p, |plane| plane.nearest(p))
+        };
+        if self.level {
+            DVec3::new(p.x, p.y, 0.0)
+        } else {
+            p
+        }
+    }
 }
 
 /// Facets of the surface of a filled template.
@@ -57,6 +73,7 @@ pub struct Flats<'a> {
 }
 
 /// The freedom of all vertices of a template.
+#[derive(Clone)]
 pub struct Freedoms {
     of_vertex: Vec<Freedom>,
     exact: FxHashMap<u32, Exact>,
@@ -200,19 +217,29 @@ impl Freedoms {
 
     /// The nearest place to `p` that is exactly on what `v` belongs to.
     pub fn place(&self, v: u32, p: DVec3) -> DVec3 {
-        let Some(exact) = self.exact.get(&v) else {
-            return p;
+        self.exact.get(&v).map_or(p, |exact| exact.place(p))
+    }
+
+    /// What a vertex in a patch of the surface may do, and what it must keep: what all corners of a triangle there keep.
+    pub fn within(&self, sheet: &Sheet) -> (Freedom, Exact) {
+        let (a, b) = sheet.normal.any_orthonormal_pair();
+        let of = |v: u32| self.exact.get(&v).copied().unwrap_or_default();
+        let all = sheet.corners.map(of);
+        let exact = Exact {
+            vertical: all[0]
+                .vertical
+                .filter(|_| all.iter().all(|e| e.vertical == all[0].vertical)),
+            level: all.iter().all(|e| e.level),
+            axis: false,
         };
-        let p = if exact.axis {
-            DVec3::new(0.0, 0.0, p.z)
-        } else {
-            exact.vertical.map_or(p, |plane| plane.nearest(p))
-        };
-        if exact.level {
-            DVec3::new(p.x, p.y, 0.0)
-        } else {
-            p
-        }
+        (Freedom::Plane(a, b), exact)
+    }
+
+    /// Notes what a new vertex may do.
+    pub fn add(&mut self, v: u32, freedom: Freedom, exact: Exact) {
+        self.of_vertex.resize(v as usize, Freedom::Free);
+        self.of_vertex.push(freedom);
+        self.exact.insert(v, exact);
     }
 }
 

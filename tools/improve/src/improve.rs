@@ -6,8 +6,9 @@ use crate::freedom::Freedoms;
 use crate::insert;
 use crate::mesh::{Corners, Mesh};
 use crate::quality::Goal;
+use crate::surface::Surface;
 use geom::tet::TetMeasures;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::Template;
 
 /// Searches for new vertices at a time, over the root of the number of tetrahedra. With one, 7 to 10 % more elements stay past the
@@ -50,13 +51,18 @@ pub struct Improved {
     pub inserted: usize,
 }
 
-/// Improves the tetrahedra of a template. Walls and numbers of vertices stay, and surface triangles but for edges inside
-/// of flat facets and of seams; new vertices have numbers beyond. The number of threads makes no difference to the result.
+/// Improves the tetrahedra of a template. Walls and numbers of vertices and triangles stay; inside of flat facets and seams,
+/// triangles have other corners. New vertices and triangles have numbers beyond; of each new triangle, the one that it is a part of is
+/// given. The number of threads makes no difference to the result.
 ///
 /// At first elements past the radius-edge bound are worth little less than good ones, and they and slivers get vertices. What is still
 /// past a bound after that is worth any angle down to the smallest one asked for. From the start, that would spoil
 /// elements whose neighbours a vertex can mend.
-pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) -> Improved {
+pub fn improve(
+    template: &mut Template,
+    freedoms: &Freedoms,
+    wish: &Wish<'_>,
+) -> (Improved, Vec<u32>) {
     let goal = Goal::new(wish.angle, wish.radius_edge, wish.min_dihedral);
     let cube = 6.0 * wish.scale.powi(3);
     let limits: FxHashMap<u32, f64> = wish
@@ -66,7 +72,7 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
         .collect();
     let mut work = Work {
         mesh: Mesh::of_template(template, wish.scale, goal.lenient(), &limits),
-        freedoms,
+        freedoms: freedoms.clone(),
         wish,
         tried: Tried::default(),
         looked_at: 0,
@@ -87,22 +93,53 @@ pub fn improve(template: &mut Template, freedoms: &Freedoms, wish: &Wish<'_>) ->
             *p = moved / wish.scale;
         }
     }
+    let parents = divide(template, mesh.surface());
     let added = &mesh.positions[template.vertices.len()..];
     template
         .vertices
         .extend(added.iter().map(|&p| p / wish.scale));
-    let surface = mesh.surface().triangles();
-    for (triangle, &vertices) in template.triangles.iter_mut().zip(surface) {
+    template.tets = mesh.into_tets();
+    (done, parents)
+}
+
+/// Gives a template the triangles of its surface as they are now; mirror planes are glued to themselves where they are new. Returns of
+/// which triangle each new one is a part.
+fn divide(template: &mut Template, surface: &Surface) -> Vec<u32> {
+    let parents = surface.parents();
+    let first = template.triangles.len();
+    let parts = parents.iter().map(|&t| template.triangles[t as usize]);
+    let parts: Vec<_> = parts.collect();
+    template.triangles.extend(parts);
+    for (triangle, &vertices) in template.triangles.iter_mut().zip(surface.triangles()) {
         triangle.vertices = vertices;
     }
-    template.tets = mesh.into_tets();
-    done
+    for gluing in &mut template.gluings {
+        let own = gluing.triangle_pairs.iter().filter(|p| p[0] == p[1]);
+        let mut own: FxHashSet<u32> = own.map(|p| p[0]).collect();
+        for (t, parent) in (first as u32..).zip(&parents) {
+            if own.contains(parent) {
+                own.insert(t);
+                gluing.triangle_pairs.push([t, t]);
+            }
+        }
+        let known = template.vertices.len() as u32;
+        let corners = own
+            .iter()
+            .flat_map(|&t| template.triangles[t as usize].vertices);
+        let mut vertices: Vec<u32> = corners.filter(|&v| v >= known).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        gluing
+            .vertex_pairs
+            .extend(vertices.into_iter().map(|v| [v, v]));
+    }
+    parents
 }
 
 /// A mesh that is improved.
 struct Work<'a> {
     mesh: Mesh<'a>,
-    freedoms: &'a Freedoms,
+    freedoms: Freedoms,
     wish: &'a Wish<'a>,
     tried: Tried,
     /// Tetrahedra that were looked at for the present goal, as often as they were.
@@ -168,7 +205,7 @@ impl Work<'_> {
         loop {
             let bad = self.bad();
             let others = &mut self.tried.others;
-            let count = ahead::work(&mut self.mesh, self.freedoms, &bad, others);
+            let count = ahead::work(&mut self.mesh, &self.freedoms, &bad, others);
             self.done.moved += count.moved;
             self.done.flipped += count.flipped;
             self.looked_at += count.looked_at;
@@ -197,9 +234,9 @@ impl Work<'_> {
             if last.is_some_and(|time| corners.iter().all(|&v| !mesh.is_touched(v, time))) {
                 continue;
             }
-            let found = insert::find(mesh, self.freedoms, tet);
+            let found = insert::find(mesh, &self.freedoms, tet);
             if let Some(insertion) = found.filter(|i| goal.is_worth_it(i.least())) {
-                insertion.apply(mesh);
+                insertion.apply(mesh, &mut self.freedoms);
                 self.done.inserted += 1;
             }
         }

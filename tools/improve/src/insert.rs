@@ -3,12 +3,14 @@
 //! A tetrahedron makes room for a vertex, together with those around it that would be no better than it is with the
 //! new vertex in their place; the cavity is filled from the vertex, which then moves to where the worst of the
 //! new tetrahedra is best (after B. Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 2007). It
-//! is the only way where all corners are on a surface that has to stay.
+//! is the only way where all corners are on a surface that has to stay. In a flat facet with nothing beyond, the vertex may be
+//! on the surface: the cavity is open there, and triangles of the facet are filled from the vertex too.
 
-use crate::freedom::Freedoms;
+use crate::freedom::{Exact, Freedom, Freedoms};
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
 use crate::smooth::settle;
+use crate::surface::{Sheet, outline};
 use geom::tet::{EDGES, FACES};
 use glam::DVec3;
 
@@ -25,6 +27,9 @@ pub struct Insertion {
     old: Vec<u32>,
     new: Vec<(Corners, Grade)>,
     least: f64,
+    /// Triangles of the surface that it divides, and what it may do there.
+    divided: Vec<[u32; 3]>,
+    within: (Freedom, Exact),
 }
 
 impl Insertion {
@@ -40,10 +45,15 @@ impl Insertion {
     }
 
     /// Adds the vertex, and puts the tetrahedra in their place.
-    pub fn apply(&self, mesh: &mut Mesh<'_>) {
+    pub fn apply(&self, mesh: &mut Mesh<'_>, freedoms: &mut Freedoms) {
         mesh.renew();
-        mesh.add(self.at);
+        let vertex = mesh.add(self.at);
         mesh.replace(&self.old, &self.new);
+        if !self.divided.is_empty() {
+            let (freedom, exact) = self.within;
+            freedoms.add(vertex, freedom, exact);
+            mesh.divide_surface(&self.divided, vertex);
+        }
     }
 }
 
@@ -54,14 +64,22 @@ struct Cavity {
     /// What would be in their place, and the smallest quality of them with the vertex at `start`.
     new: Vec<Corners>,
     least: f64,
+    /// The patch of the surface that the vertex is in, and the triangles that are divided.
+    sheet: Option<Sheet>,
+    divided: Vec<[u32; 3]>,
 }
 
 /// The new vertex in or at a tetrahedron that makes the worst one there better, and as good as possible.
 pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> Option<Insertion> {
     let points = mesh.corners(tet).map(|v| mesh.positions[v as usize]);
-    let mut cavities: Vec<Cavity> = places(points)
-        .filter_map(|p| cavity(mesh, tet, p))
-        .collect();
+    let inside = places(points).filter_map(|p| cavity(mesh, tet, p, None));
+    let sheets = faces(mesh, tet).filter_map(|(face, _)| mesh.surface().sheet(face));
+    let on_surface = sheets.flat_map(|sheet| {
+        let corners = sheet.corners.map(|v| mesh.positions[v as usize]);
+        let exact = freedoms.within(&sheet).1;
+        places_on_face(corners).filter_map(move |p| cavity(mesh, tet, exact.place(p), Some(sheet)))
+    });
+    let mut cavities: Vec<Cavity> = inside.chain(on_surface).collect();
     // The vertex is moved from there, which takes time.
     cavities.sort_by(|a, b| b.least.total_cmp(&a.least));
     cavities.truncate(TRIED);
@@ -93,16 +111,34 @@ fn places(points: [DVec3; 4]) -> impl Iterator<Item = DVec3> {
     all.chain(towards.into_iter().filter(|p| p.is_finite()))
 }
 
-/// The cavity that suits a vertex at `start`.
-fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3) -> Option<Cavity> {
+/// Where to try on a face: its middle, those of its edges, and the centre of its circumscribed circle.
+fn places_on_face([a, b, c]: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
+    let middle = (a + b + c) / 3.0;
+    let (u, v) = (b - a, c - a);
+    let normal = u.cross(v);
+    let sum = u.length_squared() * v.cross(normal) + v.length_squared() * normal.cross(u);
+    let centre = a + sum / (2.0 * normal.length_squared());
+    let edges = [[a, b], [b, c], [c, a]].map(|[p, q]| (p + q) * 0.5);
+    let all = std::iter::once(middle).chain(edges);
+    all.chain(Some(centre).filter(|p| p.is_finite()))
+}
+
+/// The cavity that suits a vertex at `start`, inside or in a patch of the surface.
+fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3, sheet: Option<Sheet>) -> Option<Cavity> {
     let region = mesh.region(tet);
     let (above, _) = mesh.bounds(&[tet], GAIN, HALF_DIGITS);
     let vertex = mesh.positions.len() as u32;
     let mut old = vec![tet];
     // Faces of the cavity, seen from inside, with the tetrahedron inside.
     let mut hull: Vec<([u32; 3], u32)> = faces(mesh, tet).collect();
+    let mut divided: Vec<[u32; 3]> = Vec::new();
     let mut next = 0;
     while let Some(&(face, inside)) = hull.get(next) {
+        if sheet.is_some_and(|s| mesh.surface().is_in(&s, face)) {
+            divided.push(face);
+            hull.remove(next);
+            continue;
+        }
         let points = face.map(|v| mesh.positions[v as usize]);
         let grade = mesh.of_points([points[0], points[1], points[2], start]);
         if grade.quality > above {
@@ -133,6 +169,10 @@ fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3) -> Option<Cavity> {
             }
         }
     }
+    // Otherwise what it divides is not one piece without holes.
+    if sheet.is_some() && outline(&divided).len() != divided.len() + 2 {
+        return None;
+    }
     let kept = |v: &u32| hull.iter().any(|(face, _)| face.contains(v));
     let edge_kept = |a: u32, b: u32| {
         !mesh.is_fixed_edge(a, b) || hull.iter().any(|(f, _)| f.contains(&a) && f.contains(&b))
@@ -160,17 +200,26 @@ fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3) -> Option<Cavity> {
         start,
         old,
         new,
+        sheet,
+        divided,
     })
 }
 
 /// Fills a cavity from a vertex that is moved to the best place, if that makes the worst tetrahedron better.
 fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, cavity: Cavity) -> Option<Insertion> {
     let Cavity {
-        start, old, new, ..
+        start,
+        old,
+        new,
+        sheet,
+        divided,
+        ..
     } = cavity;
+    let inside = (Freedom::Free, Exact::default());
+    let within = sheet.map_or(inside, |sheet| freedoms.within(&sheet));
     let (above, most) = mesh.bounds(&old, GAIN, HALF_DIGITS);
     let region = mesh.region(*old.first()?);
-    let (at, grades) = settle(mesh, freedoms, start, &new, (region, most));
+    let (at, grades) = settle(mesh, freedoms, start, &new, (region, most), within);
     let qualities = grades.iter().map(|g| g.quality);
     let least = qualities.fold(f64::INFINITY, f64::min);
     (least > above).then(|| Insertion {
@@ -178,6 +227,8 @@ fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, cavity: Cavity) -> Option<Insertio
         old,
         new: new.into_iter().zip(grades).collect(),
         least,
+        divided,
+        within,
     })
 }
 

@@ -63,6 +63,11 @@ impl<'a> Mesh<'a> {
         &self.surface
     }
 
+    /// Puts a vertex into triangles of the surface.
+    pub fn divide_surface(&mut self, faces: &[[u32; 3]], vertex: u32) {
+        self.surface.divide(faces, vertex);
+    }
+
     /// Replaces an edge of the surface.
     pub fn replace_diagonal(&mut self, diagonal: Diagonal) {
         self.surface.replace(diagonal);

@@ -67,6 +67,11 @@ impl Goal {
         }
     }
 
+    /// Quality of an element within the radius-edge bound with this smallest dihedral angle, degrees.
+    pub fn of_angle(&self, angle: f64) -> f64 {
+        libm::tan(angle.to_radians()) / self.tangent
+    }
+
     /// Whether an element with this quality is past the radius-edge bound, or no better than one that is.
     pub fn is_worth_a_vertex(&self, quality: f64) -> bool {
         quality < self.step

@@ -7,7 +7,7 @@
 //! where even the slope itself would not gain enough by the step.
 //! A vertex on a seam has its star on both sides of it: what is at its partner is turned back.
 
-use crate::freedom::{Freedom, Freedoms};
+use crate::freedom::{Exact, Freedom, Freedoms};
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
 use arrayvec::ArrayVec;
@@ -22,6 +22,8 @@ struct Star<'m, 'a> {
     mesh: &'m Mesh<'a>,
     freedoms: &'m Freedoms,
     vertex: u32,
+    /// What the vertex keeps, if it is a new one.
+    exact: Option<Exact>,
     tets: Vec<Corners>,
     regions: Vec<u32>,
     /// Size that each tetrahedron may have in any case, six volumes.
@@ -53,6 +55,14 @@ impl Star<'_, '_> {
             (sum + self.mesh.positions[u as usize], count + 1)
         });
         (free && count > 0).then(|| sum / f64::from(count))
+    }
+
+    /// The nearest place to `p` that is exactly on what the vertex belongs to.
+    fn place(&self, p: DVec3) -> DVec3 {
+        match self.exact {
+            Some(exact) => exact.place(p),
+            None => self.freedoms.place(self.vertex, p),
+        }
     }
 
     /// Grades with the vertex at `p`.
@@ -137,6 +147,7 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
         mesh,
         freedoms,
         vertex,
+        exact: None,
         tets: tets.iter().map(|&t| mesh.corners(t)).collect(),
         regions: tets.iter().map(|&t| mesh.region(t)).collect(),
         sizes: grades.iter().map(|g| g.six_volume).collect(),
@@ -159,24 +170,26 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
     })
 }
 
-/// The best place found for a vertex that is new, from `start` on, and the grades of the tetrahedra at it. They are all
-/// in one region, and may have a size of `most`, six volumes, in any case.
+/// The best place found for a vertex that is new and may do so much, from `start` on, and the grades of the tetrahedra at it. They
+/// are all in one region, and may have a size of `most`, six volumes, in any case.
 pub fn settle(
     mesh: &Mesh<'_>,
     freedoms: &Freedoms,
     start: DVec3,
     tets: &[Corners],
     (region, most): (u32, f64),
+    (freedom, exact): (Freedom, Exact),
 ) -> (DVec3, Vec<Grade>) {
     let star = Star {
         mesh,
         freedoms,
         vertex: mesh.positions.len() as u32,
+        exact: Some(exact),
         tets: tets.to_vec(),
         regions: vec![region; tets.len()],
         sizes: vec![most; tets.len()],
     };
-    let directions: Vec<DVec3> = Freedom::Free.directions().collect();
+    let directions: Vec<DVec3> = freedom.directions().collect();
     let qualities = star.grades(start).map(|g| g.quality).collect();
     let to = climb(&star, start, qualities, &directions).unwrap_or(start);
     let grades = star.grades(to).collect();
@@ -238,7 +251,7 @@ fn climb(
         let up: DVec3 = directions.iter().map(|&d| d * d.dot(up)).sum();
         let mut better = None;
         while slope * step > worth {
-            let q = star.freedoms.place(star.vertex, p + up * step);
+            let q = star.place(p + up * step);
             if let Some(list) = star.qualities(q, (least + worth).max(HALF_DIGITS)) {
                 better = Some((q, list));
                 break;

@@ -22,6 +22,20 @@ pub struct Surface {
     twins: FxHashMap<u32, (u32, [u32; 3])>,
     /// Number of the triangle between three vertices.
     numbers: FxHashMap<[u32; 3], u32>,
+    /// Unit normal of each facet, which are the first patches.
+    normals: Vec<DVec3>,
+    /// Of each triangle that has come since, one that it is a part of.
+    parents: Vec<u32>,
+}
+
+/// A flat patch with nothing beyond, by one of its triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct Sheet {
+    /// Corners of the triangle.
+    pub corners: [u32; 3],
+    /// Unit normal of the patch.
+    pub normal: DVec3,
+    patch: u32,
 }
 
 /// An edge between two triangles, and what is there when it is replaced.
@@ -57,6 +71,7 @@ impl Surface {
             triangles: triangles.iter().map(|t| t.vertices).collect(),
             patches,
             regions: triangles.iter().map(|t| [t.front, t.back]).collect(),
+            normals: flats.normals.to_vec(),
             ..Self::default()
         };
         let first = flats.normals.len() as u32;
@@ -154,6 +169,57 @@ impl Surface {
         }
     }
 
+    /// The patch that a face is in, if a vertex may be put there.
+    pub fn sheet(&self, face: [u32; 3]) -> Option<Sheet> {
+        let t = *self.numbers.get(&sorted(face))?;
+        let patch = self.patches[t as usize]?;
+        let has_one_side = self.regions[t as usize].contains(&OUTSIDE);
+        (has_one_side && !self.twins.contains_key(&t)).then(|| Sheet {
+            corners: face,
+            normal: self.normals[patch as usize],
+            patch,
+        })
+    }
+
+    /// Whether a face is a triangle of a patch.
+    pub fn is_in(&self, sheet: &Sheet, face: [u32; 3]) -> bool {
+        let number = self.numbers.get(&sorted(face));
+        number.is_some_and(|&t| self.patches[t as usize] == Some(sheet.patch))
+    }
+
+    /// Puts triangles from a new vertex to the outline of some in their place. There are two more than before.
+    pub fn divide(&mut self, faces: &[[u32; 3]], vertex: u32) {
+        let numbers = faces
+            .iter()
+            .filter_map(|f| self.numbers.remove(&sorted(*f)));
+        let gone: Vec<u32> = numbers.collect();
+        let Some(&parent) = gone.first() else { return };
+        let triangles = gone.iter().map(|&t| self.triangles[t as usize]);
+        let outline = outline(&triangles.collect::<Vec<_>>());
+        for (i, [a, b]) in outline.into_iter().enumerate() {
+            let number = gone.get(i).copied().unwrap_or_else(|| {
+                self.triangles.push([0; 3]);
+                self.patches.push(self.patches[parent as usize]);
+                self.regions.push(self.regions[parent as usize]);
+                self.parents.push(parent);
+                self.triangles.len() as u32 - 1
+            });
+            self.triangles[number as usize] = [a, b, vertex];
+            self.numbers.insert(sorted([a, b, vertex]), number);
+        }
+    }
+
+    /// Of each triangle that has come since, the one of those before that it is a part of.
+    pub fn parents(&self) -> Vec<u32> {
+        let first = self.triangles.len() - self.parents.len();
+        let mut parents: Vec<u32> = Vec::with_capacity(self.parents.len());
+        for &parent in &self.parents {
+            let known = (parent as usize).checked_sub(first).map(|i| parents[i]);
+            parents.push(known.unwrap_or(parent));
+        }
+        parents
+    }
+
     /// The triangles at an edge to both other vertices, if they may be others.
     fn at(&self, Diagonal { old: [a, b], new }: Diagonal) -> Option<[u32; 2]> {
         let number = |c: u32| self.numbers.get(&sorted([a, b, c])).copied();
@@ -207,6 +273,18 @@ impl Surface {
             }
         }
     }
+}
+
+/// Edges of triangles that only one of them has, as it runs.
+pub fn outline(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let edges = || {
+        triangles
+            .iter()
+            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+    };
+    edges()
+        .filter(|&[a, b]| edges().all(|e| e != [b, a]))
+        .collect()
 }
 
 /// Whether the way around a triangle goes from `a` to `b`.
@@ -312,6 +390,48 @@ mod tests {
         let between = surface(&square(4, 5), &[7, 7], &[]);
         assert_eq!(between.beyond(DIAGONAL, 5), Some(Beyond::Region(4)));
         assert_eq!(between.beyond(DIAGONAL, 4), Some(Beyond::Region(5)));
+    }
+
+    #[test]
+    fn triangles_are_divided_from_a_vertex() {
+        let mut flat = surface(&square(OUTSIDE, 5), &[7, 7], &[]);
+        let sheet = flat.sheet([2, 1, 0]).unwrap();
+        assert_eq!(sheet.normal, DVec3::Z);
+        assert!(flat.is_in(&sheet, [3, 0, 2]) && !flat.is_in(&sheet, [3, 0, 1]));
+        flat.divide(&[[2, 1, 0], [0, 3, 2]], 4);
+        // Two more, which all run as before.
+        let all: Vec<[u32; 3]> = flat.triangles().to_vec();
+        assert_eq!(all.len(), 4);
+        for edge in [[0, 1], [1, 2], [2, 3], [3, 0]] {
+            assert!(all.contains(&[edge[0], edge[1], 4]), "{all:?}");
+        }
+        assert_eq!(flat.parents(), [0, 0]);
+        // What is new is in the same patch, and parts of it are parts of the same.
+        flat.divide(&[all[3]], 5);
+        assert_eq!(flat.parents(), [0; 4]);
+        let [a, b, _] = all[3];
+        assert!(flat.is_in(&sheet, [a, b, 5]) && !flat.is_in(&sheet, all[3]));
+        // Not on interfaces, not on seams, not in what leans.
+        assert!(
+            surface(&square(4, 5), &[7, 7], &[])
+                .sheet([0, 1, 2])
+                .is_none()
+        );
+        assert!(
+            surface(&square(OUTSIDE, 5), &[8, 8], &[])
+                .sheet([0, 1, 2])
+                .is_none()
+        );
+        assert!(surface(&seam(0), &[7; 4], &[]).sheet([0, 1, 2]).is_none());
+    }
+
+    #[test]
+    fn outlines_are_what_one_triangle_has() {
+        assert_eq!(outline(&[[0, 1, 2]]), [[0, 1], [1, 2], [2, 0]]);
+        assert_eq!(
+            outline(&[[0, 1, 2], [2, 3, 0]]),
+            [[0, 1], [1, 2], [2, 3], [3, 0]]
+        );
     }
 
     /// Two squares, the second with the image of each vertex ten further on.

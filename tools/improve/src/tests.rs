@@ -220,12 +220,12 @@ fn new_vertices_come_where_nothing_else_helps() {
     let limits = FxHashMap::default();
     let template = ring(4, 2.0);
     let before = volume(&template, &template.tets);
-    let freedoms = freedoms(&template, &[], &[]);
+    let mut freedoms = freedoms(&template, &[], &[]);
     let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
     let worst = mesh.grade(0).quality;
     assert!(worst < 1.0);
     let found = insert::find(&mesh, &freedoms, 0).expect("a place");
-    found.apply(&mut mesh);
+    found.apply(&mut mesh, &mut freedoms);
     assert!((0..mesh.len() as u32).all(|t| mesh.grade(t).quality >= 1.0));
     assert!(mesh.positions[6].length() < 0.2, "{}", mesh.positions[6]);
     let grown = Template {
@@ -254,6 +254,87 @@ fn new_vertices_come_where_nothing_else_helps() {
             assert!(found.is_none_or(|f| f.replaces_at_most(most)), "{tet}");
         }
     }
+}
+
+/// A pyramid over a regular pentagon in a mirror plane: without a vertex in the middle of that, elements have small angles.
+#[test]
+fn vertices_come_on_mirror_planes() {
+    let corner = |i: u32| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / 5.0).sin_cos();
+        DVec3::new(cos, 0.0, sin)
+    };
+    let mut vertices: Vec<DVec3> = (0..5).map(corner).collect();
+    vertices.push(DVec3::Y);
+    let t = |a, b, c| Triangle {
+        vertices: [a, b, c],
+        marker: 0,
+        front: OUTSIDE,
+        back: 7,
+    };
+    let wall = (1..4).map(|i| t(0, i, i + 1));
+    let sides = (0..5).map(|i| t(5, (i + 1) % 5, i));
+    let mut template = Template {
+        vertices,
+        triangles: wall.chain(sides).collect(),
+        tets: (1..4)
+            .map(|i| Tet {
+                vertices: [0, i + 1, i, 5],
+                region: 7,
+            })
+            .collect(),
+        ..Template::default()
+    };
+    let mirror = Isometry::reflection(0, 1);
+    template.gluings = vec![Gluing::mirror("wall-a", 0, mirror, 0..5, 0..3)];
+    let whole = volume(&template, &template.tets);
+    assert!(whole > 0.0);
+    let (_, normals) = facets(&template);
+    let of_triangle = [0, 0, 0, 3, 4, 5, 6, 7];
+    let before = freedoms(&template, &of_triangle, &normals);
+    // In no patch, nothing can be done.
+    let mut same = template.clone();
+    let wish = Wish {
+        angle: 45.0,
+        radius_edge: 1.4,
+        min_dihedral: 42.0,
+        max_volume: &FxHashMap::default(),
+        scale: 1.0,
+    };
+    let kept = freedoms(&template, &of_triangle, &[DVec3::ZERO; 8]);
+    let (done, parents) = improve(&mut same, &kept, &wish);
+    assert!(done.inserted == 0 || same.triangles == template.triangles);
+    assert!(parents.is_empty());
+
+    let (done, parents) = improve(&mut template, &before, &wish);
+    assert!(done.inserted > 0 && !parents.is_empty(), "{done:?}");
+    assert_eq!(template.triangles.len(), 8 + parents.len());
+    assert!((volume(&template, &template.tets) - whole).abs() < 1e-12);
+    assert!(template.tets.iter().all(|t| volume(&template, &[*t]) > 0.0));
+    let wall = &template.gluings[0];
+    let area = |t: u32| {
+        let [a, b, c] = template.triangles[t as usize]
+            .vertices
+            .map(|v| template.vertices[v as usize]);
+        0.5 * (b - a).cross(c - a).length()
+    };
+    // All of the wall and nothing else is glued to itself, and is in the plane.
+    assert!(wall.triangle_pairs.len() > 1 && wall.triangle_pairs.is_sorted());
+    let all: f64 = wall.triangle_pairs.iter().map(|p| area(p[0])).sum();
+    let pentagon = 2.5 * (0.4 * std::f64::consts::PI).sin();
+    assert!((all - pentagon).abs() < 1e-12, "{all}");
+    let mut corners: Vec<u32> = wall
+        .triangle_pairs
+        .iter()
+        .flat_map(|p| template.triangles[p[0] as usize].vertices)
+        .collect();
+    corners.sort_unstable();
+    corners.dedup();
+    assert!(wall.vertices_here().eq(corners.iter().copied()));
+    assert!(
+        corners
+            .iter()
+            .all(|&v| template.vertices[v as usize].y == 0.0)
+    );
 }
 
 /// A triangular prism from z = 0 to 1 with a vertex in the middle of its bottom and one on an upright edge.
@@ -373,7 +454,7 @@ fn partners_on_a_seam_move_as_one() {
     assert_eq!(freedoms.mover(5), 4);
     assert!(matches!(freedoms.of(4), Freedom::Plane(..)));
     assert_eq!(freedoms.of(2), Freedom::Fixed);
-    let done = improve(
+    let (done, _) = improve(
         &mut template,
         &freedoms,
         &Wish {
@@ -481,7 +562,7 @@ fn threads_make_no_difference() {
         scale: 1.0,
     };
     let mut one = cubes.clone();
-    let done = on_threads(1, || improve(&mut one, &freedoms, &wish));
+    let (done, _) = on_threads(1, || improve(&mut one, &freedoms, &wish));
     assert!(
         done.moved > 1000 && done.flipped > 1000 && done.inserted > 0,
         "{done:?}"
@@ -489,7 +570,7 @@ fn threads_make_no_difference() {
     assert!((volume(&one, &one.tets) - 26_f64.powi(3)).abs() < 1e-6);
     for threads in [2, 3] {
         let mut several = cubes.clone();
-        let again = on_threads(threads, || improve(&mut several, &freedoms, &wish));
+        let (again, _) = on_threads(threads, || improve(&mut several, &freedoms, &wish));
         assert_eq!(again, done);
         assert!(several.vertices == one.vertices && several.tets == one.tets);
     }

@@ -63,6 +63,7 @@ pub fn coarsened(climb: &Climb<'_>, answer: &Answer, cells: Cells) -> Left {
             &mut faces,
             &Coarse {
                 angle,
+                min_dihedral: climb.params.min_dihedral,
                 radius_edge: climb.params.radius_edge,
                 max_volume: &max_volume,
                 local: local.as_ref().map(|l| l as &(dyn Fn(DVec3) -> f64 + Sync)),

@@ -93,13 +93,13 @@ fn done<B: Send>(
             let surface = filled.shared_surface();
             let (made, finished) = rayon::join(
                 || beside(&surface),
-                || finish(climb, &answer.plc, &mut filled, &origin),
+                || finish(climb, &answer.plc, &mut filled, origin),
             );
             finished?;
             Some(made)
         }
         None => {
-            finish(climb, &answer.plc, &mut filled, &origin)?;
+            finish(climb, &answer.plc, &mut filled, origin)?;
             None
         }
     };

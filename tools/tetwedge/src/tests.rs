@@ -551,7 +551,7 @@ fn equivalent_descriptions_give_equivalent_meshes() {
             described(&document, description, |climb, answer| {
                 assert_eq!(answer.plc.shift > 0.0, description.flat);
                 let (mut filled, origin) = fill(climb, &answer).unwrap();
-                finish(climb, &answer.plc, &mut filled, &origin).unwrap();
+                finish(climb, &answer.plc, &mut filled, origin).unwrap();
                 let mut done = document.clone();
                 done.templates[0] = filled.template;
                 check(&document, &done);

@@ -5,6 +5,7 @@ use super::change::{Change, Fitted, Sample};
 use crate::shape::Near;
 use geom::measure::double_area_vector;
 use geom::tree::closest_point;
+use glam::DVec3;
 
 /// Least cosine of the angle between a triangle and the shape that it stands for: 45 degrees, half of what would fold it
 /// over its neighbours if they are off as much.
@@ -112,28 +113,24 @@ impl Mesh<'_> {
         a & b & c & !self.planes_of[patch as usize] != 0 || self.images.lies_in_face(corners, patch)
     }
 
-    /// Whether a new triangle is half of one of its patch that goes, and faces as that does but for rounding. Needles along
-    /// the edge of something thin face anywhere, and would stay as they are if their halves had to face as the shape does.
-    fn is_half(&self, change: &Change, corners: [u32; 3], patch: u32) -> bool {
-        let gone = || change.gone.iter().map(|&t| t as usize);
-        let is_old = |v: &u32| gone().any(|t| self.triangles[t].contains(v));
-        let kept = |t: usize| {
-            corners
-                .iter()
-                .filter(|v| self.triangles[t].contains(v))
-                .count()
-        };
-        let normal = |corners: [u32; 3]| {
-            let [a, b, c] = corners.map(|v| self.points[v as usize]);
-            double_area_vector(a, b, c).normalize_or_zero()
-        };
-        let facing = normal(corners);
-        let as_before = |t: usize| {
-            let old = normal(self.triangles[t]);
-            old.dot(facing) > 0.0 && old.cross(facing).length() <= ROUNDING
-        };
-        !corners.iter().all(is_old)
-            && gone().any(|t| self.patch[t] == patch && kept(t) == 2 && as_before(t))
+    /// Whether a new triangle faces as one of its patch does that goes, but for rounding: as what is cut out of it. Needles along
+    /// the edge of something thin face anywhere, and would stay as they are if their parts had to face as the shape does. Not
+    /// where a vertex was moved: what is there instead has the same corners, and could be folded over.
+    fn faces_as_before(&self, change: &Change, vector: DVec3, patch: u32) -> bool {
+        let gone = change.gone.iter().map(|&t| t as usize);
+        let mut before = gone
+            .filter(|&t| change.moved.is_none() && self.patch[t] == patch)
+            .map(|t| self.vector(self.triangles[t]));
+        before.any(|old| {
+            let product = old.length() * vector.length();
+            old.dot(vector) > 0.0 && old.cross(vector).length() <= ROUNDING * product
+        })
+    }
+
+    /// Twice the area of a triangle, along its normal.
+    fn vector(&self, corners: [u32; 3]) -> DVec3 {
+        let [a, b, c] = corners.map(|v| self.points[v as usize]);
+        double_area_vector(a, b, c)
     }
 
     /// Whether a new triangle has area, faces as the shape does, is in no wall and not there already.
@@ -154,7 +151,7 @@ impl Mesh<'_> {
                 let middle = (a + b + c) / 3.0;
                 let normal = self.envelope.at(patch, middle).map(|at| at.0);
                 normal.is_some_and(|n| vector.dot(n) >= UPRIGHT * area)
-                    || self.is_half(change, corners, patch)
+                    || self.faces_as_before(change, vector, patch)
             }
         };
         upright && {

@@ -18,14 +18,18 @@ pub fn finish(
     climb: &Climb<'_>,
     plc: &Plc,
     filled: &mut Filled,
-    origin: &Origin,
+    mut origin: Origin,
 ) -> Result<(), Error> {
     let unusable = |what: String| Error::Unusable {
         template: climb.piece.index,
         what,
     };
-    filled.improved = refine(climb, plc, &origin.facets, filled);
-    if filled.improved.is_some() {
+    if let Some((improved, parents)) = refine(climb, plc, &origin.facets, filled) {
+        filled.improved = Some(improved);
+        for t in parents {
+            origin.facets.push(origin.facets[t as usize]);
+            origin.faces.push(origin.faces[t as usize]);
+        }
         let shared = filled.shared.iter();
         let shared: FxHashSet<u32> = shared
             .flat_map(|&t| filled.template.triangles[t as usize].vertices)
@@ -40,8 +44,13 @@ pub fn finish(
     measures(climb.piece.template, plc, &origin.faces, template).map_err(unusable)
 }
 
-/// Improves the tetrahedra, as far as elements are to be optimized.
-fn refine(climb: &Climb<'_>, plc: &Plc, facets: &[usize], filled: &mut Filled) -> Option<Improved> {
+/// Improves the tetrahedra, as far as elements are to be optimized; of each new triangle, the one that it is a part of.
+fn refine(
+    climb: &Climb<'_>,
+    plc: &Plc,
+    facets: &[usize],
+    filled: &mut Filled,
+) -> Option<(Improved, Vec<u32>)> {
     let Climb {
         piece,
         params,
