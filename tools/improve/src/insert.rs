@@ -11,6 +11,7 @@ use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
 use crate::smooth::settle;
 use crate::surface::{Sheet, outline};
+use geom::measure::double_area_vector;
 use geom::tet::{EDGES, FACES};
 use glam::DVec3;
 
@@ -222,13 +223,26 @@ fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, cavity: Cavity) -> Option<Insertio
     let (at, grades) = settle(mesh, freedoms, start, &new, (region, most), within);
     let qualities = grades.iter().map(|g| g.quality);
     let least = qualities.fold(f64::INFINITY, f64::min);
-    (least > above).then(|| Insertion {
+    (least > above && sees_all(mesh, at, &divided)).then(|| Insertion {
         at,
         old,
         new: new.into_iter().zip(grades).collect(),
         least,
         divided,
         within,
+    })
+}
+
+/// Whether a place in the plane of triangles of the surface sees all of their outline from inside. Where the body goes on beyond
+/// the edge of a facet, tetrahedra may be positive from outside as well.
+fn sees_all(mesh: &Mesh<'_>, at: DVec3, triangles: &[[u32; 3]]) -> bool {
+    let position = |v: u32| mesh.positions[v as usize];
+    let vector = |[a, b, c]: [DVec3; 3]| double_area_vector(a, b, c);
+    let all = triangles.iter().map(|t| vector(t.map(position)));
+    let whole: DVec3 = all.sum();
+    outline(triangles).into_iter().all(|[a, b]| {
+        let part = vector([position(a), position(b), at]);
+        part.dot(whole) > HALF_DIGITS * whole.length_squared()
     })
 }
 

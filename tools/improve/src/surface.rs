@@ -110,13 +110,14 @@ impl Surface {
         let pairs = gluing.vertex_pairs.iter();
         let partners: FxHashMap<u32, u32> = pairs.map(|&[here, there]| (here, there)).collect();
         for &[here, there] in &gluing.triangle_pairs {
-            if here == there {
-                continue;
-            }
             let own = self.triangles[here as usize];
             let other = self.triangles[there as usize];
             let images = own.map(|v| partners.get(&v).copied().unwrap_or(v));
-            if sorted(images) != sorted(other) {
+            if images == own {
+                continue;
+            }
+            // A half turn may exchange corners of one triangle.
+            if here == there || sorted(images) != sorted(other) {
                 self.keep([here, there].into_iter());
                 continue;
             }

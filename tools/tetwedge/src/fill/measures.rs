@@ -14,12 +14,19 @@ struct Measure {
     boundary: f64,
 }
 
-/// The vector area of a wall before and after: its border alone decides on it. Length of the triangles' edges.
+/// The vector area of a wall before and after, on which its border alone decides, and the length of its triangles' edges.
 #[derive(Default)]
 struct Area {
     before: DVec3,
     after: DVec3,
     boundary: f64,
+}
+
+impl Area {
+    /// Whether it is the same but for a boundary that is off by `distance`; not for NaN.
+    fn is_kept(&self, distance: f64) -> bool {
+        self.after.distance(self.before) <= self.boundary * distance
+    }
 }
 
 impl Measure {
@@ -89,7 +96,7 @@ pub fn measures(
     }
     areas.remove(&NO_FACE);
     for (key, area) in areas {
-        if !(area.after.distance(area.before) <= area.boundary * plc.rounding) {
+        if !area.is_kept(plc.rounding) {
             let wall = input.gluings.get((key as usize - 1) / 2);
             let name = wall.map_or("hub", |w| w.name.as_str());
             return Err(format!(
