@@ -28,7 +28,8 @@ pub struct Coarse<'a> {
     /// Dihedral angle of good ones, degrees.
     pub angle: f64,
     /// Smallest dihedral angle that there may be in the place of worse ones, degrees. Improvement brings back the rest, by vertices
-    /// inside and on flat facets, so that what has all corners on the surface must be good in any case.
+    /// inside and on flat facets, so that what has all corners on the surface must be good in any case. Measured on 60 parts: two thirds of the angle of
+    /// good ones leaves 5 % more elements with as many of the worst, no angle at all 1 % fewer with more past the radius-edge bound.
     pub min_dihedral: f64,
     /// Largest radius-edge ratio.
     pub radius_edge: f64,

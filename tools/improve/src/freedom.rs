@@ -3,7 +3,7 @@
 use crate::surface::{Sheet, Surface};
 use geom::edges::Edges;
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{FixedSet, Gluing, Isometry, Template};
 
 /// Directions in which a vertex may move.
@@ -135,20 +135,12 @@ impl Freedoms {
 
     /// Vertices inside of a seam that is not flat may go anywhere: it is any surface between its borders.
     fn free_inside(&mut self, template: &Template, gluing: &Gluing) {
-        let sides = gluing.triangle_pairs.iter().flatten();
-        let mut open: FxHashMap<u32, usize> = FxHashMap::default();
-        for &t in sides {
-            for v in template.triangles[t as usize].vertices {
-                *open.entry(v).or_default() += 1;
-            }
-        }
-        for v in template.triangles.iter().flat_map(|t| t.vertices) {
-            if let Some(count) = open.get_mut(&v) {
-                *count = count.wrapping_sub(1);
-            }
-        }
+        let own: FxHashSet<u32> = gluing.triangle_pairs.iter().flatten().copied().collect();
+        let others = (0_u32..).zip(&template.triangles);
+        let others = others.filter(|(t, _)| !own.contains(t));
+        let rim: FxHashSet<u32> = others.flat_map(|(_, t)| t.vertices).collect();
         for &[here, there] in &gluing.vertex_pairs {
-            if here != there && [here, there].iter().all(|v| open.get(v) == Some(&0)) {
+            if here != there && !rim.contains(&here) && !rim.contains(&there) {
                 for v in [here, there] {
                     self.of_vertex[v as usize] = Freedom::Free;
                 }
@@ -195,8 +187,8 @@ impl Freedoms {
     }
 
     /// The surface, and where edges of it may be replaced.
-    pub fn surface(&self) -> &Surface {
-        &self.surface
+    pub fn take_surface(&mut self) -> Surface {
+        std::mem::take(&mut self.surface)
     }
 
     /// The vertex to move for `v` to move: the master for its image.

@@ -70,15 +70,17 @@ pub fn improve(
         .iter()
         .map(|(&r, &v)| (r, v * cube))
         .collect();
+    let mut freedoms = freedoms.clone();
+    let surface = freedoms.take_surface();
     let mut work = Work {
         mesh: Mesh::of_template(template, wish.scale, goal.lenient(), &limits),
-        freedoms: freedoms.clone(),
+        freedoms,
         wish,
         tried: Tried::default(),
         looked_at: 0,
         done: Improved::default(),
     };
-    work.mesh.set_surface(freedoms.surface().clone());
+    work.mesh.set_surface(surface);
     work.done.bad = work.bad().len();
     work.pursue();
     work.mesh.change_goal(goal);

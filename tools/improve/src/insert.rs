@@ -15,7 +15,7 @@ use geom::measure::double_area_vector;
 use geom::tet::{EDGES, FACES};
 use glam::DVec3;
 
-/// Places from which the vertex is moved to where it is best: the best of the thirteen, beyond which the result is hardly ever
+/// Places from which the vertex is moved to where it is best: the best of all, beyond which the result is hardly ever
 /// better.
 const TRIED: usize = 4;
 

@@ -46,9 +46,10 @@ impl Star<'_, '_> {
         Some(list)
     }
 
-    /// The middle of the other corners, if the vertex is free to go there.
+    /// The middle of the other corners, if the vertex is free to go there and all of them are on its side of a seam.
     fn middle(&self) -> Option<DVec3> {
-        let free = self.freedoms.of(self.vertex) == Freedom::Free;
+        let free = self.freedoms.of(self.vertex) == Freedom::Free
+            && self.freedoms.partner(self.vertex).is_none();
         let all = self.tets.iter().flatten();
         let others = all.filter(|&&u| u != self.vertex).copied();
         let (sum, count) = others.fold((DVec3::ZERO, 0), |(sum, count), u| {

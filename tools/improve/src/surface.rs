@@ -1,9 +1,10 @@
-//! Triangles of the surface, while edges between them are replaced.
+//! Triangles of the surface, while edges between them are replaced and vertices put into them.
 //!
 //! Inside of a flat facet the shape does not depend on how it is triangulated, and a seam is inside of the assembled
 //! mesh. An edge there goes like any other, with the tetrahedra around it, from one of its triangles to the other: both then
 //! have the other diagonal of the quadrilateral that they are (J. Shewchuk, "Two discrete optimization algorithms for the
 //! topological improvement of tetrahedral meshes", 2002). Where there is material on the other side, the ring is closed there.
+//! Where there is none, a vertex may be put into triangles of a facet, which it divides.
 
 use crate::freedom::Flats;
 use glam::DVec3;
@@ -471,6 +472,14 @@ mod tests {
             new: [first, first + 2],
         };
         assert_eq!(both.beyond(back(0), 5), Some(Beyond::Twins(back(10), 5)));
+        // Not if a half turn exchanges corners of the triangles themselves.
+        let mut turned = square(OUTSIDE, 5);
+        turned.gluings = seam(0).gluings;
+        turned.gluings[0].vertex_pairs = vec![[0, 2], [1, 1], [2, 0], [3, 3]];
+        turned.gluings[0].triangle_pairs = vec![[0, 0], [1, 1]];
+        let turned = surface(&turned, &[7, 7], &[]);
+        assert_eq!(turned.beyond(DIAGONAL, 5), None);
+        assert!(turned.sheet([0, 1, 2]).is_none());
         // Not if one side has to stay, and not where another template is beyond.
         assert_eq!(surface(&template, &[7; 4], &[3]).beyond(DIAGONAL, 5), None);
         assert_eq!(surface(&seam(1), &[7; 4], &[]).beyond(DIAGONAL, 5), None);
