@@ -23,6 +23,17 @@ pub struct Face {
     pub number: u32,
 }
 
+/// What may be left behind where a vertex goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Leaves {
+    /// Elements past the radius-edge bound, worth little less than good ones, as when improvement begins: it mends nearly all of them
+    /// where vertices may move and be added.
+    Mendable,
+    /// Nothing past the bound by more than this factor that was not there, for surfaces that stay, and for shapes that leave improvement
+    /// little room.
+    Within(f64),
+}
+
 /// What is asked of the elements that are left.
 pub struct Coarse<'a> {
     /// Dihedral angle of good ones, degrees.
@@ -33,6 +44,8 @@ pub struct Coarse<'a> {
     pub min_dihedral: f64,
     /// Largest radius-edge ratio.
     pub radius_edge: f64,
+    /// What improvement is to mend.
+    pub leaves: Leaves,
     /// Largest volume by region, cubes of the unit of the positions.
     pub max_volume: &'a FxHashMap<u32, f64>,
     /// Largest volume at a point, if that changes from place to place.
@@ -81,8 +94,10 @@ pub fn coarsen(
     let limits = (wish.max_volume.iter())
         .map(|(&r, &v)| (r, 6.0 * HALVED * v))
         .collect();
-    // Elements past the radius-edge bound are worth little less than good ones, as when improvement begins.
-    let goal = Goal::new(wish.angle, wish.radius_edge, 0.0).lenient();
+    let goal = match wish.leaves {
+        Leaves::Mendable => Goal::new(wish.angle, wish.radius_edge, 0.0).lenient(),
+        Leaves::Within(factor) => Goal::new(wish.angle, factor * wish.radius_edge, 0.0),
+    };
     let mut work = Work {
         mesh: Mesh::new(points, std::mem::take(tets), goal, &limits),
         gone: vec![false; faces.len()],
@@ -377,6 +392,7 @@ mod tests {
             angle: 25.0,
             min_dihedral: 10.0,
             radius_edge: 1.4,
+            leaves: Leaves::Mendable,
             max_volume,
             local: None,
             first: 27,

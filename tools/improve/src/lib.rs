@@ -21,6 +21,6 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-pub use coarsen::{Coarse, Face, coarsen};
+pub use coarsen::{Coarse, Face, Leaves, coarsen};
 pub use freedom::{Flats, Freedoms};
 pub use improve::{Improved, Wish, improve};

@@ -1,7 +1,7 @@
 //! The mesher's answer without the vertices that its elements do not need.
 
 use glam::DVec3;
-use improve::{Coarse, Face, coarsen};
+use improve::{Coarse, Face, Leaves, coarsen};
 use mesher::{Answer, Cells, Climb, Surface};
 use rustc_hash::FxHashMap;
 use tmesh::{OUTSIDE, Size, Tet};
@@ -17,7 +17,7 @@ pub struct Left {
 }
 
 /// Takes out what the mesher added and its elements do not need, if they are improved afterwards.
-pub fn coarsened(climb: &Climb<'_>, answer: &Answer, cells: Cells) -> Left {
+pub fn coarsened(climb: &Climb<'_>, answer: &Answer, cells: Cells, leaves: Leaves) -> Left {
     let Cells {
         region,
         mut surface,
@@ -65,6 +65,7 @@ pub fn coarsened(climb: &Climb<'_>, answer: &Answer, cells: Cells) -> Left {
                 angle,
                 min_dihedral: climb.params.min_dihedral,
                 radius_edge: climb.params.radius_edge,
+                leaves,
                 max_volume: &max_volume,
                 local: local.as_ref().map(|l| l as &(dyn Fn(DVec3) -> f64 + Sync)),
                 first: plc.points.len() as u32,

@@ -1,6 +1,7 @@
 //! One template: filled, improved, checked, and those that follow it.
 
 use crate::fill::{Filled, fill, finish};
+use improve::Leaves;
 use mesher::{
     Answer, Asks, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Progress, Sizes,
     TetGen,
@@ -70,6 +71,29 @@ pub fn template<B: Send>(
     climb.climb(asks, |answer| done(climb, answer, beside))
 }
 
+/// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where
+/// one in a hundred fails, these weigh as much as all others.
+const FAILING: usize = 100;
+
+/// The mesher's answer coarsened within the bound that it was given, where coarser elements could not all be mended and this is better. Improvement is
+/// chaotic where shapes leave it little room, and the better one of two has fewer bad outcomes: of 12 placements of an impeller, 1.70 % of
+/// the elements are past the radius-edge bound in the mean, and 1.90 % at most; 1.78 and 2.06 % without. Faces that other templates
+/// share are settled before anything is mended, so that templates with such faces have one way only.
+fn bounded(climb: &Climb<'_>, answer: &Answer, filled: &Filled) -> Option<Filled> {
+    let weight = |filled: &Filled| {
+        let failing = filled.improved.map_or(0, |done| done.past + done.low);
+        (failing, filled.template.tets.len() + FAILING * failing)
+    };
+    let (failing, most) = weight(filled);
+    if failing == 0 || filled.removed == 0 || !filled.shared.is_empty() {
+        return None;
+    }
+    let [ratio, _] = EASING;
+    let (mut other, origin) = fill(climb, answer, Leaves::Within(ratio)).ok()?;
+    finish(climb, &answer.plc, &mut other, origin).ok()?;
+    (weight(&other).1 < most).then_some(other)
+}
+
 /// Makes a filled template of the mesher's answer.
 fn done<B: Send>(
     climb: &Climb<'_>,
@@ -81,7 +105,7 @@ fn done<B: Send>(
             .log
             .detail(&format!("template {}: {text}", climb.piece.index))
     };
-    let (mut filled, origin) = fill(climb, &answer)?;
+    let (mut filled, origin) = fill(climb, &answer, Leaves::Mendable)?;
     climb.log.progress(&Progress {
         template: climb.piece.index,
         step: "improving elements",
@@ -103,6 +127,10 @@ fn done<B: Send>(
             None
         }
     };
+    if let Some(better) = bounded(climb, &answer, &filled) {
+        say("coarser elements could not be mended, so that fewer vertices were taken out");
+        filled = better;
+    }
     if let Some(done) = filled.improved {
         say(&format!(
             "{} tetrahedra to be improved, {} remain; {} vertices moved, {} added, {} edges and faces replaced",

@@ -2,6 +2,7 @@
 
 use crate::coarse::{Left, coarsened};
 use glam::DVec3;
+use improve::Leaves;
 use mesher::{Answer, Asks, Climb, EASING, Error, Facets, Place, label, settled};
 use std::convert::Infallible;
 
@@ -58,7 +59,9 @@ fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
         let place = Place(answer.plc.to_model(c.place));
         unusable(format!("there are {} near {place}", c.what))
     })?;
-    let Left { surface, .. } = coarsened(climb, &answer, cells);
+    // This surface stays, so that what is past the bound at it does.
+    let [ratio, _] = EASING;
+    let Left { surface, .. } = coarsened(climb, &answer, cells, Leaves::Within(ratio));
     let Answer {
         plc, mesh, advice, ..
     } = answer;

@@ -4,6 +4,7 @@ use super::filled::{Filled, NONE};
 use super::preserved::restore_preserved;
 use super::walls::{on_shifted_facets, restore_walls};
 use glam::DVec3;
+use improve::Leaves;
 use mesher::{Answer, Climb, Elements, Error, Piece, Place, Plc, Surface, face_key, label};
 use periodic_surf::{Left, coarsened};
 use tmesh::{OUTSIDE, Template, Tet, Triangle};
@@ -18,12 +19,16 @@ pub struct Origin {
     pub first_new: usize,
 }
 
-/// Makes a filled template from TetGen's mesh of `plc`. What it shares with others is settled then, the
+/// Makes a filled template from TetGen's mesh of `plc`, coarsened. What it shares with others is settled then, the
 /// rest is for [`finish`].
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
-pub fn fill(climb: &Climb<'_>, answer: &Answer) -> Result<(Filled, Origin), Error> {
+pub fn fill(
+    climb: &Climb<'_>,
+    answer: &Answer,
+    leaves: Leaves,
+) -> Result<(Filled, Origin), Error> {
     let (plc, mesh) = (&answer.plc, &*answer.mesh);
     let Piece {
         index,
@@ -51,7 +56,7 @@ pub fn fill(climb: &Climb<'_>, answer: &Answer) -> Result<(Filled, Origin), Erro
         mut tets,
         surface,
         removed,
-    } = coarsened(climb, answer, cells);
+    } = coarsened(climb, answer, cells, leaves);
 
     let numbering = Numbering::new(mesh, &tets, &surface, &plc.vertex_of_point);
     let renumber = |v: u32| numbering.new_id[v as usize];
