@@ -318,6 +318,7 @@ impl Work<'_, '_> {
 mod tests {
     use super::*;
     use geom::measure::{tet_volume, triangle_area};
+    use geom::tet::TetMeasures;
 
     /// A cube of `n` by `n` by `n` cells of six tetrahedra each, in two regions, below and above the middle, with the faces of its
     /// sides and of the middle; the corners of two by two by two larger cells come first.
@@ -517,6 +518,27 @@ mod tests {
             assert!(middle.x >= 4.0 || size(t) <= 0.2);
         }
         assert!(tets.iter().any(|t| size(t) > 0.3));
+    }
+
+    #[test]
+    fn nothing_is_left_past_a_bound_that_is_kept() {
+        let past = |leaves: Leaves| {
+            let (points, mut tets, mut faces) = cubes(8);
+            let none = FxHashMap::default();
+            let wish = Coarse {
+                leaves,
+                ..wish(&none)
+            };
+            let removed = coarsen(points.clone(), &mut tets, &mut faces, &wish);
+            assert!(removed > 100, "{removed}");
+            let ratio = |t: &Tet| {
+                let corners = t.vertices.map(|v| points[v as usize]);
+                TetMeasures::of(corners).radius_edge_ratio
+            };
+            tets.iter().filter(|t| ratio(t) > 0.8 * 1.4).count()
+        };
+        assert_eq!(past(Leaves::Within(0.8)), 0);
+        assert!(past(Leaves::Mendable) > 0);
     }
 
     #[test]

@@ -3,6 +3,7 @@ use crate::{Meshed, tetrahedralize};
 use bodies::wedges::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
 use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
+use improve::Leaves;
 use kit::Failure;
 use mesher::{
     Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, LADDER, Log, Params, Piece,
@@ -550,7 +551,7 @@ fn equivalent_descriptions_give_equivalent_meshes() {
         for &description in &descriptions {
             described(&document, description, |climb, answer| {
                 assert_eq!(answer.plc.shift > 0.0, description.flat);
-                let (mut filled, origin) = fill(climb, &answer).unwrap();
+                let (mut filled, origin) = fill(climb, &answer, Leaves::Mendable).unwrap();
                 finish(climb, &answer.plc, &mut filled, origin).unwrap();
                 let mut done = document.clone();
                 done.templates[0] = filled.template;

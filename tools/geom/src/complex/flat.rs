@@ -54,13 +54,18 @@ impl Regions {
     }
 }
 
-/// Cosine of the angle up to which what folds off the plane of a flat face may belong to it, 0.1 degrees, rounded down: that from
+/// Cosine of the angle up to which what folds off the plane of a flat region may belong to it, 0.1 degrees, rounded down: that from
 /// which on TetGen by itself tells facets apart, so that no edge is kept here that it would not keep of the whole body. With a
 /// larger one shallow cones and draft angles are lost: ten degrees took 4.5 % of the volume of a part.
 pub const FOLD_COSINE: f64 = 0.999_998_476;
 
+/// Cosine of the angle up to which what folds off the plane of a whole face may belong to it, a degree, rounded down: of a face
+/// that ends at sharper edges only, and does not go on as a curved one. In curved surfaces, regions of so large angles have borders
+/// that lie anywhere, with sharp corners.
+pub const FACE_FOLD_COSINE: f64 = 0.999_847_69;
+
 /// Sine of that angle, rounded up.
-pub const FOLD_SINE: f64 = 1.745_33e-3;
+pub const FACE_FOLD_SINE: f64 = 1.745_241e-2;
 
 /// What counts as in the plane of a seed: what is within both.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -185,10 +190,11 @@ mod tests {
     }
 
     #[test]
-    fn the_cosine_and_the_sine_are_those_of_a_tenth_of_a_degree() {
-        let angle = 0.1_f64.to_radians();
-        assert!((0.0..1e-9).contains(&(libm::cos(angle) - FOLD_COSINE)));
-        assert!((0.0..1e-7).contains(&(FOLD_SINE - libm::sin(angle))));
+    fn cosines_and_sines_are_those_of_the_angles() {
+        let cosine = |degrees: f64| libm::cos(degrees.to_radians());
+        assert!((0.0..1e-9).contains(&(cosine(0.1) - FOLD_COSINE)));
+        assert!((0.0..1e-8).contains(&(cosine(1.0) - FACE_FOLD_COSINE)));
+        assert!((0.0..1e-7).contains(&(FACE_FOLD_SINE - libm::sin(1_f64.to_radians()))));
     }
 
     #[test]

@@ -24,11 +24,7 @@ pub struct Origin {
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
-pub fn fill(
-    climb: &Climb<'_>,
-    answer: &Answer,
-    leaves: Leaves,
-) -> Result<(Filled, Origin), Error> {
+pub fn fill(climb: &Climb<'_>, answer: &Answer, leaves: Leaves) -> Result<(Filled, Origin), Error> {
     let (plc, mesh) = (&answer.plc, &*answer.mesh);
     let Piece {
         index,

@@ -4,7 +4,7 @@ use super::answer::{Origin, put_onto_relief};
 use super::filled::Filled;
 use super::measures::measures;
 use super::orientations::orientations;
-use geom::flat::FOLD_SINE;
+use geom::flat::FACE_FOLD_SINE;
 use glam::DVec3;
 use improve::{Flats, Freedoms, Improved, Wish, improve};
 use mesher::{Climb, Error, Plc};
@@ -62,7 +62,7 @@ fn refine(
     let of_triangle: Vec<u32> = facets.iter().map(|&f| f as u32).collect();
     let uneven = plc.relief.uneven().iter();
     let slopes: Vec<f64> = uneven
-        .map(|&uneven| if uneven { FOLD_SINE } else { 0.0 })
+        .map(|&uneven| if uneven { FACE_FOLD_SINE } else { 0.0 })
         .collect();
     let normals: Vec<DVec3> = plc.facets.facets.iter().map(|f| f.normal).collect();
     // Templates that share a face take it over as it is.
