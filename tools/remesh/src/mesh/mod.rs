@@ -120,11 +120,17 @@ impl<'a> Mesh<'a> {
 
     /// Notes the points of the input where the surface is near to them now.
     fn take_samples(&mut self, surface: &Surface, curves: &Curves) {
+        let borders = self.borders_of_faces(curves);
+        let reach_at = |t: u32| {
+            let border = borders[self.patch[t as usize] as usize];
+            self.envelope.reach(t).max(border)
+        };
+        let reaches: Vec<f64> = (0..self.triangles.len() as u32).map(reach_at).collect();
         for v in 0..surface.points.len() {
             let point = surface.points[v];
             let mut seen: Vec<(u32, u32, f64)> = Vec::new();
             for &t in &self.around[v] {
-                let (patch, reach) = (self.patch[t as usize], self.envelope.reach(t));
+                let (patch, reach) = (self.patch[t as usize], reaches[t as usize]);
                 match seen.iter_mut().find(|s| s.0 == patch) {
                     Some(known) => known.2 = known.2.max(reach),
                     None => seen.push((patch, t, reach)),
@@ -142,7 +148,7 @@ impl<'a> Mesh<'a> {
             if let [t, u] = self.at_edge(a, b)[..]
                 && self.curve(a, b).is_none()
             {
-                let reach = self.envelope.reach(t).max(self.envelope.reach(u));
+                let reach = reaches[t as usize].max(reaches[u as usize]);
                 let point = 0.5 * (surface.points[a as usize] + surface.points[b as usize]);
                 self.samples[t as usize].push(Sample { point, reach });
             }
@@ -155,6 +161,22 @@ impl<'a> Mesh<'a> {
             });
             self.on_chords.insert(ends, samples.to_vec());
         }
+    }
+
+    /// How far the border of each flat face may move, 0 for other patches. A flat face ends where its border does, so that points
+    /// of it beside a border that moves are as far from what is left; a fine drawing has many of them there.
+    fn borders_of_faces(&self, curves: &Curves) -> Vec<f64> {
+        let mut borders = vec![0.0_f64; self.planes.len()];
+        for (i, &[a, b]) in (0..).zip(&curves.ends) {
+            let reach = self.envelope.reach_of_edge(i);
+            for t in self.at_edge(a, b) {
+                let patch = self.patch[t as usize] as usize;
+                if self.planes[patch].is_some() {
+                    borders[patch] = borders[patch].max(reach);
+                }
+            }
+        }
+        borders
     }
 
     /// The triangles around a vertex.

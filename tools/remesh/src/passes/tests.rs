@@ -448,3 +448,57 @@ fn needles_that_do_not_face_as_the_shape_are_halved() {
     assert!(split(&mut mesh, [2, 5]));
     assert_eq!(mesh.at_edge(2, 5), []);
 }
+
+/// Half a cylinder of strips, a power of two, whose ends are drawn with ears cut off their rims, and off what is left, and so on.
+fn half_cylinder(strips: u32) -> Surface {
+    let rim = |i: u32, z: f64| {
+        let a = std::f64::consts::PI * f64::from(i) / f64::from(strips);
+        DVec3::new(a.cos(), a.sin(), z)
+    };
+    let mut surface = Surface {
+        points: (0..=strips)
+            .flat_map(|i| [rim(i, 0.0), rim(i, 1.0)])
+            .collect(),
+        ..Surface::default()
+    };
+    let [low, high] = [|i: u32| 2 * i, |i: u32| 2 * i + 1];
+    let mut add = |triangle, label| {
+        surface.triangles.push(triangle);
+        surface.labels.push(label);
+    };
+    for i in 0..strips {
+        add([low(i), low(i + 1), high(i)], 0);
+        add([high(i), low(i + 1), high(i + 1)], 0);
+    }
+    let mut step = 1;
+    while 2 * step <= strips {
+        for i in (0..strips).step_by(2 * step as usize) {
+            let [j, k] = [i + step, i + 2 * step];
+            add([low(i), low(k), low(j)], 1);
+            add([high(i), high(j), high(k)], 2);
+        }
+        step *= 2;
+    }
+    add([low(0), high(0), low(strips)], 3);
+    add([low(strips), high(0), high(strips)], 3);
+    surface
+}
+
+#[test]
+fn a_fine_drawing_gets_about_as_many_triangles_as_a_coarse_one() {
+    let count = |strips: u32| {
+        let surface = half_cylinder(strips);
+        assert!(is_closed(&surface));
+        let none = vec![false; surface.points.len()];
+        let done = sized(&surface, 0.1, (&none, Some(1.0))).map(|done| done.surface);
+        let done = done.unwrap_or_else(|| surface.clone());
+        assert!(is_closed(&done));
+        assert!((volume(&done) / volume(&surface) - 1.0).abs() < 0.1);
+        done.triangles.len()
+    };
+    let coarse = count(8);
+    for strips in [64, 256] {
+        let fine = count(strips);
+        assert!(2 * fine <= 3 * coarse, "{fine} for {coarse}");
+    }
+}
