@@ -1,6 +1,6 @@
 //! Seams that are no planes: wedges along the graph of an angle, through all stages.
 
-use bodies::{Body, Impeller, Prism, TwistedBar};
+use bodies::{Body, Impeller, Placement, Prism, Ratchet, TwistedBar};
 use std::fs;
 use support::{EXACT_STL, Outcome, encode, read, run};
 use tmesh::Gluing;
@@ -187,6 +187,31 @@ fn a_seam_between_the_blades_is_taken_where_it_costs_less() {
     assert!(auto.0 && auto.1 < plane.1, "{plane:?} {auto:?}");
     let [plane, auto] = automatic(&impeller(3, 0.0));
     assert!(auto.0 || auto.1 == plane.1, "{plane:?} {auto:?}");
+}
+
+#[test]
+fn a_seam_that_was_looked_for_stays_flat_where_it_is() {
+    for (order, bore) in [(12, 0.3), (12, 0.0), (7, 0.3), (7, 0.0)] {
+        let body = || {
+            Ratchet {
+                order,
+                bore,
+                height: 0.4,
+                ..Ratchet::default()
+            }
+            .build()
+        };
+        automatic(&body());
+        for seed in 1..=5 {
+            let mut placed = body();
+            let placement = Placement {
+                rotate: Some(seed),
+                ..Placement::default()
+            };
+            placement.apply(&mut placed);
+            automatic(&placed);
+        }
+    }
 }
 
 #[test]

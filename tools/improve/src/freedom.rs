@@ -2,6 +2,7 @@
 
 use crate::surface::{Sheet, Surface};
 use geom::edges::Edges;
+use geom::measure::Areas;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{FixedSet, Gluing, Isometry, Template};
@@ -89,6 +90,16 @@ pub struct Freedoms {
 /// a facet and good to more digits, and real edges are at an angle of degrees.
 const ALONG: f64 = 1e-6;
 
+/// Whether a seam is in a plane, wherever that is: both of its faces are then to stay in theirs.
+fn is_flat(template: &Template, gluing: &Gluing, distance: f64) -> bool {
+    let mut areas = Areas::default();
+    for [t, _] in &gluing.triangle_pairs {
+        let triangle = &template.triangles[*t as usize];
+        areas.add(triangle.vertices.map(|v| template.vertices[v as usize]));
+    }
+    areas.is_flat(distance)
+}
+
 impl Freedoms {
     /// Finds what each vertex of a filled template, number `own`, may do. Linear.
     pub fn new((template, own): (&Template, usize), flats: &Flats<'_>) -> Self {
@@ -112,7 +123,7 @@ impl Freedoms {
                 plane.nearest(p).distance(p) <= flats.straight
             };
             let plane = gluing.vertices_there().all(is_on).then_some(plane);
-            if plane.is_none() {
+            if !is_flat(template, gluing, flats.straight) {
                 freedoms.free_inside(template, gluing);
             }
             for &[here, there] in &gluing.vertex_pairs {

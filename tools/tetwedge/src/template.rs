@@ -75,6 +75,10 @@ pub fn template<B: Send>(
 /// one in a hundred fails, these weigh as much as all others.
 const FAILING: usize = 100;
 
+/// Where one in so many elements fails, it is the shape, and no coarsening helps: a drawing of which a fifth fails takes two minutes to improve, and
+/// another two for nothing. Impellers have one in thirty.
+const HOPELESS: usize = 10;
+
 /// The mesher's answer coarsened within the bound that it was given, where coarser elements could not all be mended and this is better. Improvement is
 /// chaotic where shapes leave it little room, and the better one of two has fewer bad outcomes: of 12 placements of an impeller, 1.70 % of
 /// the elements are past the radius-edge bound in the mean, and 1.90 % at most; 1.78 and 2.06 % without. Faces that other templates
@@ -85,7 +89,8 @@ fn bounded(climb: &Climb<'_>, answer: &Answer, filled: &Filled) -> Option<Filled
         (failing, filled.template.tets.len() + FAILING * failing)
     };
     let (failing, most) = weight(filled);
-    if failing == 0 || filled.removed == 0 || !filled.shared.is_empty() {
+    let is_hopeless = HOPELESS * failing > filled.template.tets.len();
+    if failing == 0 || is_hopeless || filled.removed == 0 || !filled.shared.is_empty() {
         return None;
     }
     let [ratio, _] = EASING;

@@ -2,6 +2,32 @@
 
 use glam::DVec3;
 
+/// The area of several triangles, as a number and as a vector.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Areas {
+    /// Sum of their vector areas, on which their border alone decides.
+    pub vector: DVec3,
+    /// Sum of their areas: the length of that vector, if they are in one plane and none is folded over others.
+    pub area: f64,
+    /// Length of their edges, inner ones twice.
+    pub edges: f64,
+}
+
+impl Areas {
+    /// Adds a triangle.
+    pub fn add(&mut self, [a, b, c]: [DVec3; 3]) {
+        let vector = double_area_vector(a, b, c) * 0.5;
+        self.vector += vector;
+        self.area += vector.length();
+        self.edges += a.distance(b) + b.distance(c) + c.distance(a);
+    }
+
+    /// Whether they are in one plane, none folded over others, but for what comes of edges that are off by `distance`.
+    pub fn is_flat(&self, distance: f64) -> bool {
+        self.area - self.vector.length() <= self.edges * distance
+    }
+}
+
 /// Twice the area of a triangle as a vector along its normal (right-hand rule).
 #[inline]
 pub fn double_area_vector(a: DVec3, b: DVec3, c: DVec3) -> DVec3 {

@@ -1,7 +1,6 @@
 //! What meshing must not change: the volume of each region and the area of each wall.
 
-use geom::measure::{corners, double_area_vector, tet_volume, triangle_area};
-use glam::DVec3;
+use geom::measure::{Areas, corners, tet_volume, triangle_area};
 use mesher::{NO_FACE, Plc};
 use std::collections::BTreeMap;
 use tmesh::{OUTSIDE, Template};
@@ -14,42 +13,19 @@ struct Measure {
     boundary: f64,
 }
 
-/// Sums over the triangles of a wall.
-#[derive(Default)]
-struct Sum {
-    /// Their vector areas, on which the border of the wall alone decides.
-    vector: DVec3,
-    /// Their areas: the length of that vector, if the wall is flat.
-    area: f64,
-}
-
-impl Sum {
-    fn add(&mut self, [a, b, c]: [DVec3; 3]) {
-        let vector = double_area_vector(a, b, c) * 0.5;
-        self.vector += vector;
-        self.area += vector.length();
-    }
-
-    /// Whether it is flat, without triangles that are folded over others, but for `slack`.
-    fn is_flat(&self, slack: f64) -> bool {
-        self.area - self.vector.length() <= slack
-    }
-}
-
-/// A wall before and after, and the length of its triangles' edges.
+/// A wall before and after.
 #[derive(Default)]
 struct Wall {
-    before: Sum,
-    after: Sum,
-    boundary: f64,
+    before: Areas,
+    after: Areas,
 }
 
 impl Wall {
     /// Whether it is the same but for a boundary that is off by `distance`, and flat if it was; not for NaN.
     fn is_kept(&self, distance: f64) -> bool {
-        let slack = self.boundary * distance;
+        let slack = self.before.edges * distance;
         self.after.vector.distance(self.before.vector) <= slack
-            && (self.after.is_flat(slack) || !self.before.is_flat(slack))
+            && (self.after.is_flat(distance) || !self.before.is_flat(distance))
     }
 }
 
@@ -109,14 +85,12 @@ pub fn measures(
     let mut areas: BTreeMap<u32, Wall> = BTreeMap::new();
     let keys = plc.faces.of_triangle.iter();
     for (t, &key) in input.triangles.iter().zip(keys) {
-        let [a, b, c] = corners(&input.vertices, t);
         let area = areas.entry(key).or_default();
-        area.before.add([a, b, c]);
-        area.boundary += a.distance(b) + b.distance(c) + c.distance(a);
+        area.before.add(corners(&input.vertices, t));
     }
     for (t, &key) in filled.triangles.iter().zip(faces) {
-        let [a, b, c] = corners(&filled.vertices, t);
-        areas.entry(key).or_default().after.add([a, b, c]);
+        let area = areas.entry(key).or_default();
+        area.after.add(corners(&filled.vertices, t));
     }
     areas.remove(&NO_FACE);
     for (key, area) in areas {
