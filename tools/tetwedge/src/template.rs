@@ -75,8 +75,8 @@ pub fn template<B: Send>(
 /// one in a hundred fails, these weigh as much as all others.
 const FAILING: usize = 100;
 
-/// Where one in so many elements fails, it is the shape, and no coarsening helps: a drawing of which a fifth fails takes two minutes to improve, and
-/// another two for nothing. Impellers have one in thirty.
+/// Where one in so many elements fails, it is the shape, and no coarsening helps: a thin layer drawn with needles takes a minute to improve, and
+/// another one for nothing. Impellers have one in thirty.
 const HOPELESS: usize = 10;
 
 /// The mesher's answer coarsened within the bound that it was given, where coarser elements could not all be mended and this is better. Improvement is

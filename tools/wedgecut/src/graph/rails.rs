@@ -4,12 +4,17 @@ use super::seam::Graph;
 use glam::DVec3;
 use tmesh::Triangle;
 
+/// How much an edge has to rise over its length, the sine of ten degrees: less steep, a seam along it meets the faces that it ends at
+/// below the smallest dihedral angle that elements are asked for by default. Noise of what is drawn level rises by next to nothing, and
+/// a seam would turn at once there.
+const LEAST_RISE: f64 = 0.173_6;
+
 /// Edges of a surface in the canonical frame.
 pub struct Rails<'a> {
     points: &'a [DVec3],
     /// Heights within this are one, model units.
     equal: f64,
-    /// Ends of edges that rise, the lower one first, in the order of its height.
+    /// Ends of edges that rise steeply enough, the lower one first, in the order of its height.
     rising: Vec<[u32; 2]>,
 }
 
@@ -27,14 +32,16 @@ impl<'a> Rails<'a> {
     /// The edges of triangles; heights within `equal` (model units) are one.
     pub fn new(points: &'a [DVec3], triangles: &[Triangle], equal: f64) -> Self {
         let height = |v: u32| points[v as usize].z;
+        let rises = |&[a, b]: &[u32; 2]| {
+            let rise = height(b) - height(a);
+            rise > equal && rise >= LEAST_RISE * points[a as usize].distance(points[b as usize])
+        };
         let sides = triangles.iter().flat_map(|t| {
             let [a, b, c] = t.vertices;
             [[a, b], [b, c], [c, a]]
         });
         // Each edge is there in both directions.
-        let mut rising: Vec<[u32; 2]> = sides
-            .filter(|[a, b]| height(*b) - height(*a) > equal)
-            .collect();
+        let mut rising: Vec<[u32; 2]> = sides.filter(rises).collect();
         rising.sort_unstable_by(|p, q| height(p[0]).total_cmp(&height(q[0])).then(p.cmp(q)));
         Self {
             points,
@@ -128,5 +135,14 @@ mod tests {
         let bent = rails.bend(&flat, [opening, 5.0_f64.to_radians()]).unwrap();
         assert!((bent.angle(1.0, 2.0).to_degrees() - 2.0).abs() < 1e-9);
         assert!(rails.bend(&flat, [opening, 1.0_f64.to_radians()]).is_none());
+        // What is drawn level rises by noise alone.
+        let level = [at(10.0, 0.0), at(8.0, 1e-7), at(6.0, 2e-7)];
+        let triangle = triangle([0, 1, 2]);
+        let rails = Rails::new(&level, &[triangle], 1e-9);
+        assert!(
+            rails
+                .bend(&flat, [opening, 12.0_f64.to_radians()])
+                .is_none()
+        );
     }
 }

@@ -78,8 +78,49 @@ pub fn read(text: &str) -> Result<Graph, String> {
             angles.push(angle.to_radians());
         }
     }
+    gentle(&radii, &heights, &angles)?;
     let values = |map: BTreeMap<i64, (f64, usize)>| map.into_values().map(|(x, _)| x).collect();
     Ok(Graph::new(values(radii), values(heights), angles))
+}
+
+/// Tangent of the steepest seam, 89 degrees: steeper, it has angles below one degree at whatever it ends at, and faces without end
+/// have to follow it.
+const STEEPEST: f64 = 57.29;
+
+/// Whether a seam with these angles (radians; of all heights at each distance) turns nowhere so steeply that nothing can be meshed.
+///
+/// # Errors
+/// Where it does, with the number of a line.
+fn gentle(
+    radii: &BTreeMap<i64, (f64, usize)>,
+    heights: &BTreeMap<i64, (f64, usize)>,
+    angles: &[f64],
+) -> Result<(), String> {
+    let [radii, heights] = [radii, heights].map(|map| map.values().copied().collect::<Vec<_>>());
+    let at = |i: usize, j: usize| angles[i * heights.len() + j];
+    let steep = |[a, b]: [f64; 2], radius: f64, apart: f64| {
+        let turn = (b - a).abs();
+        (turn * radius > STEEPEST * apart).then_some(turn.to_degrees())
+    };
+    for (i, &(radius, of_radius)) in radii.iter().enumerate() {
+        for (j, &(height, of_height)) in heights.iter().enumerate() {
+            let up = heights.get(j + 1).and_then(|next| {
+                let turn = steep([at(i, j), at(i, j + 1)], radius, next.0 - height)?;
+                Some((turn, "height", of_height))
+            });
+            let out = radii.get(i + 1).and_then(|next| {
+                let turn = steep([at(i, j), at(i + 1, j)], next.0, next.0 - radius)?;
+                Some((turn, "distance", of_radius))
+            });
+            if let Some((turn, next, line)) = up.or(out) {
+                return Err(format!(
+                    "line {line}: from distance {radius} and height {height} to the next {next} the seam turns by {turn} degrees, \
+                     more steeply than 89 degrees; give it more room to turn"
+                ));
+            }
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -105,6 +146,14 @@ mod tests {
             ("1 0 10\n1 0 11\n", "already, in line 1"),
             ("1 0 10\n2 1 11\n", "line 1: each distance needs"),
             ("# nothing\n", "no rows"),
+            (
+                "1 0 0\n1 1 0\n1 1.0000001 20\n",
+                "line 2: from distance 1 and height 1 to the next height",
+            ),
+            (
+                "1 0 0\n1.001 0 20\n",
+                "line 1: from distance 1 and height 0 to the next distance",
+            ),
         ] {
             let told = read(text).unwrap_err();
             assert!(told.contains(what), "{text}: {told}");
