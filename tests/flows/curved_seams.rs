@@ -1,6 +1,7 @@
 //! Seams that are no planes: wedges along the graph of an angle, through all stages.
 
-use bodies::{Body, Impeller, Placement, Prism, Ratchet, TwistedBar};
+use crate::pipe::{placed, ratchet};
+use bodies::{Body, Impeller, Prism, TwistedBar};
 use std::fs;
 use support::{EXACT_STL, Outcome, encode, read, run};
 use tmesh::Gluing;
@@ -121,6 +122,10 @@ fn what_is_wrong_with_a_seam_is_said() {
             "each distance needs an angle at each height",
         ),
         ("", "it has no rows"),
+        (
+            "1 0 0\n1 1e-7 20\n",
+            "line 1: from distance 1 and height 0 to the next height the seam turns by 20",
+        ),
     ] {
         cut(&body, seam, &[]).fails(2, &["--seam", what]);
     }
@@ -192,24 +197,9 @@ fn a_seam_between_the_blades_is_taken_where_it_costs_less() {
 #[test]
 fn a_seam_that_was_looked_for_stays_flat_where_it_is() {
     for (order, bore) in [(12, 0.3), (12, 0.0), (7, 0.3), (7, 0.0)] {
-        let body = || {
-            Ratchet {
-                order,
-                bore,
-                height: 0.4,
-                ..Ratchet::default()
-            }
-            .build()
-        };
-        automatic(&body());
+        automatic(&ratchet(order, bore));
         for seed in 1..=5 {
-            let mut placed = body();
-            let placement = Placement {
-                rotate: Some(seed),
-                ..Placement::default()
-            };
-            placement.apply(&mut placed);
-            automatic(&placed);
+            automatic(&placed(ratchet(order, bore), seed, 1.0));
         }
     }
 }

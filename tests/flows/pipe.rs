@@ -172,7 +172,7 @@ fn gear(order: u32, bore: f64) -> Body {
     .build()
 }
 
-fn ratchet(order: u32, bore: f64) -> Body {
+pub fn ratchet(order: u32, bore: f64) -> Body {
     Ratchet {
         order,
         bore,
@@ -193,7 +193,7 @@ fn impeller(order: u32, bore: f64) -> Body {
     .build()
 }
 
-fn placed(mut body: Body, seed: u64, scale: f64) -> Body {
+pub fn placed(mut body: Body, seed: u64, scale: f64) -> Body {
     let placement = Placement {
         rotate: Some(seed),
         scale,
