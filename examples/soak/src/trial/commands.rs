@@ -82,6 +82,7 @@ pub fn stages(subject: &Subject, seed: u64) -> Vec<Stage> {
     if dice.chance(0.3) {
         assemble.push("--instances".to_owned());
     }
+    // Drawn last: the other options of a seed stay what they were.
     if dice.chance(0.5) {
         stages[1].extend(["--seam", "auto"].map(str::to_owned));
     }
