@@ -82,7 +82,7 @@ pub fn run(options: &Options) -> io::Result<bool> {
                 Verdict::Meshed | Verdict::Asymmetric => fs::remove_dir_all(&folder)?,
                 Verdict::Refused(text) | Verdict::Failed(text) => {
                     // The mesh is made again by the script.
-                    for name in ["mesh.tmesh", "again.tmesh"] {
+                    for name in ["mesh.tmesh", "whole.tmesh", "again.tmesh"] {
                         let _ = fs::remove_file(folder.join(name));
                     }
                     eprintln!("soak: seed {seed}: {text}");

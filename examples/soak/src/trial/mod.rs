@@ -96,10 +96,7 @@ impl Laboratory {
         if verdict == Verdict::Meshed
             && let (Kind::Solids, Some(asked)) = (self.kind, &asked)
         {
-            let report = report(folder, "symmetry.json")?;
-            let distance = surface::distance(&subject, &folder.join("mesh.tmesh"))?;
-            let deviation = asked.deviation + surface::moved(folder)?;
-            verdict = verdict::of_distance(&report, deviation, distance);
+            verdict = self.distance(&subject, asked.deviation, folder)?;
         }
         Ok(Trial {
             verdict,
@@ -107,6 +104,21 @@ impl Laboratory {
             tetrahedra,
             description: subject.description,
         })
+    }
+
+    /// Judges how far the surface of the mesh is from the body's.
+    fn distance(&self, subject: &Subject, deviation: f64, folder: &Path) -> io::Result<Verdict> {
+        // Assembled: where the symmetry exchanges regions, what is between them is in walls of the wedge.
+        let whole = ["rotassemble", "--to", "tmesh"].map(str::to_owned).to_vec();
+        let (input, output) = ("mesh.tmesh", "whole.tmesh");
+        let ended = pipe::run(&self.binaries, folder, &[whole], input, output, self.limit)?;
+        if let Some(verdict) = verdict::of_stages(subject, &ended) {
+            return Ok(verdict);
+        }
+        let report = report(folder, "symmetry.json")?;
+        let distance = surface::distance(subject, &folder.join(output))?;
+        let deviation = deviation + surface::moved(folder)?;
+        Ok(verdict::of_distance(&report, deviation, distance))
     }
 
     fn verdict(

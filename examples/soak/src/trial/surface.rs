@@ -5,7 +5,6 @@ use bodies::Dice;
 use geom::tolerance::Extent;
 use geom::tree::Tree;
 use glam::DVec3;
-use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::Path;
@@ -48,7 +47,7 @@ impl Asked {
 }
 
 /// The largest distance between the surfaces of a body and a mesh, measured both ways at corners and middles of triangles, and
-/// the largest distance of a point of the body from the mesh's axis, model units.
+/// the largest distance of a point of the body from the mesh's axis, model units. The mesh is an assembled one.
 ///
 /// # Errors
 /// Fails when the mesh cannot be read.
@@ -78,28 +77,14 @@ pub fn moved(folder: &Path) -> io::Result<f64> {
     Ok(document.wishes.moved.unwrap_or(0.0))
 }
 
-/// Triangles of all copies that are in no glued face, where they are in the world.
+/// Triangles of an assembled mesh, where they are in the world.
 fn faces(document: &Document) -> Vec<[DVec3; 3]> {
-    let mut glued = BTreeSet::new();
-    for (own, template) in (0..).zip(&document.templates) {
-        for gluing in &template.gluings {
-            for [here, there] in &gluing.triangle_pairs {
-                glued.extend([(own, *here), (gluing.other, *there)]);
-            }
-        }
-    }
-    let mut found = Vec::new();
-    for instance in &document.instances {
-        let placed = instance.isometry.placed();
-        let template = &document.templates[instance.template as usize];
-        for (t, triangle) in (0..).zip(&template.triangles) {
-            if !glued.contains(&(instance.template, t)) {
-                let at = |v: u32| placed.apply(template.vertices[v as usize]);
-                found.push(triangle.vertices.map(|v| document.frame.to_world(at(v))));
-            }
-        }
-    }
-    found
+    let faces = document.templates.iter().flat_map(|template| {
+        let at = |v: u32| document.frame.to_world(template.vertices[v as usize]);
+        let triangles = template.triangles.iter();
+        triangles.map(move |t| t.vertices.map(at))
+    });
+    faces.collect()
 }
 
 /// The largest distance of corners and middles of triangles from others.

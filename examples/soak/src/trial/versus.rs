@@ -68,7 +68,7 @@ impl Laboratory {
             "symdetect",
             "wedgecut",
             "tetwedge",
-            "rotassemble --to tmesh --instances",
+            "rotassemble --to tmesh",
         ]
         .map(words);
         if subject.symmetry.order() == 1 {
