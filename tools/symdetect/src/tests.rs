@@ -620,6 +620,23 @@ fn isotropic_inertia_does_not_hide_an_axis() {
     assert_eq!(find(&body).group, "D6h");
 }
 
+/// Of orders about an axis that moments tell roughly, many are off by no more than the facets' own.
+#[test]
+fn facets_are_told_about_a_rough_axis() {
+    let mut random = Random(17);
+    // As long as its principal moments are equal but for a few thousandths.
+    let half = 0.75_f64.sqrt();
+    for n in [22, 24, 25] {
+        let body = bodies::profile(n, &[(1.0, -half), (1.02, 0.0), (1.0, half)], |_, r, z| {
+            (r, z)
+        });
+        for _ in 0..2 {
+            let found = find(&bodies::place(&body, &mut random, 1.0, 5e-5));
+            assert_eq!(found.group, format!("D{n}h"));
+        }
+    }
+}
+
 #[test]
 fn regions_must_match_or_be_permuted() {
     // One material per quarter.

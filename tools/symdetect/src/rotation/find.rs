@@ -118,7 +118,7 @@ impl OrderSearch<'_> {
 
     /// The best of what holds in the frame as it is and what holds after an adjustment to the orders that a scan
     /// leaves possible.
-    fn adjusted(&self, start: Frame, radius: f64, as_is: Option<Rotation>) -> Option<Rotation> {
+    fn adjusted(&self, start: Frame, radius: f64, mut as_is: Option<Rotation>) -> Option<Rotation> {
         let shape = self.shape;
         let bound = self.limits.loosely(radius);
         let in_frame_for = |operations: &[Canonical]| {
@@ -128,12 +128,15 @@ impl OrderSearch<'_> {
             if shape.deviation_from_revolution(&start, bound).is_some() {
                 return self.better(as_is, in_frame_for(&golden()));
             }
-            // About a rough axis, much of a round body that is drawn coarsely is off.
+            // About a rough axis, much of a round body that is drawn coarsely is off, and the order of its facets is one of
+            // many that are off by no more.
             if shape.off_revolution(&start, bound) <= 2.0 * OUTLIERS {
                 let frame = self.fitted(start, radius, (&golden(), FIT));
+                let found = self.in_frame(&frame);
                 let bound = self.limits.bound(shape.radius(&frame));
+                as_is = self.better(as_is, found);
                 if shape.deviation_from_revolution(&frame, bound).is_some() {
-                    return self.better(as_is, self.in_frame(&frame));
+                    return as_is;
                 }
             }
         }
