@@ -556,7 +556,7 @@ fn threads_make_no_difference() {
     );
     let wish = Wish {
         angle: 40.0,
-        radius_edge: 1.4,
+        radius_edge: 1.2,
         min_dihedral: 25.0,
         max_volume: &FxHashMap::default(),
         scale: 1.0,
