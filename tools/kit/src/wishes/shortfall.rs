@@ -257,7 +257,9 @@ fn sharpest(points: [DVec3; 3]) -> f64 {
 fn remedy_before(place: Place) -> String {
     let advice = match place {
         Place::Axis => "wedgecut has larger ones with a lower --order or with a --hub",
-        Place::Wall(..) => "wedgecut may have larger ones with another --start-angle or --order",
+        Place::Wall(..) => {
+            "wedgecut may have larger ones with another --seam, --start-angle or --order"
+        }
         Place::Surface(_) | Place::Inside => "the body itself has them",
     };
     format!("elements there have no larger angles; {advice}")

@@ -119,10 +119,17 @@ fn first_of(
 }
 
 /// Of a wedge along a seam between the blades, if there is one, and one between planes the one whose surface costs fewer
-/// elements; planes if both cost the same.
+/// elements; planes if both cost the same, or where the seam leaves more edges at which no element has the angle asked for: at
+/// these refinement may come to no end.
 fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
     let Some(between) = between else {
         return planes;
+    };
+    let asked = body.document.wishes.min_dihedral();
+    let sharp = |cut: &Cut| {
+        let templates = cut.templates.iter().enumerate();
+        let counts = templates.map(|template| kit::sharp_edges(template, asked).len());
+        counts.sum::<usize>()
     };
     // What is remeshed costs nothing, however narrow it is drawn.
     let tolerance = &body.tolerance;
@@ -134,14 +141,23 @@ fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
         let narrow: f64 = narrow.sum();
         narrow + CostModel::CALIBRATED.sliced * cut.place.harm
     };
-    let [along, plane] = [&between, &planes].map(cost);
-    let (mut chosen, what) = match along < plane {
+    let both = [&between, &planes];
+    let ([along, plane], sharp) = (both.map(cost), both.map(sharp));
+    let why = match sharp[0] > sharp[1] {
+        true => format!(
+            "its wedge has {} edge(s) with angles below {asked} degrees, {} between planes",
+            sharp[0], sharp[1]
+        ),
+        false => format!(
+            "narrow faces of its wedge and what it slices cost {along:.0} elements of the estimate, {plane:.0} between planes"
+        ),
+    };
+    let (mut chosen, what) = match sharp[0] <= sharp[1] && along < plane {
         true => (between, "taken"),
         false => (planes, "not taken"),
     };
-    chosen.notes.push(format!(
-        "a seam between the blades is {what}: narrow faces of its wedge and what it slices cost {along:.0} elements of the \
-         estimate, {plane:.0} between planes"
-    ));
+    chosen
+        .notes
+        .push(format!("a seam between the blades is {what}: {why}"));
     chosen
 }
