@@ -8,6 +8,7 @@
 
 mod cli;
 mod document;
+mod draws;
 mod fill;
 mod follow;
 mod forecast;

@@ -1,10 +1,11 @@
 //! One template: filled, improved, checked, and those that follow it.
 
+use crate::draws::best_of_draws;
 use crate::fill::{Filled, fill, finish};
 use improve::Leaves;
 use mesher::{
-    Answer, Asks, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Progress, Sizes,
-    TetGen,
+    Answer, Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Progress,
+    Sizes, TetGen,
 };
 use tmesh::Document;
 
@@ -68,7 +69,12 @@ pub fn template<B: Send>(
         false => Asks::AsWished,
     };
     let beside = beside.filter(|_| rayon::current_num_threads() > 1);
-    climb.climb(asks, |answer| done(climb, answer, beside))
+    let (first, made) = climb.climb(Attempt::new(asks), |answer| done(climb, answer, beside))?;
+    let again = |climb: &Climb<'_>, attempt| {
+        let done = climb.climb(attempt, |answer| done::<()>(climb, answer, None));
+        Some(done.ok()?.0)
+    };
+    Ok((best_of_draws(climb, first, again), made))
 }
 
 /// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where

@@ -6,8 +6,8 @@ use glam::DVec3;
 use improve::Leaves;
 use kit::Failure;
 use mesher::{
-    Answer, Asks, Change, Climb, Deadline, Description, Ending, Error, LADDER, Log, Params, Piece,
-    Rung, Sizes, TetGen,
+    Answer, Asks, Attempt, Change, Climb, Deadline, Description, Error, LADDER, Log, Params, Piece,
+    Sizes, TetGen,
 };
 use periodic_surf::failure;
 use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
@@ -508,28 +508,21 @@ fn described(document: &Document, description: Description, take: impl Fn(&Climb
     document.wishes = sized(1e-3);
     let document = &document;
     let sizes = Sizes::of_regions(document);
-    let rungs = [Rung {
-        after: Ending::Chance,
-        change: Change::Describe(description),
-    }];
     let climb = Climb {
         piece: Piece::of(document, 0),
         params: &params,
         sizes: &sizes,
         preserve: true,
-        rungs: &rungs,
+        rungs: &[],
         deadline: Deadline::start(params.timeout),
         mesher: &TetGen,
         log: Log::new(&|_| ()),
     };
-    let taken = climb.climb(Asks::AsWished, |answer| {
-        if answer.failed == 0 {
-            // The rung has the description that is wanted.
-            return Err(Error::Unusable {
-                template: 0,
-                what: "once more".to_owned(),
-            });
-        }
+    let attempt = Attempt {
+        description,
+        ..Attempt::new(Asks::AsWished)
+    };
+    let taken = climb.climb(attempt, |answer| {
         take(&climb, answer);
         Ok(())
     });

@@ -1,6 +1,6 @@
 //! The rule by which attempts follow each other.
 
-use super::attempt::{Answer, Asks, Attempt};
+use super::attempt::{Answer, Attempt};
 use super::layers::Layers;
 use super::room::Room;
 use super::rungs::{Change, Ending, Rung};
@@ -57,14 +57,14 @@ impl Left<'_> {
 }
 
 impl Climb<'_> {
-    /// Makes attempts, the first with these bounds, until the rule ends them: at most one more than there are rungs. `take`
+    /// Makes attempts, this one first, until the rule ends them: at most one more than there are rungs. `take`
     /// makes something of a mesh, or says why it cannot be used.
     ///
     /// # Errors
     /// The last attempt's, if none gave a mesh.
     pub fn climb<T>(
         &self,
-        asks: Asks,
+        mut attempt: Attempt,
         mut take: impl FnMut(Answer) -> Result<T, Error>,
     ) -> Result<T, Error> {
         self.check_count()?;
@@ -72,7 +72,6 @@ impl Climb<'_> {
             rungs: self.rungs.to_vec(),
             deadline: &self.deadline,
         };
-        let mut attempt = Attempt::new(asks);
         let mut failed = 0;
         loop {
             let answer = self.run(&mut attempt, failed);

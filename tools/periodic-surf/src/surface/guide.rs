@@ -3,7 +3,7 @@
 use crate::coarse::{Left, coarsened};
 use glam::DVec3;
 use improve::Leaves;
-use mesher::{Answer, Asks, Climb, EASING, Error, Facets, Place, label, settled};
+use mesher::{Answer, Asks, Attempt, Climb, EASING, Error, Facets, Place, label, settled};
 use std::convert::Infallible;
 
 /// A refined surface.
@@ -41,9 +41,8 @@ pub fn refine(climb: &Climb<'_>) -> Result<Refined, Error> {
     // The mesher is given eased bounds again when it fills this surface, and a guide that insists on more only multiplies
     // points.
     let [ratio, angle] = EASING;
-    free.climb(Asks::Eased([ratio * ratio, angle]), |answer| {
-        surface_of(climb, answer)
-    })
+    let asks = Asks::Eased([ratio * ratio, angle]);
+    free.climb(Attempt::new(asks), |answer| surface_of(climb, answer))
 }
 
 /// The surface of the mesher's answer.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Elements, LADDER, Mesh, Task};
+use crate::{Asks, Elements, LADDER, Mesh, Task};
 use glam::DVec3;
 use std::sync::Mutex;
 use tmesh::{Document, OUTSIDE, Region, Template, Triangle, Wishes};
@@ -111,7 +111,7 @@ fn climb(mesher: &Scripted, rungs: &[Rung], timeout: Option<Duration>) -> Result
         mesher,
         log: Log::new(&|_| ()),
     };
-    climb.climb(Asks::Eased([1.1, 0.5]), |_| Ok(mesher.runs()))
+    climb.climb(Attempt::new(Asks::Eased([1.1, 0.5])), |_| Ok(mesher.runs()))
 }
 
 #[test]
@@ -213,7 +213,7 @@ fn thin_layers_are_meshed_coarsely_unless_bounds_are_asked_for() {
             log: Log::new(&|_| ()),
         };
         let advice = climb
-            .climb(Asks::AsWished, |answer| Ok(answer.advice))
+            .climb(Attempt::new(Asks::AsWished), |answer| Ok(answer.advice))
             .unwrap();
         let asked = mesher.asked.lock().unwrap();
         (asked[0].0.bounds.unwrap(), advice)
