@@ -5,7 +5,7 @@ use geom::tet::TetMeasures;
 use mesher::{Asks, Attempt, Climb, Description, EASING, Log, Order};
 use rayon::prelude::*;
 
-/// Below so many elements the first percentile of the angles is the smallest one, which is that of a single element and a matter of
+/// Up to so many elements the first percentile of the angles is the smallest one, which is that of a single element and a matter of
 /// luck; and another mesh takes a few milliseconds.
 const FEW: usize = 100;
 
@@ -14,8 +14,7 @@ const FEW: usize = 100;
 /// eight draws at the usual bounds.
 const DRAWS: u64 = 8;
 
-/// Factors of the usual bounds, those of the radius-edge ratio and of the smallest dihedral angle, that leave elements room to be
-/// better than asked for.
+/// Factors of the bounds asked for, those of the radius-edge ratio and of the smallest dihedral angle, instead of [`EASING`].
 const STRICTER: [f64; 2] = [0.9, 2.0];
 
 /// Of a template that was filled and others, the one that is best; `again` fills it once more. What other templates share with it is
@@ -26,7 +25,7 @@ pub fn best_of_draws(
     again: impl Fn(&Climb<'_>, Attempt) -> Option<Done> + Sync,
 ) -> Done {
     let filled = &first.filled;
-    if filled.improved.is_none() || !filled.shared.is_empty() || filled.template.tets.len() >= FEW {
+    if filled.improved.is_none() || !filled.shared.is_empty() || filled.template.tets.len() > FEW {
         return first;
     }
     let quiet = Climb {
@@ -59,10 +58,9 @@ pub fn best_of_draws(
 
 /// The attempt of a draw.
 fn attempt(draw: u64) -> Attempt {
-    let [ratio, angle] = EASING;
-    let asks = match draw % 2 {
-        0 => Asks::Eased(EASING),
-        _ => Asks::Eased([STRICTER[0] * ratio, STRICTER[1] * angle]),
+    let factors = match draw % 2 {
+        0 => EASING,
+        _ => STRICTER,
     };
     Attempt {
         description: Description {
@@ -71,7 +69,7 @@ fn attempt(draw: u64) -> Attempt {
             rounds_from: Some(0),
             ..Description::PLAIN
         },
-        ..Attempt::new(asks)
+        ..Attempt::new(Asks::Eased(factors))
     }
 }
 
