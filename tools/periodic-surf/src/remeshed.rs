@@ -98,6 +98,7 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) ->
         flat: remeshing.flat,
         folds: document.unevenness(),
         feature: libm::cos(document.wishes.feature_angle().to_radians()),
+        sharp: document.wishes.min_dihedral().to_radians(),
         sizes: match takes_lengths(document, index) {
             true => sizes,
             false => sizes.by_shape(),

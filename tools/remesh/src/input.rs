@@ -51,6 +51,9 @@ pub struct Rules<'a> {
     pub folds: f64,
     /// Cosine of the angle between the normals at a feature edge, from which on it is one.
     pub feature: f64,
+    /// Angle between triangles at an edge, radians: no change leaves a smaller one where there was none. No element at the edge has a
+    /// larger one.
+    pub sharp: f64,
     /// How long edges are to be.
     pub sizes: Sizes<'a>,
 }

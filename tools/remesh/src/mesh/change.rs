@@ -15,8 +15,8 @@ pub struct Change {
     pub chords: Vec<([u32; 2], u32)>,
     /// Whether corners or curves are joined: then curves may be as far from theirs as the deviation.
     pub joins: bool,
-    /// A vertex that was moved: everything around it is as new.
-    pub moved: Option<u32>,
+    /// A vertex that was moved, and where it was: everything around it is as new.
+    pub moved: Option<(u32, DVec3)>,
 }
 
 /// A point of the input.

@@ -35,10 +35,11 @@ impl Mesh<'_> {
         if !self.holds_edges(change) {
             return None;
         }
-        Some(Fitted {
+        let fitted = Fitted {
             samples: self.samples_of(change)?,
             on_chords: self.samples_on_chords(change)?,
-        })
+        };
+        self.keeps_angles(change).then_some(fitted)
     }
 
     /// Where the samples of the triangles that go are then: near the new ones of their patch, or of any where the patch is
@@ -169,9 +170,10 @@ impl Mesh<'_> {
 
     /// Whether new edges are inside the envelope.
     fn holds_edges(&self, change: &Change) -> bool {
+        let was_moved = |v: u32| change.moved.is_some_and(|moved| moved.0 == v);
         let old = |a: u32, b: u32| {
-            change.moved != Some(a)
-                && change.moved != Some(b)
+            !was_moved(a)
+                && !was_moved(b)
                 && change.gone.iter().any(|&t| {
                     let corners = self.triangles[t as usize];
                     corners.contains(&a) && corners.contains(&b)

@@ -5,6 +5,7 @@ mod change;
 mod fit;
 mod images;
 mod orbits;
+mod sharp;
 mod triangle;
 
 pub use change::Change;

@@ -28,7 +28,7 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
     let gone = mesh.around(v).to_vec();
     let before = mesh.worst(&gone);
     let mut change = Change::replacing(mesh, &gone, v, v);
-    change.moved = Some(v);
+    change.moved = Some((v, old));
     for &(w, curve) in &along {
         let key = [v.min(w), v.max(w)];
         change.chords_gone.push(key);

@@ -10,6 +10,9 @@ use geom::tree::Tree;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
+/// Angles between triangles: ten degrees.
+const SHARP: f64 = std::f64::consts::PI / 18.0;
+
 /// Nothing is bound to anything.
 fn nowhere(_: u32, p: DVec3) -> DVec3 {
     p
@@ -54,6 +57,33 @@ fn done(surface: &Surface, deviation: f64, held: &[bool]) -> Option<Remeshed> {
     sized(surface, deviation, (held, None))
 }
 
+/// Usual rules.
+fn rules<'a>(
+    deviation: f64,
+    (held, lengths): (&'a [bool], &'a [f64]),
+    (bound, links): (&'a [u32], &'a [Link]),
+) -> Rules<'a> {
+    Rules {
+        held,
+        bound,
+        links,
+        onto: &nowhere,
+        deviation,
+        noise: deviation,
+        flat: 1e-10,
+        folds: 0.0,
+        feature: 0.75_f64.sqrt(),
+        sharp: SHARP,
+        sizes: Sizes {
+            turn: std::f64::consts::TAU / 12.0,
+            turn_is_asked: false,
+            lengths,
+            local: None,
+            growth: 0.5,
+        },
+    }
+}
+
 fn sized(surface: &Surface, deviation: f64, asked: (&[bool], Option<f64>)) -> Option<Remeshed> {
     linked(surface, deviation, asked, &[])
 }
@@ -65,26 +95,10 @@ fn linked(
     links: &[Link],
 ) -> Option<Remeshed> {
     let bound = vec![0; surface.points.len()];
+    let lengths = [length.unwrap_or(f64::INFINITY); 8];
     remesh(
         surface,
-        &Rules {
-            held,
-            bound: &bound,
-            links,
-            onto: &nowhere,
-            deviation,
-            noise: deviation,
-            flat: 1e-10,
-            folds: 0.0,
-            feature: 0.75_f64.sqrt(),
-            sizes: Sizes {
-                turn: std::f64::consts::TAU / 12.0,
-                turn_is_asked: false,
-                lengths: &[length.unwrap_or(f64::INFINITY); 8],
-                local: None,
-                growth: 0.5,
-            },
-        },
+        &rules(deviation, (held, &lengths), (&bound, links)),
     )
 }
 
@@ -179,6 +193,41 @@ fn needles_go_and_the_surface_stays_in_its_envelope() {
             }
         }
         assert!(border >= 8, "{border}");
+    }
+}
+
+/// The cosine of the smallest angle between triangles at an edge.
+fn cosine_of_sharpest(surface: &Surface) -> f64 {
+    let mut across: FxHashMap<[u32; 2], Vec<DVec3>> = FxHashMap::default();
+    for t in &surface.triangles {
+        for i in 0..3 {
+            let [a, b, c] = [i, i + 1, i + 2].map(|i| t[i % 3]);
+            let [p, q, r] = [a, b, c].map(|v| surface.points[v as usize]);
+            let away = (r - p).reject_from(q - p).normalize();
+            across.entry([a.min(b), a.max(b)]).or_default().push(away);
+        }
+    }
+    let cosines = across.values().map(|at| at[0].dot(at[1]));
+    cosines.fold(-1.0, f64::max)
+}
+
+/// What is rough, and smooth by the angle asked for, may turn farther from edge to edge than would fold it.
+#[test]
+fn edges_get_no_sharper_than_elements_may_be() {
+    let mut rough = globe(24, 12);
+    for (i, p) in rough.points.iter_mut().enumerate() {
+        *p *= 1.0 + 0.3 * (7.0 * (i * i) as f64).sin();
+    }
+    let most = SHARP.cos();
+    assert!(cosine_of_sharpest(&rough) < most);
+    let held = vec![false; rough.points.len()];
+    let bound = vec![0; rough.points.len()];
+    for deviation in [0.03, 0.06, 0.1] {
+        let usual = rules(deviation, (&held, &[]), (&bound, &[]));
+        let feature = 72_f64.to_radians().cos();
+        let made = remesh(&rough, &Rules { feature, ..usual }).expect("needles");
+        let cosine = cosine_of_sharpest(&made.surface);
+        assert!(cosine <= most, "{deviation} {}", cosine.acos().to_degrees());
     }
 }
 
@@ -414,24 +463,11 @@ fn needles_that_do_not_face_as_the_shape_are_halved() {
         labels: vec![0; 6],
     };
     let bound = vec![0; surface.points.len()];
+    let held = vec![false; surface.points.len()];
     let rules = Rules {
-        held: &vec![false; surface.points.len()],
-        bound: &bound,
-        links: &[],
-        onto: &nowhere,
-        deviation: 0.05,
-        noise: 0.05,
-        flat: 1e-10,
-        folds: 0.0,
         // Nothing is a feature.
         feature: -1.0,
-        sizes: Sizes {
-            turn: std::f64::consts::TAU / 12.0,
-            turn_is_asked: false,
-            lengths: &[],
-            local: None,
-            growth: 0.5,
-        },
+        ..rules(0.05, (&held, &[]), (&bound, &[]))
     };
     let patches = Patches::new(&surface, &rules);
     assert_eq!(patches.planes.len(), 1);

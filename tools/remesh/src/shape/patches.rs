@@ -254,6 +254,7 @@ mod tests {
     fn faces(surface: &Surface, folds: f64) -> [usize; 2] {
         let none = vec![0; surface.points.len()];
         let rules = Rules {
+            sharp: 0.0,
             held: &vec![false; surface.points.len()],
             bound: &none,
             links: &[],
