@@ -88,6 +88,20 @@ fn seams_follow_the_table() {
     }
 }
 
+/// A ring whose seam has two creases beside the middle of the hub's wall: the edge of that is as far off to one side as to the other,
+/// and was taken for straight.
+#[test]
+fn the_edge_of_a_hub_follows_the_seam() {
+    let ring = bodies::random_solid::solid(5_000_629).body;
+    let found = run("symdetect", &["-q"], &encode(&ring, EXACT_STL)).success();
+    let options = ["-v", "--seam", "auto", "--deviation", "2e-4"];
+    let cut = run("wedgecut", &options, &found);
+    assert!(cut.stderr.contains("between the blades is taken"));
+    let wedge = read(&cut.success());
+    let points = wedge.templates[0].vertices.len();
+    assert!(points < 1000, "{points}");
+}
+
 #[test]
 fn half_turns_are_kept_where_the_seam_is_odd() {
     let bar = TwistedBar {

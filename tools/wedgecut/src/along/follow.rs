@@ -6,7 +6,7 @@ use crate::graph::STRAIGHT;
 use crate::section::{Known, Piece, Section};
 use crate::surface::Surface;
 use geom::cdt::{Broken, Patch, narrow};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rustc_hash::FxHashMap;
 use tmesh::{Frame, Triangle};
 
@@ -95,11 +95,11 @@ impl<'a> Look<'a> {
         edges.binary_search_by_key(&ends, |e| e.ends).is_ok()
     }
 
-    /// How far the middle of an edge is from the seam, in parts of its length.
+    /// How far an edge is from the seam, in parts of its length.
     fn bulge(&self, ends: [u32; 2]) -> f64 {
         let [a, b] = ends.map(|v| self.at[&v]);
-        let at = |q: DVec2| -> DVec3 { self.section.part.at(&self.cell.faces, q) };
-        self.cell.bulge([at(a), at(b)], at(a.midpoint(b)))
+        self.cell
+            .bulge(|s| self.section.part.at(&self.cell.faces, a.lerp(b, s)))
     }
 
     /// Where an edge within the section is to be divided: at a crease of the seam, else in the middle.

@@ -6,7 +6,7 @@
 use super::class::{Class, sign};
 use super::face::{Face, Role, Shape};
 use super::join::Join;
-use crate::graph::Graph;
+use crate::graph::{Graph, samples};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
@@ -56,12 +56,14 @@ impl Cell {
         }
     }
 
-    /// How far the middle of two points of a cutting face, as `there` gives it, is from that of the line between
-    /// them once both are bent back, in parts of the line's length.
-    pub fn bulge(&self, [p, q]: [DVec3; 2], middle: DVec3) -> f64 {
+    /// How far places on the way between two points of a cutting face, as `there` gives it, are from the line between
+    /// them once they are bent back, in parts of the line's length.
+    pub fn bulge(&self, at: impl Fn(f64) -> DVec3) -> f64 {
         let Some(graph) = &self.graph else { return 0.0 };
-        let [p, q, middle] = [p, q, middle].map(|p| graph.bend(p));
-        middle.distance(p.midpoint(q)) / p.distance(q)
+        let at = |s: f64| graph.bend(at(s));
+        let [p, q] = [0.0, 1.0].map(at);
+        let off = samples().map(|s| at(s).distance(p.lerp(q, s)));
+        off.fold(0.0, f64::max) / p.distance(q)
     }
 
     /// Where on a way, from 0 to 1, it passes a crease of the seam.
