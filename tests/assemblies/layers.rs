@@ -2,7 +2,7 @@
 
 use bodies::assembly::assembly;
 use serde_json::Value;
-use support::{encode, pipe, run};
+use support::{encode, pipe, read, run};
 
 /// What tetwedge says of the assembly of a seed, and the report of its mesh.
 fn meshed(seed: u64) -> (String, Value) {
@@ -34,4 +34,17 @@ fn a_layer_of_a_thousandth_caps_the_quality_instead_of_filling_memory() {
     assert!(said.contains("layers as thin as 0.00118707"), "{said}");
     let elements = report["tetrahedra"].as_u64().expect("a number");
     assert!(elements < 10_000, "{elements} tetrahedra");
+}
+
+#[test]
+fn a_solid_thinner_than_facets_explain_is_not_lost_to_its_neighbours() {
+    let solid = bodies::random_solid::solid(5_006_081);
+    let input = encode(&solid.body, solid.encoding);
+    let found = run("symdetect", &["-q"], &input).success();
+    let document = read(&found);
+    assert_eq!(document.regions.len(), solid.body.materials.len());
+    for (index, region) in document.regions.iter().enumerate() {
+        let (volume, known) = (region.volume.expect("a volume"), solid.body.volume(index));
+        assert!((volume / known - 1.0).abs() < 1e-9, "{volume} {known}");
+    }
 }

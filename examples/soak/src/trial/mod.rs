@@ -118,7 +118,7 @@ impl Laboratory {
         let report = report(folder, "symmetry.json")?;
         let distance = surface::distance(subject, &folder.join(output))?;
         let deviation = deviation + surface::moved(folder)?;
-        Ok(verdict::of_distance(&report, deviation, distance))
+        Ok(verdict::of_distance(&report, deviation, &distance))
     }
 
     fn verdict(

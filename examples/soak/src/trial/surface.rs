@@ -2,7 +2,7 @@
 
 use super::subject::Subject;
 use bodies::Dice;
-use geom::tolerance::Extent;
+use geom::tolerance::{Extent, Tolerance};
 use geom::tree::Tree;
 use glam::DVec3;
 use std::fs::File;
@@ -46,12 +46,21 @@ impl Asked {
     }
 }
 
-/// The largest distance between the surfaces of a body and a mesh, measured both ways at corners and middles of triangles, and
-/// the largest distance of a point of the body from the mesh's axis, model units. The mesh is an assembled one.
+/// How far surfaces are from each other, model units.
+pub struct Measured {
+    /// The largest distance, measured both ways at corners and middles of triangles.
+    pub distance: f64,
+    /// The largest distance of a point of the body from the mesh's axis.
+    pub radius: f64,
+    /// Within this, coordinates of the file that was read count as equal.
+    pub equal: f64,
+}
+
+/// Compares the surfaces of a body and of an assembled mesh.
 ///
 /// # Errors
 /// Fails when the mesh cannot be read.
-pub fn distance(subject: &Subject, mesh: &Path) -> io::Result<[f64; 2]> {
+pub fn distance(subject: &Subject, mesh: &Path) -> io::Result<Measured> {
     let file = BufReader::new(File::open(mesh)?);
     let document = tmesh::read(file).map_err(io::Error::other)?;
     let body = &subject.body;
@@ -59,12 +68,16 @@ pub fn distance(subject: &Subject, mesh: &Path) -> io::Result<[f64; 2]> {
         .map(|f| f.vertices.map(|v| body.vertices[v as usize]))
         .collect();
     let found = faces(&document);
-    let largest = one_way(&known, &found).max(one_way(&found, &known));
     let symmetry = document.symmetry.as_ref();
     let frame = symmetry.and_then(tmesh::Symmetry::frame);
     let Frame { rotation, origin } = frame.unwrap_or(document.frame);
     let extent = Extent::about(&body.vertices, origin, rotation.z_axis);
-    Ok([largest, extent.radius])
+    let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
+    Ok(Measured {
+        distance: one_way(&known, &found).max(one_way(&found, &known)),
+        radius: extent.radius,
+        equal: Tolerance::new(extent, precision, 0.0).equal(),
+    })
 }
 
 /// How far the mesh in a folder says that faces which are nearly flat were moved, relative to the radius about the axis.

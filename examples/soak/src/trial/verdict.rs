@@ -2,6 +2,7 @@
 
 use super::pipe::Ended;
 use super::subject::{Subject, Symmetry};
+use super::surface::Measured;
 use bodies::assembly::Claim;
 use serde_json::Value;
 
@@ -60,10 +61,18 @@ pub fn of_reports(subject: &Subject, symmetry: &Value, quality: &Value, deviatio
     }
 }
 
-/// Judges the distance between the surfaces of body and mesh, and the radius about the axis: the first is no more than the
-/// deviation that was asked for, and what rounding and the symmetry explain.
-pub fn of_distance(symmetry: &Value, deviation: f64, [distance, radius]: [f64; 2]) -> Verdict {
-    let most = (exactness(symmetry) + deviation) * radius;
+/// Stages that make surfaces, each of which may take for one plane what is in one but for the precision of the file.
+const FLATTENING: f64 = 2.0;
+
+/// Judges the distance between the surfaces of body and mesh: it is no more than the deviation that was asked for, and what
+/// rounding and the symmetry explain.
+pub fn of_distance(symmetry: &Value, deviation: f64, measured: &Measured) -> Verdict {
+    let Measured {
+        distance,
+        radius,
+        equal,
+    } = *measured;
+    let most = (exactness(symmetry) + deviation) * radius + FLATTENING * equal;
     if distance <= most {
         return Verdict::Meshed;
     }

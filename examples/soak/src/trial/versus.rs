@@ -100,9 +100,9 @@ impl Laboratory {
             volume: number(&quality["volume"]),
             seconds,
         };
-        let [distance, radius] = surface::distance(subject, &folder.join("mesh.tmesh"))?;
+        let measured = surface::distance(subject, &folder.join("mesh.tmesh"))?;
         let known: f64 = subject.regions.iter().map(|r| r.volume).sum();
-        versus.distance = distance / radius;
+        versus.distance = measured.distance / measured.radius;
         versus.volume = (figures.volume - known) / known;
         Ok(Ok(figures))
     }

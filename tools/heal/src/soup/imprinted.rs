@@ -30,7 +30,8 @@ pub struct Imprinted {
 }
 
 /// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
-/// more elsewhere, faces are divided where they cross. What meets of different faces may be `known`.
+/// more elsewhere, or where nothing would be left of a solid that is thinner than facets explain, faces are divided where they cross. What
+/// meets of different faces may be `known`.
 ///
 /// # Errors
 /// Why that is not possible, for the end of a sentence.
@@ -40,7 +41,6 @@ pub fn imprinted(
     contacts: Contacts,
     known: Option<&Met>,
 ) -> Result<Imprinted, String> {
-    let mut reason = String::new();
     let mut complex = complex_of(surface, tolerance);
     let crossing = Crossing::of(surface, &complex, known);
     complex.break_up(&crossing.folded);
@@ -48,13 +48,22 @@ pub fn imprinted(
         gap: Some(0.0),
         ..contacts
     };
-    for contacts in [contacts, flat] {
-        match attempt((surface, complex.clone()), tolerance, contacts, &crossing) {
-            Ok(imprinted) => return Ok(imprinted),
-            Err(why) => reason = why,
-        }
+    let again = complex.clone();
+    let first = attempt((surface, complex), tolerance, contacts, &crossing);
+    if first.as_ref().is_ok_and(Imprinted::has_all) {
+        return first;
     }
-    Err(reason)
+    // What is lost in both is lost to other solids.
+    attempt((surface, again), tolerance, flat, &crossing).or_else(|why| first.or(Err(why)))
+}
+
+impl Imprinted {
+    /// Whether something is left of each solid.
+    fn has_all(&self) -> bool {
+        let sides = self.labels.front.iter().chain(&self.labels.back);
+        let there: FxHashSet<u32> = sides.copied().filter(|&s| s != NONE).collect();
+        there.len() == self.surface.solids.len()
+    }
 }
 
 fn attempt(
