@@ -23,7 +23,9 @@ pub use deadline::Deadline;
 pub use error::{Error, Fault, Place, RegionName};
 pub use faces::{Faces, NO_FACE, Upright, face_key, leads};
 pub use failure::{Failure, FailureKind};
-pub use ladder::{Answer, Asks, Attempt, Change, Climb, EASING, Ending, IN_CUBE, LADDER, Rung};
+pub use ladder::{
+    Answer, Asks, Attempt, Change, Climb, EASING, Ending, IN_CUBE, LADDER, Room, Rung,
+};
 pub use log::{Log, Progress};
 pub use mesher::{Elements, Limits, Mesh, Mesher, Task};
 pub use params::Params;

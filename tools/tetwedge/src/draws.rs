@@ -2,7 +2,7 @@
 
 use crate::template::Done;
 use geom::tet::TetMeasures;
-use mesher::{Asks, Attempt, Climb, Description, EASING, Log, Order};
+use mesher::{Asks, Attempt, Climb, Description, EASING, Log, Order, Room};
 use rayon::prelude::*;
 
 /// Up to so many elements the first percentile of the angles is the smallest one, which is that of a single element and a matter of
@@ -18,23 +18,28 @@ const DRAWS: u64 = 8;
 const STRICTER: [f64; 2] = [0.9, 2.0];
 
 /// Of a template that was filled and others, the one that is best; `again` fills it once more. What other templates share with it is
-/// settled, so that such a template stays as it is, as does what is not to be improved.
+/// settled, so that such a template stays as it is, as does what is not to be improved, and what cannot be as asked: there it is not
+/// luck.
 pub fn best_of_draws(
     climb: &Climb<'_>,
     first: Done,
     again: impl Fn(&Climb<'_>, Attempt) -> Option<Done> + Sync,
 ) -> Done {
     let filled = &first.filled;
-    if filled.improved.is_none() || !filled.shared.is_empty() || filled.template.tets.len() > FEW {
+    let is_as_asked = filled.improved.is_some() && first.advice.is_none();
+    if !is_as_asked || !filled.shared.is_empty() || filled.template.tets.len() > FEW {
         return first;
     }
+    let room = Room::beside(filled.template.vertices.len());
     let quiet = Climb {
         rungs: &[],
         log: Log::new(&|_| ()),
         ..*climb
     };
     let draws = (0..DRAWS).into_par_iter();
-    let others: Vec<Option<Done>> = draws.map(|draw| again(&quiet, attempt(draw))).collect();
+    let others: Vec<Option<Done>> = draws
+        .map(|draw| again(&quiet, attempt(draw, room)))
+        .collect();
     let failed = first.failed;
     let mut best = first;
     let mut taken = None;
@@ -56,8 +61,8 @@ pub fn best_of_draws(
     Done { failed, ..best }
 }
 
-/// The attempt of a draw.
-fn attempt(draw: u64) -> Attempt {
+/// The attempt of a draw. Refinement to stricter bounds may not come to an end.
+fn attempt(draw: u64, room: Room) -> Attempt {
     let factors = match draw % 2 {
         0 => EASING,
         _ => STRICTER,
@@ -69,6 +74,7 @@ fn attempt(draw: u64) -> Attempt {
             rounds_from: Some(0),
             ..Description::PLAIN
         },
+        room: Some(room),
         ..Attempt::new(Asks::Eased(factors))
     }
 }

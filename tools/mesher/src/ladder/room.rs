@@ -50,6 +50,11 @@ impl Room {
         Self(FAR * self.0)
     }
 
+    /// Far more than another mesh of the same surface has.
+    pub fn beside(vertices: usize) -> Self {
+        Self(FAR * vertices as f64)
+    }
+
     /// For a mesh that is taken as it is.
     pub fn last(plc: &Plc) -> Self {
         Self(FAR * plc.points.len() as f64)
