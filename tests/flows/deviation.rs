@@ -191,6 +191,37 @@ fn a_surface_of_needles_is_remeshed_within_its_deviation() {
     }
 }
 
+/// Bodies drawn with noise, of which remeshing left triangles as flat as the noise in flat faces, and TetGen found no way around them.
+#[test]
+fn no_triangles_of_noise_are_left() {
+    for (seed, options) in [
+        (
+            5_003_805,
+            "--deviation 6.96e-3 --edge-length 0.2946 --feature-angle 7.161",
+        ),
+        (
+            5_008_790,
+            "--order 2 --hub none --deviation 5.79e-4 --segments-per-turn 3.295",
+        ),
+    ] {
+        let solid = bodies::random_solid::solid(seed);
+        let input = encode(&solid.body, solid.encoding);
+        let found = run("symdetect", &["-q"], &input).success();
+        let options: Vec<&str> = ["-q"].into_iter().chain(options.split(' ')).collect();
+        let wedge = run("wedgecut", &options, &found).success();
+        let surface = run("periodic-surf", &["-q"], &wedge).success();
+        for template in read(&surface).templates {
+            for t in &template.triangles {
+                let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
+                let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+                let height = (b - a).cross(c - a).length() / longest;
+                assert!(height > 1e-6 * longest, "{seed}: {height:e} of {longest}");
+            }
+        }
+        run("tetwedge", &["-q"], &surface).success();
+    }
+}
+
 #[test]
 fn deviation_0_keeps_every_vertex() {
     let found = run("symdetect", &["-q"], &vase()).success();

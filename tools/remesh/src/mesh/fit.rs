@@ -14,6 +14,10 @@ pub const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// its height has as many fewer than its length.
 const ROUNDING: f64 = 1.0 / (1_u64 << (f64::MANTISSA_DIGITS / 2)) as f64;
 
+/// Height of a triangle over its longest edge below which it is none: no change leaves a flatter one than it replaces. A hundred times
+/// what TetGen takes for one line; triangles of drawings are a hundred times as high and more, but where noise makes them.
+const FLAT: f64 = 1e-6;
+
 impl Mesh<'_> {
     /// Whether a change keeps to the rules; where the input's points are then.
     pub fn fit(&self, change: &Change) -> Option<Fitted> {
@@ -32,7 +36,7 @@ impl Mesh<'_> {
         {
             return None;
         }
-        if !self.holds_edges(change) {
+        if !self.holds_edges(change) || !self.keeps_heights(change) {
             return None;
         }
         let fitted = Fitted {
@@ -126,6 +130,29 @@ impl Mesh<'_> {
             let product = old.length() * vector.length();
             old.dot(vector) > 0.0 && old.cross(vector).length() <= ROUNDING * product
         })
+    }
+
+    /// Where a vertex was before a change.
+    pub fn before(&self, change: &Change, v: u32) -> DVec3 {
+        match change.moved {
+            Some((moved, place)) if moved == v => place,
+            _ => self.points[v as usize],
+        }
+    }
+
+    /// Whether no triangle is flatter than those that go, if it is flat.
+    fn keeps_heights(&self, change: &Change) -> bool {
+        let height = |[a, b, c]: [DVec3; 3]| {
+            let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+            double_area_vector(a, b, c).length() / (longest * longest)
+        };
+        let lowest = |heights: &mut dyn Iterator<Item = f64>| heights.fold(f64::INFINITY, f64::min);
+        let new = change.new.iter().map(|n| n.0);
+        let after = lowest(&mut new.map(|t| height(t.map(|v| self.points[v as usize]))));
+        after >= FLAT || {
+            let gone = change.gone.iter().map(|&t| self.triangles[t as usize]);
+            after >= lowest(&mut gone.map(|t| height(t.map(|v| self.before(change, v)))))
+        }
     }
 
     /// Twice the area of a triangle, along its normal.

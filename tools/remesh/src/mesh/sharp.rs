@@ -8,10 +8,7 @@ impl Mesh<'_> {
     /// Whether a change leaves no edge at which triangles meet in a smaller angle than asked for, but where it replaces one with an
     /// angle as small.
     pub fn keeps_angles(&self, change: &Change) -> bool {
-        let was = |v: u32| match change.moved {
-            Some((moved, place)) if moved == v => place,
-            _ => self.points[v as usize],
-        };
+        let was = |v: u32| self.before(change, v);
         let is = |v: u32| self.points[v as usize];
         let corners = |t: &u32| self.triangles[*t as usize];
         let stays = |t: &u32| !change.gone.contains(t);
