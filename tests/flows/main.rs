@@ -18,4 +18,5 @@ mod seams;
 mod sections;
 mod size_field;
 mod sizes;
+mod small;
 mod touching;

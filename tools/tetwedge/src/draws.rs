@@ -9,9 +9,9 @@ use rayon::prelude::*;
 /// luck; and another mesh takes a few milliseconds.
 const FEW: usize = 100;
 
-/// How often such a template is filled anew: equivalent descriptions of its surface, every other time with stricter bounds. Of 13 small
-/// bodies for which TetGen alone has a larger first percentile, 9 have the larger one after eight draws, and 9 after sixteen; 5 with
-/// eight draws at the usual bounds.
+/// How often such a template is filled anew: equivalent descriptions of its surface, every other time with stricter bounds. Of 12 small
+/// bodies for which TetGen alone has a larger first percentile, 6 have the larger one after eight draws; 3 after sixteen at the usual
+/// bounds.
 const DRAWS: u64 = 8;
 
 /// Factors of the bounds asked for, those of the radius-edge ratio and of the smallest dihedral angle, instead of [`EASING`].
