@@ -102,6 +102,18 @@ fn the_edge_of_a_hub_follows_the_seam() {
     assert!(points < 1000, "{points}");
 }
 
+/// An impeller along whose seam two edges would be left at which no element has the angle asked for.
+#[test]
+fn a_seam_sharper_than_planes_is_not_taken() {
+    let fan = bodies::bladed::bladed(820_619).body;
+    let found = run("symdetect", &["-q"], &encode(&fan, EXACT_STL)).success();
+    let cut = run("wedgecut", &["-v", "--seam", "auto"], &found);
+    let said =
+        "is not taken: its wedge has 2 edge(s) with angles below 10 degrees, 0 between planes";
+    assert!(cut.stderr.contains(said), "{}", cut.stderr);
+    cut.success();
+}
+
 #[test]
 fn half_turns_are_kept_where_the_seam_is_odd() {
     let bar = TwistedBar {

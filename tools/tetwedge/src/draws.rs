@@ -18,15 +18,16 @@ const DRAWS: u64 = 8;
 const STRICTER: [f64; 2] = [0.9, 2.0];
 
 /// Of a template that was filled and others, the one that is best; `again` fills it once more. What other templates share with it is
-/// settled, so that such a template stays as it is, as does what is not to be improved, and what cannot be as asked: there it is not
-/// luck.
+/// settled, so that such a template stays as it is, as does what is not to be improved, what the user's own switches say how to mesh, and
+/// what cannot be as asked: there it is not luck.
 pub fn best_of_draws(
     climb: &Climb<'_>,
     first: Done,
     again: impl Fn(&Climb<'_>, Attempt) -> Option<Done> + Sync,
 ) -> Done {
     let filled = &first.filled;
-    let is_as_asked = filled.improved.is_some() && first.advice.is_none();
+    let is_as_asked =
+        filled.improved.is_some() && first.advice.is_none() && climb.params.switches.is_empty();
     if !is_as_asked || !filled.shared.is_empty() || filled.template.tets.len() > FEW {
         return first;
     }
@@ -42,14 +43,14 @@ pub fn best_of_draws(
         .collect();
     let failed = first.failed;
     let mut best = first;
-    let mut taken = None;
-    for (draw, other) in others.into_iter().enumerate() {
-        if let Some(other) = other.filter(|other| is_better(other, &best)) {
+    let mut is_another = false;
+    for other in others.into_iter().flatten() {
+        if is_better(&other, &best) {
             best = other;
-            taken = Some(draw);
+            is_another = true;
         }
     }
-    if taken.is_some() {
+    if is_another {
         climb.log.detail(&format!(
             "template {}: the best of {} meshes has {} tetrahedra, none with an angle below {:.1} degrees",
             climb.piece.index,

@@ -30,8 +30,8 @@ pub struct Imprinted {
 }
 
 /// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
-/// more elsewhere, or where nothing would be left of a solid that is thinner than facets explain, faces are divided where they cross. What
-/// meets of different faces may be `known`.
+/// more elsewhere, or where nothing would be left of a solid that is thinner than facets explain, faces are divided where they cross; not
+/// where the gap was asked for. What meets of different faces may be `known`.
 ///
 /// # Errors
 /// Why that is not possible, for the end of a sentence.
@@ -50,7 +50,8 @@ pub fn imprinted(
     };
     let again = complex.clone();
     let first = attempt((surface, complex), tolerance, contacts, &crossing);
-    if first.as_ref().is_ok_and(Imprinted::has_all) {
+    let is_enough = |made: &Imprinted| contacts.gap.is_some() || made.has_all();
+    if first.as_ref().is_ok_and(is_enough) {
         return first;
     }
     // What is lost in both is lost to other solids.
