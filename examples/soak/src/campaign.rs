@@ -9,14 +9,14 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Options of a campaign.
+/// Options of every campaign.
 #[derive(clap::Args)]
-pub struct Options {
-    /// Number of bodies
+struct Campaign {
+    /// Number of trials
     #[arg(long, default_value_t = 1000)]
     count: u64,
 
-    /// Seed of the first body; the others follow
+    /// Seed of the first trial; the others follow
     #[arg(long, default_value_t = 1)]
     seed: u64,
 
@@ -35,6 +35,13 @@ pub struct Options {
     /// Time limit of a pipe, seconds
     #[arg(long, default_value_t = 60)]
     limit: u64,
+}
+
+/// Options of a campaign of bodies that are drawn.
+#[derive(clap::Args)]
+pub struct Bodies {
+    #[command(flatten)]
+    campaign: Campaign,
 
     /// Which bodies
     #[arg(long, value_enum, default_value_t = Kind::Solids)]
@@ -49,51 +56,91 @@ pub struct Options {
     twice: u64,
 }
 
-/// Runs a campaign and prints what came of it. Returns whether nothing failed.
+/// Options of a campaign of files that are spoilt.
+#[derive(clap::Args)]
+pub struct Files {
+    #[command(flatten)]
+    campaign: Campaign,
+
+    /// Files of triangles, which take turns
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+}
+
+/// Sends bodies of known symmetry through the pipe and prints what came of it. Returns whether nothing failed.
 ///
 /// # Errors
 /// Fails when files cannot be written or processes not be started.
-pub fn run(options: &Options) -> io::Result<bool> {
-    fs::create_dir_all(&options.out)?;
-    let table = options.out.join("results.tsv");
-    let seeds = options.seed..options.seed + options.count;
-    let done = done(&table)?;
-    let todo: Vec<u64> = seeds.clone().filter(|s| !done.contains(s)).collect();
-    let results = Mutex::new(OpenOptions::new().create(true).append(true).open(&table)?);
+pub fn of_bodies(options: &Bodies) -> io::Result<bool> {
     let laboratory = Laboratory {
-        binaries: options.binaries.clone(),
-        limit: Duration::from_secs(options.limit),
         twice: options.twice,
         kind: options.kind,
         surfaces: options.surfaces,
+        ..options.campaign.laboratory()
     };
-    let next = AtomicU64::new(0);
-    let worker = || -> io::Result<()> {
-        loop {
-            let place = next.fetch_add(1, Ordering::Relaxed) as usize;
-            let Some(&seed) = todo.get(place) else {
-                return Ok(());
-            };
-            let folder = options.out.join(format!("seed-{seed}"));
-            let _ = fs::remove_dir_all(&folder);
-            fs::create_dir_all(&folder)?;
-            let trial = laboratory.trial(seed, &folder)?;
-            match &trial.verdict {
-                Verdict::Meshed | Verdict::Asymmetric => fs::remove_dir_all(&folder)?,
-                Verdict::Refused(text) | Verdict::Failed(text) => {
-                    // The mesh is made again by the script.
-                    for name in ["mesh.tmesh", "whole.tmesh", "again.tmesh"] {
-                        let _ = fs::remove_file(folder.join(name));
-                    }
-                    eprintln!("soak: seed {seed}: {text}");
-                }
-            }
-            let mut results = results.lock().unwrap_or_else(|e| e.into_inner());
-            results.write_all(line(seed, &trial).as_bytes())?;
+    (options.campaign).run(|seed, folder| laboratory.trial(seed, folder))
+}
+
+/// Sends spoilt files through the pipe and prints what came of it. Returns whether nothing failed.
+///
+/// # Errors
+/// Fails when files cannot be read or written or processes not be started.
+pub fn of_files(options: &Files) -> io::Result<bool> {
+    let laboratory = options.campaign.laboratory();
+    let files = &options.files;
+    options.campaign.run(|seed, folder| {
+        let file = &files[(seed % files.len() as u64) as usize];
+        laboratory.spoilt(file, seed, folder)
+    })
+}
+
+impl Campaign {
+    fn laboratory(&self) -> Laboratory {
+        Laboratory {
+            binaries: self.binaries.clone(),
+            limit: Duration::from_secs(self.limit),
+            twice: 0,
+            kind: Kind::Solids,
+            surfaces: false,
         }
-    };
-    crate::workers::run(options.jobs, worker)?;
-    summary(&table, &seeds)
+    }
+
+    /// Makes a trial of each seed that has none yet, and prints a summary. Returns whether nothing failed.
+    fn run(&self, trial: impl Fn(u64, &Path) -> io::Result<Trial> + Sync) -> io::Result<bool> {
+        fs::create_dir_all(&self.out)?;
+        let table = self.out.join("results.tsv");
+        let seeds = self.seed..self.seed + self.count;
+        let done = done(&table)?;
+        let todo: Vec<u64> = seeds.clone().filter(|s| !done.contains(s)).collect();
+        let results = Mutex::new(OpenOptions::new().create(true).append(true).open(&table)?);
+        let next = AtomicU64::new(0);
+        let worker = || -> io::Result<()> {
+            loop {
+                let place = next.fetch_add(1, Ordering::Relaxed) as usize;
+                let Some(&seed) = todo.get(place) else {
+                    return Ok(());
+                };
+                let folder = self.out.join(format!("seed-{seed}"));
+                let _ = fs::remove_dir_all(&folder);
+                fs::create_dir_all(&folder)?;
+                let trial = trial(seed, &folder)?;
+                match &trial.verdict {
+                    Verdict::Meshed | Verdict::Asymmetric => fs::remove_dir_all(&folder)?,
+                    Verdict::Refused(text) | Verdict::Failed(text) => {
+                        // The mesh is made again by the script.
+                        for name in ["mesh.tmesh", "whole.tmesh", "again.tmesh"] {
+                            let _ = fs::remove_file(folder.join(name));
+                        }
+                        eprintln!("soak: seed {seed}: {text}");
+                    }
+                }
+                let mut results = results.lock().unwrap_or_else(|e| e.into_inner());
+                results.write_all(line(seed, &trial).as_bytes())?;
+            }
+        };
+        crate::workers::run(self.jobs, worker)?;
+        summary(&table, &seeds)
+    }
 }
 
 fn line(seed: u64, trial: &Trial) -> String {

@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! cargo run --release -p soak -- run --count 1000
+//! cargo run --release -p soak -- spoil --count 1000 part.stl other.stl
 //! cargo run --release -p soak -- versus --kind folded --count 1000
 //! cargo run --release -p soak -- body --seed 17 -o body.stl
 //! ```
@@ -26,8 +27,10 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum What {
-    /// Run trials; what fails is kept with its input, command lines and messages
-    Run(campaign::Options),
+    /// Run trials of drawn bodies; what fails is kept with its input, command lines and messages
+    Run(campaign::Bodies),
+    /// Run trials of files of triangles that are spoilt at random, each of which must be meshed well or refused with a reason
+    Spoil(campaign::Files),
     /// Compare the meshes of the pipe, with its defaults, with those of `tetgen` on the whole bodies
     Versus(versus::Options),
     /// Write the body of a seed, in the format the seed chooses
@@ -48,7 +51,8 @@ enum What {
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().what {
-        What::Run(options) => campaign::run(&options),
+        What::Run(options) => campaign::of_bodies(&options),
+        What::Spoil(options) => campaign::of_files(&options),
         What::Versus(options) => versus::run(&options),
         What::Body { seed, kind, output } => write_body(seed, kind, &output).map(|()| true),
     };

@@ -19,6 +19,8 @@ pub struct Estimate {
     /// The coefficients.
     pub model: CostModel,
     classes: Classes,
+    /// Largest distance of the body from the axis.
+    radius: f64,
     sums: Integral,
     /// The classes that have any volume.
     filled: Vec<Filled>,
@@ -73,10 +75,10 @@ impl Estimate {
         threads: usize,
     ) -> Self {
         let sections = sections(wedge);
-        let mut extent = 0.0_f64;
-        for p in &wedge.template.vertices {
-            extent = extent.max(p.x.hypot(p.y)).max(p.z.abs());
-        }
+        let vertices = &wedge.template.vertices;
+        let radius = vertices.iter().map(|p| p.x.hypot(p.y));
+        let radius = radius.fold(0.0, f64::max);
+        let extent = vertices.iter().fold(radius, |most, p| most.max(p.z.abs()));
         let mut samples = edge_samples(wedge);
         let edges = samples.len();
         for section in &sections {
@@ -101,6 +103,7 @@ impl Estimate {
         let mut estimate = Self {
             model,
             classes,
+            radius,
             filled: filled(&sums, classes),
             sums,
             skin: 0.0,
@@ -255,8 +258,7 @@ impl Estimate {
             free.push([from, low]);
             from = high;
         }
-        let most = self.classes.extent;
-        free.push([from, most]);
+        free.push([from, self.radius]);
         let mut radii = Vec::new();
         let wide = |f: &[f64; 2]| f[1] - f[0] > self.classes.width();
         for [low, high] in free.into_iter().filter(wide) {

@@ -26,4 +26,4 @@ pub use run::{Command, main};
 pub use session::{Progress, Session, Status, duration};
 pub use threads::{ThreadArgs, available_threads, both, in_parallel};
 pub use tolerance::tolerance;
-pub use wishes::{StrictArgs, WishArgs, sharp_edges, shortfalls};
+pub use wishes::{Sharp, StrictArgs, WishArgs, sharp_edges, shortfalls};

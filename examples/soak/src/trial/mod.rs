@@ -3,6 +3,7 @@
 mod commands;
 mod direct;
 mod pipe;
+mod spoilt;
 mod subject;
 mod surface;
 mod verdict;
@@ -13,6 +14,7 @@ pub use verdict::Verdict;
 pub use versus::{Figures, Versus};
 
 use bodies::Encoding;
+use spoilt::Spoilt;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -80,12 +82,7 @@ impl Laboratory {
         out.flush()?;
         drop(out);
         stages[0].extend(["--report".to_owned(), path(folder, "symmetry.json")]);
-        let check = vec![
-            "meshqual".to_owned(),
-            "--check".to_owned(),
-            "--json".to_owned(),
-            path(folder, "quality.json"),
-        ];
+        let check = check(folder);
         std::fs::write(
             folder.join("run.sh"),
             script(seed, &subject.description, &stages, &check),
@@ -106,13 +103,71 @@ impl Laboratory {
         })
     }
 
+    /// Spoils the triangles of a file by a seed and sends them through the pipe, in an empty folder as [`Self::trial`] has it. They may
+    /// be meshed, if the mesh is sound, or refused.
+    ///
+    /// # Errors
+    /// Fails when files cannot be read or written, or processes not be started.
+    pub fn spoilt(&self, file: &Path, seed: u64, folder: &Path) -> io::Result<Trial> {
+        let mut spoilt = Spoilt::of(file, seed)?;
+        let ways = spoilt.spoil();
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        let description = format!("{name}: {ways}");
+        std::fs::write(folder.join("body"), spoilt.stl())?;
+        let stages = [
+            "symdetect --allow-asymmetric",
+            "wedgecut",
+            "tetwedge",
+            "rotassemble --to tmesh",
+        ]
+        .map(words);
+        let check = check(folder);
+        let script = script(seed, &description, &stages, &check);
+        std::fs::write(folder.join("run.sh"), script)?;
+        let begun = Instant::now();
+        let run = pipe::run(
+            &self.binaries,
+            folder,
+            &stages,
+            "body",
+            "mesh.tmesh",
+            self.limit,
+        )?;
+        let verdict = match verdict::of_stages(None, &run) {
+            Some(verdict) => verdict,
+            None => self.checked(check, folder)?.unwrap_or(Verdict::Meshed),
+        };
+        let tetrahedra = match verdict {
+            Verdict::Meshed => report(folder, "quality.json")?["tetrahedra"].as_u64(),
+            _ => None,
+        };
+        Ok(Trial {
+            verdict,
+            time: begun.elapsed(),
+            tetrahedra: tetrahedra.unwrap_or(0),
+            description,
+        })
+    }
+
+    /// Has `meshqual` check the mesh, with the command given; what is wrong with it, if anything is.
+    fn checked(&self, check: commands::Stage, folder: &Path) -> io::Result<Option<Verdict>> {
+        let (input, output) = ("mesh.tmesh", "quality.txt");
+        let ended = pipe::run(&self.binaries, folder, &[check], input, output, self.limit)?;
+        // What meshqual refuses is a wrong mesh.
+        let verdict = verdict::of_stages(None, &ended);
+        Ok(verdict.map(|verdict| match verdict {
+            Verdict::Refused(text) => Verdict::Failed(text),
+            other => other,
+        }))
+    }
+
     /// Judges how far the surface of the mesh is from the body's.
     fn distance(&self, subject: &Subject, deviation: f64, folder: &Path) -> io::Result<Verdict> {
         // Assembled: where the symmetry exchanges regions, what is between them is in walls of the wedge.
         let whole = ["rotassemble", "--to", "tmesh"].map(str::to_owned).to_vec();
         let (input, output) = ("mesh.tmesh", "whole.tmesh");
         let ended = pipe::run(&self.binaries, folder, &[whole], input, output, self.limit)?;
-        if let Some(verdict) = verdict::of_stages(subject, &ended) {
+        if let Some(verdict) = verdict::of_stages(Some(subject), &ended) {
             return Ok(verdict);
         }
         let report = report(folder, "symmetry.json")?;
@@ -133,16 +188,11 @@ impl Laboratory {
             pipe::run(&self.binaries, folder, stages, input, output, self.limit)
         };
         let ended = run(stages, "body", "mesh.tmesh")?;
-        if let Some(verdict) = verdict::of_stages(subject, &ended) {
+        if let Some(verdict) = verdict::of_stages(Some(subject), &ended) {
             return Ok((verdict, 0));
         }
-        let checked = run(&[check], "mesh.tmesh", "quality.txt")?;
-        if let Some(verdict) = verdict::of_stages(subject, &checked) {
-            // What meshqual refuses is a wrong mesh.
-            let (Verdict::Refused(text) | Verdict::Failed(text)) = verdict else {
-                return Ok((verdict, 0));
-            };
-            return Ok((Verdict::Failed(text), 0));
+        if let Some(wrong) = self.checked(check, folder)? {
+            return Ok((wrong, 0));
         }
         let quality = report(folder, "quality.json")?;
         let tetrahedra = quality["tetrahedra"].as_u64().unwrap_or(0);
@@ -152,7 +202,7 @@ impl Laboratory {
         if verdict == Verdict::Meshed && self.twice > 0 && seed.is_multiple_of(self.twice) {
             // What a time limit stops the second time was not made again, and says nothing.
             let again = run(stages, "body", "again.tmesh")?;
-            if let Some(verdict) = verdict::of_stages(subject, &again) {
+            if let Some(verdict) = verdict::of_stages(Some(subject), &again) {
                 return Ok((verdict, tetrahedra));
             }
             let [first, second] =
@@ -164,6 +214,17 @@ impl Laboratory {
         }
         Ok((verdict, tetrahedra))
     }
+}
+
+/// The command that checks a mesh and leaves its report in a folder.
+fn check(folder: &Path) -> commands::Stage {
+    let mut check = words("meshqual --check --json");
+    check.push(path(folder, "quality.json"));
+    check
+}
+
+fn words(line: &str) -> commands::Stage {
+    line.split(' ').map(str::to_owned).collect()
 }
 
 fn report(folder: &Path, name: &str) -> io::Result<serde_json::Value> {

@@ -23,13 +23,15 @@ pub enum Verdict {
 /// cleaning explain.
 const VOLUME: f64 = 2e-6;
 
-/// Judges the stages of the pipe: `None` when all have ended well.
-pub fn of_stages(subject: &Subject, ended: &[Ended]) -> Option<Verdict> {
+/// Judges the stages of the pipe, which got a body or, for `None`, a file that may be anything: `None` when all have ended well.
+pub fn of_stages(subject: Option<&Subject>, ended: &[Ended]) -> Option<Verdict> {
     let first = ended.iter().find(|e| e.hung || e.code != Some(0))?;
     // A stage that waits for one that hangs hangs too; the last one that does is to blame for nothing.
     let tool = &first.tool;
     let last = first.messages.lines().last().unwrap_or_default();
     let reason = last.strip_prefix(&format!("{tool}: error: "));
+    let is_asymmetric = subject.is_some_and(|s| s.symmetry.order() == 1);
+    let may_be_malformed = subject.is_none() && tool == "symdetect";
     Some(match (first.hung, first.code, reason) {
         (true, ..) => Verdict::Failed(format!("{tool}: over the time limit")),
         (_, None, _) => Verdict::Failed(format!("{tool}: ended by a signal")),
@@ -37,13 +39,14 @@ pub fn of_stages(subject: &Subject, ended: &[Ended]) -> Option<Verdict> {
         (_, Some(1), Some(reason)) if reason.contains("internal error") => {
             Verdict::Failed(format!("{tool}: {reason}"))
         }
-        (_, Some(1), Some(reason))
-            if subject.symmetry.order() == 1 && reason.starts_with("no symmetry within") =>
-        {
+        (_, Some(1), Some(reason)) if is_asymmetric && reason.starts_with("no symmetry within") => {
             Verdict::Asymmetric
         }
         (_, Some(1), Some(reason)) => Verdict::Refused(format!("{tool}: {reason}")),
-        // The body is sound and so is the usage.
+        (_, Some(3), Some(reason)) if may_be_malformed => {
+            Verdict::Refused(format!("{tool}: {reason}"))
+        }
+        // The body, or what the stage before wrote, is sound and so is the usage.
         (_, Some(code), Some(reason)) => Verdict::Failed(format!("{tool}: exit {code}: {reason}")),
     })
 }

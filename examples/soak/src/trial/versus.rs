@@ -2,7 +2,7 @@
 
 use super::pipe;
 use super::subject::Subject;
-use super::{Laboratory, direct, path, report, surface, verdict};
+use super::{Laboratory, check, direct, path, report, surface, verdict, words};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -63,7 +63,6 @@ impl Laboratory {
     /// The mesh of the pipe.
     fn piped(&self, versus: &mut Versus, folder: &Path) -> io::Result<Result<Figures, String>> {
         let subject = &versus.subject;
-        let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
         let mut stages = [
             "symdetect",
             "wedgecut",
@@ -75,16 +74,18 @@ impl Laboratory {
             stages[0].push("--allow-asymmetric".to_owned());
         }
         stages[0].extend(["--report".to_owned(), path(folder, "symmetry.json")]);
-        let mut check = words("meshqual --check --json");
-        check.push(path(folder, "quality.json"));
-        let run = |stages: &[Vec<String>], input, output| {
-            pipe::run(&self.binaries, folder, stages, input, output, self.limit)
-        };
         let begun = Instant::now();
-        let ended = run(&stages, "body", "mesh.tmesh")?;
+        let ended = pipe::run(
+            &self.binaries,
+            folder,
+            &stages,
+            "body",
+            "mesh.tmesh",
+            self.limit,
+        )?;
         let seconds = begun.elapsed().as_secs_f64();
-        let checked = match verdict::of_stages(subject, &ended) {
-            None => verdict::of_stages(subject, &run(&[check], "mesh.tmesh", "quality.txt")?),
+        let checked = match verdict::of_stages(Some(subject), &ended) {
+            None => self.checked(check(folder), folder)?,
             failed => failed,
         };
         if let Some(failed) = checked {

@@ -10,6 +10,6 @@ mod size_field;
 mod strict;
 
 pub use args::WishArgs;
-pub use sharp::sharp_edges;
+pub use sharp::{Sharp, sharp_edges};
 pub use shortfall::shortfalls;
 pub use strict::StrictArgs;

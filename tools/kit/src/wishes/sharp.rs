@@ -18,6 +18,13 @@ pub struct Sharp {
     pub place: Place,
 }
 
+impl Sharp {
+    /// Whether it is on the axis, where copies share an angle.
+    pub fn is_on_axis(&self) -> bool {
+        self.place == Place::Axis
+    }
+}
+
 /// The edges of a template, given with its index, at which a region has an angle below `asked`, degrees. Linear.
 pub fn sharp_edges((index, template): (usize, &Template), asked: f64) -> Vec<Sharp> {
     let triangles: Vec<_> = template.triangles.iter().map(|t| t.vertices).collect();

@@ -13,6 +13,8 @@ use tmesh::{Group, Kind};
 pub struct Choice {
     /// The candidates, best first; each way to mesh with fewer and fewer planes.
     pub list: Vec<Candidate>,
+    /// Those among them that cost few elements, without what fewer planes would make of them.
+    pub accepted: Vec<Candidate>,
     /// The reason for the first.
     pub why: String,
 }
@@ -28,19 +30,21 @@ struct Ranking {
     all: Vec<Way>,
     /// The same, best first; at least one.
     ways: Vec<Way>,
-    /// Whether the best has no more elements than are accepted.
-    is_accepted: bool,
+    /// How many of these have no more elements than are accepted; they come first.
+    accepted: usize,
 }
 
 impl Ranking {
     fn new(kinds: Vec<Group>, ways: &Ways<'_>) -> Option<Self> {
         let ranked = ways.ranked();
-        let is_accepted = ways.is_accepted(ranked.first()?);
+        ranked.first()?;
+        let accepted = ranked.iter().take_while(|way| ways.is_accepted(way));
+        let accepted = accepted.count();
         Some(Self {
             kinds,
             all: ways.list.clone(),
             ways: ranked,
-            is_accepted,
+            accepted,
         })
     }
 }
@@ -81,7 +85,7 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let mut ranking = ranked(orders.iter().flat_map(|&n| kinds_of(n)).collect())?;
     // Where planes that nobody asked for cost much, fewer of them may do better, if the larger wedges take no longer.
     let is_free = body.params.domain == Domain::Auto && body.params.order.is_none();
-    if !ranking.is_accepted && is_free {
+    if ranking.accepted == 0 && is_free {
         let usual = ranking.ways[0];
         let other = ranked(orders.iter().flat_map(|&n| groups.all_at(n)).collect())?;
         let way = other.ways[0];
@@ -89,7 +93,12 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
             ranking = other;
         }
     }
-    let Ranking { kinds, ways, .. } = &ranking;
+    let Ranking {
+        kinds,
+        ways,
+        accepted,
+        ..
+    } = &ranking;
     let chosen = &ways[0];
     let planes = |way: &Way| {
         let hub = way.hub.map(|r| format!(" with a hub of {r:.3}"));
@@ -112,7 +121,16 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let list = (ways.iter())
         .flat_map(|way| with_fewer_planes(body, groups, kinds[way.cut], way.hub))
         .collect();
-    Some(Choice { list, why })
+    let candidate = |way: &Way| Candidate {
+        group: kinds[way.cut],
+        hub: way.hub,
+    };
+    let accepted = ways[..*accepted].iter().map(candidate).collect();
+    Some(Choice {
+        list,
+        accepted,
+        why,
+    })
 }
 
 /// A way to mesh, and the same without the operations that turn the axis over, and without a hub unless it was asked

@@ -60,6 +60,12 @@ pub fn search(body: &Body<'_>) -> Result<Found, CutError> {
         return finish(found, refusals, None);
     };
     let found = first_of(body, choice.list, Some(first), &mut refusals)?;
+    let found = match found {
+        Some(found) if body.params.order.is_none() => {
+            Some(without_sharp(body, found, choice.accepted, &mut refusals)?)
+        }
+        found => found,
+    };
     finish(found, refusals, Some(choice.why))
 }
 
@@ -116,6 +122,47 @@ fn first_of(
         }
     }
     Ok(None)
+}
+
+/// Where a wedge has edges on the axis at which no element can have the angle asked for, the first of `others` that has none, if there
+/// is one: the order alone decides what of the angle on the axis a copy has.
+///
+/// # Errors
+/// What holds of any candidate.
+fn without_sharp(
+    body: &Body<'_>,
+    found: (Cut, Option<String>),
+    others: Vec<Candidate>,
+    refusals: &mut Refusals,
+) -> Result<(Cut, Option<String>), CutError> {
+    let asked = body.document.wishes.min_dihedral();
+    let sharp = sharp_on_axis(&found.0, asked);
+    if sharp == 0 {
+        return Ok(found);
+    }
+    for candidate in others {
+        if candidate == found.0.candidate {
+            continue;
+        }
+        let Some((mut cut, warning)) = first_of(body, vec![candidate], None, refusals)? else {
+            continue;
+        };
+        if sharp_on_axis(&cut, asked) == 0 {
+            cut.notes.push(format!(
+                "order {} leaves no edges on the axis with angles below {asked} degrees, order {} leaves {sharp}",
+                cut.candidate.group.order, found.0.candidate.group.order
+            ));
+            return Ok((cut, warning));
+        }
+    }
+    Ok(found)
+}
+
+/// How many edges on the axis with angles below the one asked for a wedge and its hub have.
+fn sharp_on_axis(cut: &Cut, asked: f64) -> usize {
+    let templates = cut.templates.iter().enumerate();
+    let edges = templates.flat_map(|template| kit::sharp_edges(template, asked));
+    edges.filter(kit::Sharp::is_on_axis).count()
 }
 
 /// Of a wedge along a seam between the blades, if there is one, and one between planes the one whose surface costs fewer
