@@ -74,7 +74,12 @@ pub fn template<B: Send>(
         let done = climb.climb(attempt, |answer| done::<()>(climb, answer, None));
         Some(done.ok()?.0)
     };
-    Ok((best_of_draws(climb, first, again), made))
+    let (best, is_another) = best_of_draws(climb, first, again);
+    let made = match beside.filter(|_| is_another) {
+        Some(beside) => Some(beside(&best.filled)),
+        None => made,
+    };
+    Ok((best, made))
 }
 
 /// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where

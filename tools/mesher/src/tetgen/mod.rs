@@ -15,6 +15,11 @@ use tmesh::Size;
 /// Time from one word of progress to the next. A choice: people see a line move, and reading the counts takes nothing.
 const TOLD_EVERY: Duration = Duration::from_millis(200);
 
+/// Processor time that a step other than refinement may take, and for each point. The slowest takes some ten microseconds for a point on a
+/// machine of 2020; a hundred times that, and what starting a process may take, are for slower ones.
+const SILENCE: Duration = Duration::from_secs(10);
+const SILENCE_OF_POINT: Duration = Duration::from_millis(1);
+
 /// The system's TetGen library, each run in a process of its own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TetGen;
@@ -34,6 +39,7 @@ impl Mesher for TetGen {
         let (seeds, nodes) = (seeds(plc), nodes(plc));
         let limits = tetgen_sys::Limits {
             counted_every: log.has_progress().then_some(TOLD_EVERY),
+            silence: Some(SILENCE + SILENCE_OF_POINT * plc.points.len() as u32),
             ..limits.into()
         };
         let made =
@@ -75,6 +81,7 @@ impl From<Limits> for tetgen_sys::Limits {
         Self {
             timeout: limits.timeout,
             memory: limits.memory,
+            silence: None,
             counted_every: None,
         }
     }
@@ -125,7 +132,7 @@ fn failure(error: &Error, step: String) -> Failure {
         Error::Crashed { .. } => FailureKind::Chance,
         Error::Failed(Thrown::OutOfMemory) => FailureKind::NoMemory,
         Error::Failed(Thrown::BadInput) => FailureKind::Final,
-        Error::Failed(_) => FailureKind::Chance,
+        Error::Failed(_) | Error::Silent(_) => FailureKind::Chance,
         Error::TimedOut(_) => FailureKind::TimedOut,
         Error::MemoryLimit(_) => FailureKind::MemoryLimit,
         Error::Killed => FailureKind::Killed,

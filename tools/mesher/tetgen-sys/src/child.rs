@@ -2,6 +2,7 @@
 
 use crate::counts::Counters;
 use crate::ffi::{self, tetgen_shim_start};
+use crate::silence::Silence;
 use crate::{Complex, Error, Failure, Limits, Mesh, News, SizeNode};
 use std::ffi::CString;
 use std::fs::File;
@@ -106,9 +107,13 @@ impl Child {
         let deadline = timeout.and_then(|limit| self.started.checked_add(limit));
         let mut buffer = [0; 4096];
         let mut next_count = self.next_count();
+        let silence = self.limits.silence;
+        let mut silence = silence.map(|most| Silence::new(self.pid, most));
         // The pipe ends when the child does: nobody else holds its other end for long.
         loop {
-            let until = [deadline, next_count].into_iter().flatten().min();
+            let next_look = silence.as_ref().and_then(Silence::next_look);
+            let until = [deadline, next_count, next_look];
+            let until = until.into_iter().flatten().min();
             let readable = self.readable(until)?;
             let now = Instant::now();
             if !readable && deadline.is_some_and(|end| end <= now) {
@@ -121,11 +126,19 @@ impl Child {
                 next_count = self.next_count();
             }
             if !readable {
-                continue;
+                match silence.as_ref().and_then(Silence::broken) {
+                    Some(most) => return Err(Error::Silent(most)),
+                    None => continue,
+                }
             }
             match self.chatter.read(&mut buffer) {
                 Ok(0) => break,
-                Ok(n) => listener(News::Printed(&buffer[..n])),
+                Ok(n) => {
+                    if let Some(silence) = &mut silence {
+                        silence.heard(&buffer[..n]);
+                    }
+                    listener(News::Printed(&buffer[..n]));
+                }
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(error) => {
                     return Err(Error::System {

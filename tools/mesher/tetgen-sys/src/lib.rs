@@ -13,6 +13,7 @@ mod ffi;
 mod input;
 mod mesh;
 mod news;
+mod silence;
 
 pub use child::Child;
 pub use counts::Counts;

@@ -244,6 +244,25 @@ fn a_time_limit_is_kept() {
 }
 
 #[test]
+fn a_step_that_comes_to_no_end_is_stopped() {
+    // The points inside take some tenths of a second before refinement.
+    let mut body = cube();
+    let turns = [0.381_966, 0.271_845, 0.618_034];
+    let inside = (1..200_000).map(|i| turns.map(|turn| (f64::from(i) * turn).fract()));
+    body.points.extend(inside);
+    let run = |silence| {
+        let limits = Limits {
+            silence,
+            ..Limits::default()
+        };
+        tetrahedralize(&body.complex(), "p", limits, &mut |_| {})
+    };
+    let result = run(Some(Duration::ZERO));
+    assert!(matches!(result, Err(Error::Silent(_))), "{result:?}");
+    assert!(run(Some(Duration::from_secs(3600))).is_ok());
+}
+
+#[test]
 fn crashes_and_kills_are_told_apart() {
     let body = cube();
     let crashes = [libc::SIGSEGV, libc::SIGABRT];
