@@ -43,15 +43,43 @@ fn surfaces_stay_within_the_deviation_asked_for() {
     all_are_meshed(Kind::Solids, true, 1..=16);
 }
 
-fn all_are_meshed(kind: Kind, surfaces: bool, seeds: impl Iterator<Item = u64>) {
+#[test]
+fn spoilt_files_are_meshed_or_refused() {
+    let gear = bodies::Gear::default().build();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("gear.stl");
+    let mut out = std::fs::File::create(&file).expect("it can be made");
+    let encoding = bodies::Encoding::StlAscii { digits: None };
+    bodies::write(&gear, encoding, &mut out).expect("room on the disk");
+    let laboratory = laboratory(Kind::Solids, false);
+    let (mut meshed, mut refused, mut failed) = (0, 0, Vec::new());
+    for seed in 1..=32 {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let trial = laboratory.spoilt(&file, seed, folder.path());
+        let trial = trial.expect("it runs");
+        match trial.verdict {
+            Verdict::Meshed => meshed += 1,
+            Verdict::Refused(_) => refused += 1,
+            other => failed.push(format!("seed {seed}, {}: {other:?}", trial.description)),
+        }
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+    assert!(meshed > 0 && refused > 0, "{meshed} {refused}");
+}
+
+fn laboratory(kind: Kind, surfaces: bool) -> Laboratory {
     let tools = Path::new(env!("CARGO_BIN_EXE_symdetect")).parent();
-    let laboratory = Laboratory {
+    Laboratory {
         binaries: tools.expect("a folder").to_owned(),
         limit: Duration::from_secs(300),
         twice: 8,
         kind,
         surfaces,
-    };
+    }
+}
+
+fn all_are_meshed(kind: Kind, surfaces: bool, seeds: impl Iterator<Item = u64>) {
+    let laboratory = laboratory(kind, surfaces);
     let mut failed = Vec::new();
     for seed in seeds {
         let folder = tempfile::tempdir().expect("a temporary folder");

@@ -259,6 +259,44 @@ fn orders_are_chosen_by_what_they_cost() {
     assert!(order >= 10 && templates == 2, "{order}");
 }
 
+/// Where a body is taller than it is wide, hubs that are tried are still within it.
+#[test]
+fn hubs_of_tall_bodies_are_within_them() {
+    let shaft = Tsv {
+        order: 60,
+        core: 0.2,
+        thickness: 0.02,
+        height: 20.0,
+        ..Tsv::default()
+    };
+    for cut in [&["-v"][..], &["-v", "--order", "60"]] {
+        let cut = run("wedgecut", cut, &found(&shaft.build()));
+        assert!(
+            !cut.stderr.contains("there can be no hub"),
+            "{}",
+            cut.stderr
+        );
+        let document = read(&cut.success());
+        assert_eq!(document.templates.len(), 2);
+    }
+}
+
+/// Pieces of this body touch on the axis, where mirror planes of order 4 leave a twelfth of a right angle, those of order 3 two.
+#[test]
+fn orders_leave_no_sharp_angles_on_the_axis() {
+    let solid = bodies::folded::folded(990).solid;
+    let body = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    let sharp = |arguments: &[&str]| {
+        let cut = run("wedgecut", arguments, &body);
+        (
+            cut.stderr.contains("at the axis near"),
+            read(&cut.success()).instances.len(),
+        )
+    };
+    assert_eq!(sharp(&["--order", "4"]), (true, 16));
+    assert_eq!(sharp(&[]), (false, 12));
+}
+
 /// With a hub, with a seam, with both: the plane across the axis is one more wall.
 #[test]
 fn mirror_planes_across_the_axis_halve_wedges() {
