@@ -55,7 +55,7 @@ impl Mesh<'_> {
             let patch = self.patch[t as usize];
             let stays = change.new.iter().any(|n| n.1 == patch);
             let may_go = match change.joins {
-                true => !self.keeps[patch as usize],
+                true => !self.keeps[patch as usize] || self.goes_on(t, change),
                 false => self.samples[t as usize].is_empty(),
             };
             if !stays && !may_go {
@@ -80,6 +80,14 @@ impl Mesh<'_> {
             }
         }
         Some(samples)
+    }
+
+    /// Whether triangles of the same patch stay around one that goes.
+    fn goes_on(&self, t: u32, change: &Change) -> bool {
+        let patch = self.patch[t as usize];
+        let corners = self.triangles[t as usize].into_iter();
+        let mut around = corners.flat_map(|v| self.around(v));
+        around.any(|other| self.patch[*other as usize] == patch && !change.gone.contains(other))
     }
 
     /// Where the samples of the feature edges that go are then.

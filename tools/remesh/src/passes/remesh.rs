@@ -63,16 +63,12 @@ const ROUNDS: usize = 6;
 /// is 14.4 to 21 degrees, with two 16.6 to 24 for 2 % more elements over all parts tried; with four, an impeller whose blades end in strips of
 /// a thousandth of its radius gets 3.5 times as many.
 const HALVINGS: usize = 2;
-/// What narrow facets may cost where features are joined, relative to what they cost where all stay. A choice: features are
-/// what the shape is known by, and a tenth of the elements is a low price for them. Measured on fans, propellers and
-/// impellers from CAD kernels: needles between features cost a quarter to a half; a fan where joining saves a hundredth
-/// gets twice as many bad elements from it.
-const PAYS: f64 = 0.9;
 /// Attempts at a surface without self-intersections, each with more around those of the one before left as it was.
 const ATTEMPTS: u32 = 4;
 
 /// Remeshes a surface within the rules. `None` where there is nothing to do, or nothing that could be done. Features are
-/// joined where they are detail, if they cost much as they are; otherwise they stay.
+/// joined where they are detail, if narrow facets cost less then. Measured on 128 wedges of parts from CAD kernels: next to a tenth less, that
+/// is 1 % fewer elements and smallest angles that are 3 % larger.
 pub fn remesh(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     if rules.links.len() > Images::MOST {
         return None;
@@ -84,7 +80,7 @@ pub fn remesh(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
         return Some(joined.clone());
     }
     match (joined, uncrossed(surface, rules, false)) {
-        (Some((joined, cost)), Some((_, other))) if cost < PAYS * other => Some(joined),
+        (Some((joined, cost)), Some((_, other))) if cost < other => Some(joined),
         (joined, None) => Some(joined?.0),
         (_, Some((apart, _))) => Some(apart),
     }
