@@ -25,8 +25,11 @@ pub struct Spoilt {
     dice: Dice,
 }
 
+/// What it is called, and what it does.
+type Way = (&'static str, fn(&mut Spoilt));
+
 /// What may happen to a file.
-const WAYS: [(&str, fn(&mut Spoilt)); 13] = [
+const WAYS: [Way; 13] = [
     ("missing", Spoilt::missing),
     ("twice", Spoilt::twice),
     ("turned over", Spoilt::turned_over),

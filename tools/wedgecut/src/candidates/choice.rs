@@ -37,10 +37,9 @@ struct Ranking {
 impl Ranking {
     fn new(kinds: Vec<Group>, ways: &Ways<'_>) -> Option<Self> {
         let ranked = ways.ranked();
-        ranked.first()?;
         let accepted = ranked.iter().take_while(|way| ways.is_accepted(way));
         let accepted = accepted.count();
-        Some(Self {
+        (!ranked.is_empty()).then(|| Self {
             kinds,
             all: ways.list.clone(),
             ways: ranked,
