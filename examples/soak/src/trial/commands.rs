@@ -6,6 +6,22 @@ use bodies::Dice;
 /// A tool and its arguments.
 pub type Stage = Vec<String>;
 
+/// The words of a command line.
+pub fn words(line: &str) -> Stage {
+    line.split(' ').map(str::to_owned).collect()
+}
+
+/// The pipe without any options, which ends in a document.
+pub fn defaults() -> [Stage; 4] {
+    let lines = [
+        "symdetect",
+        "wedgecut",
+        "tetwedge",
+        "rotassemble --to tmesh",
+    ];
+    lines.map(words)
+}
+
 /// A pipe with random options for a body.
 pub fn stages(subject: &Subject, seed: u64) -> Vec<Stage> {
     // Apart from the choices that made the solid.

@@ -114,13 +114,8 @@ impl Laboratory {
         let name = file.file_name().unwrap_or_default().to_string_lossy();
         let description = format!("{name}: {ways}");
         std::fs::write(folder.join("body"), spoilt.stl())?;
-        let stages = [
-            "symdetect --allow-asymmetric",
-            "wedgecut",
-            "tetwedge",
-            "rotassemble --to tmesh",
-        ]
-        .map(words);
+        let mut stages = commands::defaults();
+        stages[0].push("--allow-asymmetric".to_owned());
         let check = check(folder);
         let script = script(seed, &description, &stages, &check);
         std::fs::write(folder.join("run.sh"), script)?;
@@ -218,13 +213,9 @@ impl Laboratory {
 
 /// The command that checks a mesh and leaves its report in a folder.
 fn check(folder: &Path) -> commands::Stage {
-    let mut check = words("meshqual --check --json");
+    let mut check = commands::words("meshqual --check --json");
     check.push(path(folder, "quality.json"));
     check
-}
-
-fn words(line: &str) -> commands::Stage {
-    line.split(' ').map(str::to_owned).collect()
 }
 
 fn report(folder: &Path, name: &str) -> io::Result<serde_json::Value> {

@@ -2,7 +2,7 @@
 
 use super::pipe;
 use super::subject::Subject;
-use super::{Laboratory, check, direct, path, report, surface, verdict, words};
+use super::{Laboratory, check, commands, direct, path, report, surface, verdict};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -63,13 +63,7 @@ impl Laboratory {
     /// The mesh of the pipe.
     fn piped(&self, versus: &mut Versus, folder: &Path) -> io::Result<Result<Figures, String>> {
         let subject = &versus.subject;
-        let mut stages = [
-            "symdetect",
-            "wedgecut",
-            "tetwedge",
-            "rotassemble --to tmesh",
-        ]
-        .map(words);
+        let mut stages = commands::defaults();
         if subject.symmetry.order() == 1 {
             stages[0].push("--allow-asymmetric".to_owned());
         }
