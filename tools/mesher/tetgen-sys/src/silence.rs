@@ -13,8 +13,8 @@ const LOOK_EVERY: Duration = Duration::from_millis(100);
 pub(crate) struct Silence {
     pid: libc::pid_t,
     most: Duration,
-    /// The process's clock when it was last heard.
-    heard: Duration,
+    /// The process's clock when it was last heard; `None` before, and for all time where its switches make it quiet.
+    heard: Option<Duration>,
     /// The line that it is printing.
     line: Vec<u8>,
     is_long: bool,
@@ -26,7 +26,7 @@ impl Silence {
         Self {
             pid,
             most,
-            heard: Duration::ZERO,
+            heard: None,
             line: Vec::new(),
             is_long: false,
         }
@@ -34,7 +34,7 @@ impl Silence {
 
     /// Takes what it printed.
     pub fn heard(&mut self, bytes: &[u8]) {
-        self.heard = self.clock().unwrap_or_default();
+        self.heard = self.clock();
         for &byte in bytes {
             if byte == b'\n' {
                 self.is_long |= self.line.starts_with(LONG);
@@ -52,7 +52,7 @@ impl Silence {
 
     /// The time that it may take, if it has taken more without a word.
     pub fn broken(&self) -> Option<Duration> {
-        let silent = self.clock()?.checked_sub(self.heard)?;
+        let silent = self.clock()?.checked_sub(self.heard?)?;
         (!self.is_long && silent > self.most).then_some(self.most)
     }
 
@@ -83,12 +83,16 @@ mod tests {
         let own = std::process::id() as libc::pid_t;
         while Silence::new(own, Duration::ZERO).clock() == Some(Duration::ZERO) {}
         let mut silence = Silence::new(own, Duration::ZERO);
+        // One that never says anything is quiet, not stuck.
+        assert_eq!(silence.broken(), None);
+        silence.heard(b"Delaunizing vertices...\n");
+        silence.heard = Some(Duration::ZERO);
         assert_eq!(silence.broken(), Some(Duration::ZERO));
         silence.heard(b"Constrained Delaunay...\nRefining m");
-        silence.heard = Duration::ZERO;
+        silence.heard = Some(Duration::ZERO);
         assert!(silence.broken().is_some());
         silence.heard(b"esh...\n");
-        silence.heard = Duration::ZERO;
+        silence.heard = Some(Duration::ZERO);
         assert_eq!(silence.broken(), None);
     }
 }
