@@ -2,6 +2,8 @@
 
 use crate::pipe::{placed, ratchet};
 use bodies::{Body, Impeller, Prism, TwistedBar};
+use geom::tree::Tree;
+use std::collections::HashSet;
 use std::fs;
 use support::{EXACT_STL, Outcome, encode, read, run};
 use tmesh::Gluing;
@@ -100,6 +102,50 @@ fn the_edge_of_a_hub_follows_the_seam() {
     let wedge = read(&cut.success());
     let points = wedge.templates[0].vertices.len();
     assert!(points < 1000, "{points}");
+}
+
+/// Where the wall of a hub passes a curved seam, both are on the surface: the edge of the cut is a chord of the seam there, and was left.
+#[test]
+fn corners_of_a_hub_lie_on_the_surface() {
+    let gear = bodies::random_solid::solid(7_102_594).body;
+    let found = run("symdetect", &["-q"], &encode(&gear, EXACT_STL)).success();
+    let options = [
+        "--domain",
+        "rotation",
+        "--seam",
+        "auto",
+        "--deviation",
+        "6e-7",
+    ];
+    let cut = run("wedgecut", &[&["-v"], &options[..]].concat(), &found);
+    assert!(cut.stderr.contains("between the blades is taken"));
+    assert!(cut.stderr.contains("hub of inscribed radius"));
+    let wedge = read(&cut.success());
+    let input = read(&found);
+    let body = &input.templates[0];
+    let corner = |&v: &u32| input.frame.to_world(body.vertices[v as usize]);
+    let corners = |t: &tmesh::Triangle| t.vertices.each_ref().map(corner);
+    let tree = Tree::new(body.triangles.iter().map(corners));
+    // Vertices of triangles that are no cut.
+    for (i, template) in wedge.templates.iter().enumerate() {
+        let glued = (wedge.templates.iter().enumerate()).flat_map(|(j, t)| {
+            let own = move |g: &Gluing| (j == i, g.other as usize == i);
+            t.gluings.iter().flat_map(move |g| {
+                let (here, there) = own(g);
+                let pairs = g.triangle_pairs.iter();
+                pairs.flat_map(move |p| [here.then_some(p[0]), there.then_some(p[1])])
+            })
+        });
+        let glued: HashSet<u32> = glued.flatten().collect();
+        let outer = (0..)
+            .zip(&template.triangles)
+            .filter(|(t, _)| !glued.contains(t));
+        for v in outer.flat_map(|(_, t)| t.vertices) {
+            let p = wedge.frame.to_world(template.vertices[v as usize]);
+            let off = tree.nearest(p, f64::INFINITY).unwrap().point.distance(p);
+            assert!(off < 1e-9, "template {i}, vertex {v}: {off}");
+        }
+    }
 }
 
 /// An impeller along whose seam two edges would be left at which no element has the angle asked for.

@@ -100,23 +100,23 @@ pub fn relate(
     finder.found
 }
 
-/// Whether some triangles of different solids are related, other than those of solids that are `joined` already.
+/// Whether some triangles of different solids are related, of those pairs of solids that are `wanted`.
 pub fn is_related(
     complex: &mut Complex,
     incidence: Incidence<'_>,
     solid_of: impl Fn(u32) -> u32,
-    (some, joined): (&[u32], impl Fn(u32, u32) -> bool),
+    (some, wanted): (&[u32], impl Fn(u32, u32) -> bool),
     reach: Reach<'_>,
 ) -> bool {
     let mut near = Vec::new();
-    let apart = |s: u32, t: u32| !joined(solid_of(s), solid_of(t));
+    let wanted = |s: u32, t: u32| wanted(solid_of(s), solid_of(t));
     let visit = |s, t| {
         if !is_far(complex, s, t, reach) {
             near.push([s, t]);
         }
     };
     let boxes = Aligned::of(complex, reach);
-    let search = near_pairs((&boxes, some), &solid_of, apart, visit);
+    let search = near_pairs((&boxes, some), &solid_of, wanted, visit);
     if search == Search::GaveUp {
         return false;
     }

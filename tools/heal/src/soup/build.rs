@@ -1,6 +1,6 @@
 //! From polygons in groups to a document.
 
-use super::imprinted::{imprinted, touches};
+use super::imprinted::{imprinted, touching};
 use super::mended::Mended;
 use super::mending::Mending;
 use super::solids::{label, tables};
@@ -91,14 +91,17 @@ pub fn label_mended(
     let tolerance = tolerance(&apart.points, relative_precision);
     let told = merged.and_then(|()| label(&surface, &edges, tolerance.flat()));
     let mut joined = None;
-    let (surface, mut labels) = match (told, repairing) {
-        (told, Repairing::Off) => (surface, told?),
-        (Ok(labels), Repairing::Auto(contacts))
-            if !(labels.crosses || several && touches(apart, &tolerance, contacts)) =>
-        {
-            (surface, labels)
+    let to_join = match (&told, repairing) {
+        (_, Repairing::Off) => None,
+        (Ok(labels), Repairing::Auto(_)) if !labels.crosses && !several => None,
+        (Ok(labels), Repairing::Auto(contacts)) if !labels.crosses => {
+            touching(apart, &tolerance, contacts)
         }
-        (told, Repairing::Auto(contacts)) => {
+        (_, Repairing::Auto(contacts)) => Some(contacts),
+    };
+    let (surface, mut labels) = match to_join {
+        None => (surface, told?),
+        Some(contacts) => {
             // Of several solids, another surface was labelled.
             let known = told.as_ref().ok().and_then(|labels| labels.met.as_ref());
             let known = known.filter(|_| !several);

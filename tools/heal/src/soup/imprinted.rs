@@ -140,17 +140,14 @@ fn complex_of(surface: &Surface, tolerance: &Tolerance) -> Complex {
     )
 }
 
-/// Whether solids touch without crossing and with different triangles. Solids that share triangles are drawn with each
-/// other in mind: what is near elsewhere is meant to be apart.
-pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> bool {
+/// How solids that touch without crossing and with different triangles are to be taken; `None` where there are none. Solids
+/// that share triangles are drawn with each other in mind: what facets explain elsewhere is meant to be apart, and only
+/// what rounding explains is one.
+pub fn touching(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> Option<Contacts> {
     let mut complex = complex_of(surface, tolerance);
     let edges = Edges::new(&surface.triangles);
     let faces = Faces::new(&complex, &edges);
     let curves = Curves::new(&complex, &edges, &surface.solid, contacts.gap);
-    let reach = Reach {
-        equal: tolerance.equal(),
-        curves: (contacts.gap != Some(0.0)).then_some(&curves),
-    };
     let incidence = Incidence {
         edges: &edges,
         faces: &faces,
@@ -158,8 +155,22 @@ pub fn touches(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) -> 
     let solid_of = |t: u32| surface.solid[t as usize];
     let shared = Shared::of(surface);
     let joined = |a: u32, b: u32| shared.solids.contains(&[a.min(b), a.max(b)]);
-    let some = (shared.others.as_slice(), joined);
-    is_related(&mut complex, incidence, solid_of, some, reach)
+    let mut any = |wanted: &dyn Fn(u32, u32) -> bool, curves: Option<&Curves>| {
+        let reach = Reach {
+            equal: tolerance.equal(),
+            curves,
+        };
+        let some = (shared.others.as_slice(), wanted);
+        is_related(&mut complex, incidence, solid_of, some, reach)
+    };
+    let curved = (contacts.gap != Some(0.0)).then_some(&curves);
+    if any(&|a, b| !joined(a, b), curved) {
+        return Some(contacts);
+    }
+    any(&joined, None).then_some(Contacts {
+        gap: Some(0.0),
+        ..contacts
+    })
 }
 
 /// What solids have in common.

@@ -3,7 +3,7 @@
 use super::closure::{groups_are_closed, odd_edges, open_surface};
 use super::coincident::merge;
 use super::needles;
-use super::stitch::close;
+use super::stitch::{close, divide_alike};
 use super::surface::Surface;
 use crate::document::{largest_coordinate, tolerance};
 use crate::{HealError, Repair, RepairKind};
@@ -97,8 +97,8 @@ impl Mending {
             return Ok(());
         }
         match close(&mut self.surface, &tolerance) {
-            Ok(repairs) => {
-                self.repairs.extend(repairs);
+            Ok(closed) => {
+                self.repairs.extend(closed.repairs);
                 self.update_edges();
                 Ok(())
             }
@@ -118,19 +118,24 @@ impl Mending {
             if odd_edges(&edges).is_empty() {
                 continue;
             }
-            let Ok(repairs) = close(&mut part, tolerance) else {
+            let Ok(done) = close(&mut part, tolerance) else {
                 return false;
             };
-            closed.push((group, part, repairs));
+            closed.push((group, part, done));
         }
-        for (group, part, repairs) in closed {
+        let mut divided = Vec::new();
+        for (group, part, done) in closed {
             self.surface.take_group(group, part);
-            for repair in repairs {
+            divided.extend(done.divided);
+            for repair in done.repairs {
                 match self.repairs.iter_mut().find(|r| r.kind == repair.kind) {
                     Some(known) => known.add(&repair),
                     None => self.repairs.push(repair),
                 }
             }
+        }
+        for round in divided {
+            divide_alike(&mut self.surface, &round);
         }
         self.update_edges();
         true

@@ -251,6 +251,40 @@ impl Cell {
         self.on_face(face, x, [p.1, q.1], done)
     }
 
+    /// A point on an edge of a triangle and on two faces that meet along the axis, moved along these until it is in the triangle's plane
+    /// once it is bent back. The edges of a cut are no part of a bent face, but chords of it: what was on one has left the
+    /// triangle when it was moved onto both faces. Where the faces pass along the triangle, the point stays.
+    pub fn back_in_plane(&self, x: DVec3, class: Class, triangle: [DVec3; 3]) -> DVec3 {
+        let (Some(graph), Some(hub)) = (&self.graph, self.hub()) else {
+            return x;
+        };
+        let is_radial = self.which(Face::is_radial).any(|f| class.of(f) == 0);
+        let is_level = self.level().is_some_and(|f| class.of(f) == 0);
+        if class.is_axis() || class.of(hub) != 0 || !is_radial || is_level {
+            return x;
+        }
+        let [a, b, c] = triangle.map(|p| graph.bend(p));
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let at = |z: f64| DVec3::new(x.x, x.y, z);
+        let off = |z: f64| (graph.bend(at(z)) - a).dot(normal);
+        let most = a.distance(b);
+        // Of the secants of a function that is nearly linear, each doubles the digits.
+        let (mut z, mut last) = (x.z, off(x.z));
+        let mut step = last.abs();
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let slope = (off(z + step) - last) / step;
+            let next = z - last / slope;
+            let is_near = (next - x.z).abs() <= most;
+            let value = off(next);
+            if !is_near || value.is_nan() || value.abs() >= last.abs() {
+                break;
+            }
+            step = (next - z).abs();
+            (z, last) = (next, value);
+        }
+        at(z)
+    }
+
     /// Whether a segment passes the line at which a face is divided, both ends beside it on the face.
     pub fn passes_fold(&self, face: usize, p: (DVec3, Class), q: (DVec3, Class)) -> bool {
         let Some(i) = self.faces[face].divided else {

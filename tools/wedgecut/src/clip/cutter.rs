@@ -68,6 +68,19 @@ impl<'a> Cutter<'a> {
         self.cut.outer || surface.classes[v as usize].of(self.cut.face) >= 0
     }
 
+    /// The point at which an edge of a triangle has to be divided, if it has to.
+    fn crossing_of(&mut self, surface: &mut Surface, f: &Triangle, k: usize) -> Option<u32> {
+        let known = surface.points.len();
+        let [v, w, u] = [0, 1, 2].map(|i| f.vertices[(k + i) % 3]);
+        let x = self.crossing(surface, v, w)?;
+        if x as usize == known {
+            let (p, class) = surface.at(x);
+            let corners = [v, w, u].map(|v| surface.points[v as usize]);
+            surface.points[known] = self.cell.back_in_plane(p, class, corners);
+        }
+        Some(x)
+    }
+
     /// The point at which an edge has to be divided, if it has to.
     fn crossing(&mut self, surface: &mut Surface, v: u32, w: u32) -> Option<u32> {
         let (p, q) = (surface.at(v), surface.at(w));
@@ -310,9 +323,8 @@ impl<'a> Cutter<'a> {
         for f in part {
             let mut ring = Vec::with_capacity(6);
             for k in 0..3 {
-                let (v, w) = (f.vertices[k], f.vertices[(k + 1) % 3]);
-                ring.push(v);
-                ring.extend(self.crossing(surface, v, w));
+                ring.push(f.vertices[k]);
+                ring.extend(self.crossing_of(surface, f, k));
             }
             self.divide(surface, &ring, f, &mut cut);
         }

@@ -3,7 +3,7 @@
 use super::allowance::{Before, Bend, Gap, sagittas, too_wide, widest};
 use super::join::{To, joins};
 use super::rim::{Rim, Within};
-use super::split::{Stitch, split};
+use super::split::{Division, Stitch, split};
 use crate::meeting::meetings;
 use crate::repair::{Repair, RepairKind};
 use crate::soup::closure::odd_edges;
@@ -15,12 +15,20 @@ use geom::tolerance::Tolerance;
 use interchange::text::counted;
 use rustc_hash::FxHashMap;
 
-/// Closes a surface that has edges with an odd number of triangles: what was repaired.
+/// What was done to close a surface.
+pub struct Closed {
+    /// What was repaired.
+    pub repairs: Vec<Repair>,
+    /// Edges that were divided, round by round.
+    pub divided: Vec<Vec<Division>>,
+}
+
+/// Closes a surface that has edges with an odd number of triangles.
 ///
 /// # Errors
 /// Why it cannot be closed, for the end of a sentence, or nothing where nothing lies beside the edges; the surface is as
 /// it was.
-pub fn close(surface: &mut Surface, tolerance: &Tolerance) -> Result<Vec<Repair>, Option<String>> {
+pub fn close(surface: &mut Surface, tolerance: &Tolerance) -> Result<Closed, Option<String>> {
     let whole = surface.clone();
     let mut reason = None;
     // What is farther off than allowed is looked for as well: what is allowed may turn out to be more once cracks are
@@ -31,7 +39,10 @@ pub fn close(surface: &mut Surface, tolerance: &Tolerance) -> Result<Vec<Repair>
         let gaps = work.gaps();
         let wrong = work.wrong(&gaps, &left, tolerance);
         if wrong.is_empty() && left.is_empty() {
-            return Ok(work.repairs(&gaps));
+            return Ok(Closed {
+                repairs: work.repairs(&gaps),
+                divided: work.divided(),
+            });
         }
         reason = (!gaps.is_empty()).then(|| wrong.join(" and "));
         surface.clone_from(&whole);
@@ -49,6 +60,7 @@ struct Work<'a> {
     /// What each point has become.
     becomes: Vec<u32>,
     stitches: Vec<Stitch>,
+    divided: Vec<Vec<Division>>,
     /// Triangles that turned out to be there twice.
     repeated: usize,
 }
@@ -66,6 +78,7 @@ impl<'a> Work<'a> {
             corners: surface.triangles.clone(),
             becomes: (0..surface.points.len() as u32).collect(),
             stitches: Vec::new(),
+            divided: Vec::new(),
             repeated: 0,
             surface,
         }
@@ -204,8 +217,9 @@ impl<'a> Work<'a> {
 
     /// Divides edges; whether there were any to divide.
     fn split(&mut self, rim: &Rim, most: f64) -> bool {
-        let stitches = split(self.surface, rim, most).unwrap_or_default();
+        let (stitches, divided) = split(self.surface, rim, most).unwrap_or_default();
         self.stitches.extend(&stitches);
+        self.divided.push(divided);
         !stitches.is_empty()
     }
 
@@ -222,6 +236,14 @@ impl<'a> Work<'a> {
             width: s.gap,
         });
         joined.chain(stitched).collect()
+    }
+
+    /// The edges that were divided, with the corners as they are now.
+    fn divided(mut self) -> Vec<Vec<Division>> {
+        for corner in (self.divided.iter_mut().flatten()).flat_map(|d| &mut d.corners) {
+            *corner = self.becomes[*corner as usize];
+        }
+        self.divided
     }
 
     fn before(&self) -> Before {

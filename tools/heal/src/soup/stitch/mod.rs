@@ -6,6 +6,7 @@
 //! *measured*: no corner may have been moved farther than the facets there can be off the shape that they
 //! stand for.
 
+mod alike;
 mod allowance;
 mod close;
 mod join;
@@ -13,4 +14,5 @@ mod near;
 mod rim;
 mod split;
 
+pub use alike::divide_alike;
 pub use close::close;

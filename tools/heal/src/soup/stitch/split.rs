@@ -18,6 +18,15 @@ pub struct Stitch {
     pub gap: f64,
 }
 
+/// An edge that was divided.
+#[derive(Clone, Debug)]
+pub struct Division {
+    /// Its ends.
+    pub ends: [u32; 2],
+    /// The corners that it was divided at, from the first end to the second.
+    pub corners: Vec<u32>,
+}
+
 /// Where a corner lies beside an edge of the rim.
 #[derive(Clone, Copy)]
 struct Beside {
@@ -31,11 +40,11 @@ struct Beside {
 /// Divides edges of the rim at corners of it that lie beside them, at most `most` away; the nearest edge for each corner that
 /// may not be joined to another one. `None` if too many are
 /// near each other.
-pub fn split(surface: &mut Surface, rim: &Rim, most: f64) -> Option<Vec<Stitch>> {
+pub fn split(surface: &mut Surface, rim: &Rim, most: f64) -> Option<(Vec<Stitch>, Vec<Division>)> {
     let nearest = nearest_edges(surface, rim, most)?;
     // Of each triangle and corner: the corners on the edge that begins there.
     let mut on: BTreeMap<u32, [Vec<(f64, u32)>; 3]> = BTreeMap::new();
-    let mut stitches = Vec::new();
+    let (mut stitches, mut divided) = (Vec::new(), Vec::new());
     for &vertex in &rim.vertices {
         let Some(beside) = nearest.get(&vertex) else {
             continue;
@@ -54,16 +63,24 @@ pub fn split(surface: &mut Surface, rim: &Rim, most: f64) -> Option<Vec<Stitch>>
             chain.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         }
         let chains = chains.map(|chain| chain.into_iter().map(|(_, v)| v).collect());
-        surface.replace(t, &fans(surface.triangles[t as usize], chains));
+        let corners = surface.triangles[t as usize];
+        let sides = (0..3)
+            .zip(&chains)
+            .map(|(i, chain): (usize, &Vec<u32>)| Division {
+                ends: [corners[i], corners[(i + 1) % 3]],
+                corners: chain.clone(),
+            });
+        divided.extend(sides.filter(|side| !side.corners.is_empty()));
+        surface.replace(t, &fans(corners, chains));
     }
-    Some(stitches)
+    Some((stitches, divided))
 }
 
 /// The parts of a triangle whose edges are divided at chains of corners, given for the edge that begins at each corner.
 ///
 /// Each chain is seen from one point: none of the parts lies in a chain, where it would be a fold between what is on
 /// either side of it.
-fn fans(corners: [u32; 3], chains: [Vec<u32>; 3]) -> Vec<[u32; 3]> {
+pub fn fans(corners: [u32; 3], chains: [Vec<u32>; 3]) -> Vec<[u32; 3]> {
     let Some(first) = (0..3).find(|&i| !chains[i].is_empty()) else {
         return vec![corners];
     };
