@@ -155,6 +155,10 @@ fn fill(mesh: &Mesh<'_>, side: &Side, above: f64) -> Option<Filling> {
     let mut open = ArrayVec::<_, RING>::from_iter([(0, n - 1)]);
     while let Some((i, j)) = open.pop() {
         if j - i >= 2 {
+            let is_side = (i, j) == (0, n - 1) && side.open.is_none();
+            if !is_side && is_edge(mesh, ring[i], ring[j]) {
+                return None;
+            }
             let k = apex[i][j];
             new.extend(pair(i, k, j).map(|corners| (corners, mesh.of_corners(corners))));
             open.extend([(i, k), (k, j)]);
@@ -201,6 +205,13 @@ fn sides(mesh: &Mesh<'_>, region: u32, a: u32, b: u32) -> Option<ArrayVec<Side, 
     }
     sides.insert(0, side);
     Some(sides)
+}
+
+/// Whether there is an edge between two vertices. Where a shape is next to flat, tetrahedra around another edge between the same
+/// vertices would have volume as well, and lie over those that there are.
+fn is_edge(mesh: &Mesh<'_>, a: u32, b: u32) -> bool {
+    let mut star = mesh.star(a).iter();
+    star.any(|&t| mesh.corners(t).contains(&b))
 }
 
 /// The tetrahedra of a region at an edge.
@@ -288,6 +299,9 @@ fn remove_face(mesh: &Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> Option<Fl
             return None;
         }
         new.push((corners, grade));
+    }
+    if is_edge(mesh, top, bottom) {
+        return None;
     }
     Some(Flip {
         parts: ArrayVec::from_iter([Part {

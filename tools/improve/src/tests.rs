@@ -83,6 +83,36 @@ fn long_edges_are_removed() {
     assert_eq!(mesh.into_tets(), flat.tets);
 }
 
+/// Where a shape is next to flat, rounding has tetrahedra with volume on both sides of what is there.
+#[test]
+fn edges_that_are_there_are_not_made_again() {
+    let goal = Goal::new(30.0, 1.4, 10.0);
+    let limits = FxHashMap::default();
+    // Four around an edge, and two on the other side of a face.
+    let around = ring(4, 4.0);
+    let mut beside = ring(3, 0.5);
+    beside.tets = [[2, 3, 4, 1], [4, 3, 2, 0]]
+        .map(|vertices| Tet {
+            vertices,
+            region: 7,
+        })
+        .to_vec();
+    let both = [(around, vec![[2, 4], [3, 5]]), (beside, vec![[0, 1]])];
+    for (mut template, edges) in both {
+        let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
+        assert!(flip(&mut mesh, 0));
+        let more = template.vertices.len() as u32;
+        let away = [DVec3::new(9.0, 0.0, 0.0), DVec3::new(9.0, 1.0, 0.5)];
+        template.vertices.extend(away);
+        template.tets.extend(edges.into_iter().map(|[a, b]| Tet {
+            vertices: [a, b, more, more + 1],
+            region: 7,
+        }));
+        let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
+        assert!(!flip(&mut mesh, 0));
+    }
+}
+
 #[test]
 fn faces_of_the_surface_and_sizes_are_respected() {
     let goal = Goal::new(30.0, 1.4, 10.0);
