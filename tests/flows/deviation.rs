@@ -348,6 +348,36 @@ fn fine_drawings_get_as_many_elements_as_coarse_ones() {
     assert!(most < 1.3 * least, "{made:?}");
 }
 
+/// The wall of a hub stays as it is cut, and the surface beside it has as many triangles as the file: no hub where edges are to get a length,
+/// if it can be done without.
+#[test]
+fn edges_of_a_length_need_a_wedge_without_a_hub() {
+    let body = bodies::random_solid::solid(31).body;
+    let found = run(
+        "symdetect",
+        &["-q"],
+        &support::encode(&body, support::EXACT_STL),
+    )
+    .success();
+    let cut = |options: &[&str]| {
+        let options = [&["-q", "--edge-length", "0.2"], options].concat();
+        run("wedgecut", &options, &found).success()
+    };
+    let templates = |options: &[&str]| read(&cut(options)).templates.len();
+    assert_eq!(templates(&[]), 1);
+    // Not where it would make no difference, and not against the user's word.
+    assert_eq!(templates(&["--deviation", "1e-3"]), 2);
+    assert_eq!(templates(&["--hub", "0.2"]), 2);
+    let count = |options: &[&str]| {
+        let filled = run("tetwedge", &["-q"], &cut(options)).success();
+        let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+        run("meshqual", &["-q", "--check"], &whole).success();
+        read(&whole).templates[0].tets.len()
+    };
+    let [without, with] = [count(&[]), count(&["--hub", "0.2"])];
+    assert!(without < with, "{without} {with}");
+}
+
 /// The faces of seams and half turns are remeshed with the surface beside them, as images of each other to the bit: where they
 /// kept every vertex of the file, they had 200 and 214 pairs when they were settled, and the D4 body a first percentile below 20.
 #[test]

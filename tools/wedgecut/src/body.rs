@@ -10,7 +10,7 @@ use glam::DVec3;
 use sizing::field::mean_volume;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use tmesh::{Document, Frame, OUTSIDE, Size, Symmetry, Template, Triangle};
+use tmesh::{Deviation, Document, Frame, OUTSIDE, Size, Symmetry, Template, Triangle};
 
 /// The body to be cut.
 pub struct Body<'a> {
@@ -83,6 +83,17 @@ impl<'a> Body<'a> {
         let size = regions[at].size.or(self.document.wishes.size);
         let volumes = size.map(Size::max_volume).into_iter();
         volumes.chain(self.mean_volume).reduce(f64::min)
+    }
+
+    /// Whether the surface of a wedge whose faces are all mirror planes will get edges of a length that is asked for, longer ones than
+    /// those that there are, too: where it is left open how far it may move for that, and the input has not its symmetry exactly.
+    pub fn takes_lengths(&self) -> bool {
+        let regions = self.document.regions.iter().filter_map(|r| r.size);
+        let mut sizes = regions.chain(self.document.wishes.size);
+        let equal = self.tolerance.equal() / self.tolerance.extent().radius;
+        sizes.any(|size| size.edge_length().is_some())
+            && self.document.wishes.deviation() == Deviation::Auto
+            && self.document.deviation(equal) > equal
     }
 
     /// The size of elements beside a triangle, model units: as asked for, at most that of the body.

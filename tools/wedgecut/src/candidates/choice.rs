@@ -69,19 +69,26 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
         };
         kinds.into_iter().filter(wanted).collect::<Vec<Group>>()
     };
-    let bounds = Bounds {
-        radius_edge: body.document.wishes.radius_edge(),
-        hubs: match body.params.hub {
-            Hub::Radius(radius) => Hubs::Radius(radius),
-            Hub::None => Hubs::None,
-            Hub::Auto => Hubs::Free,
-        },
+    let hubs = match body.params.hub {
+        Hub::Radius(radius) => Hubs::Radius(radius),
+        Hub::None => Hubs::None,
+        Hub::Auto => Hubs::Free,
     };
-    let ranked = |kinds: Vec<Group>| {
+    let ranked_with = |kinds: Vec<Group>, hubs: Hubs| {
         let cuts: Vec<estimate::Cut> = kinds.iter().map(|&g| describe(body, g, first)).collect();
+        let radius_edge = body.document.wishes.radius_edge();
+        let bounds = Bounds { radius_edge, hubs };
         Ranking::new(kinds, &Ways::new(&estimate, &cuts, bounds))
     };
-    let mut ranking = ranked(orders.iter().flat_map(|&n| kinds_of(n)).collect())?;
+    let ranked = |kinds: Vec<Group>| ranked_with(kinds, hubs);
+    let usual: Vec<Group> = orders.iter().flat_map(|&n| kinds_of(n)).collect();
+    let mut ranking = ranked(usual.clone())?;
+    // Surfaces beside a seam or the wall of a hub, which stay as they are cut, do not get the length of edges that is asked for.
+    let is_free = groups.plain == Kind::Cv && body.params.hub == Hub::Auto;
+    if is_free && body.takes_lengths() && ranking.ways[0].hub.is_some() {
+        let without = ranked_with(usual, Hubs::None);
+        ranking = without.filter(|r| r.accepted > 0).unwrap_or(ranking);
+    }
     // Where planes that nobody asked for cost much, fewer of them may do better, if the larger wedges take no longer.
     let is_free = body.params.domain == Domain::Auto && body.params.order.is_none();
     if ranking.accepted == 0 && is_free {
