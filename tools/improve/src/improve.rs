@@ -83,7 +83,6 @@ pub fn improve(
         wish,
         tried: Tried::default(),
         looked_at: 0,
-        searched: 0,
         done: Improved::default(),
     };
     work.mesh.set_surface(surface);
@@ -152,8 +151,6 @@ struct Work<'a> {
     tried: Tried,
     /// Tetrahedra that were looked at for the present goal, as often as they were.
     looked_at: usize,
-    /// Searches for the place of a new vertex, in the same way.
-    searched: usize,
     done: Improved,
 }
 
@@ -194,16 +191,13 @@ impl Work<'_> {
         }
     }
 
-    /// Works towards the mesh's goal. New vertices are looked for as long as they help, and as long as there were no more searches
-    /// than vertices in the beginning: where the shape is to blame, new elements are as bad as those that they mend.
+    /// Works towards the mesh's goal.
     fn pursue(&mut self) {
         self.looked_at = 0;
-        self.searched = 0;
-        let vertices = self.mesh.positions.len();
         self.rounds();
         let first = self.add_vertices();
         let mut added = first;
-        while added > 0 && FEWER * added >= first && self.searched <= vertices {
+        while added > 0 && FEWER * added >= first {
             self.rounds();
             added = self.add_vertices();
         }
@@ -245,7 +239,6 @@ impl Work<'_> {
             if last.is_some_and(|time| corners.iter().all(|&v| !mesh.is_touched(v, time))) {
                 continue;
             }
-            self.searched += 1;
             let found = insert::find(mesh, &self.freedoms, tet);
             if let Some(insertion) = found.filter(|i| goal.is_worth_it(i.least())) {
                 insertion.apply(mesh, &mut self.freedoms);
