@@ -285,9 +285,17 @@ fn a_shaft_fills_its_bore_however_both_are_drawn() {
     }
 }
 
-/// A shaft in its bore, both with the same triangles, of which one that both have is divided on one side: at the middle of one of its
-/// edges, or beside it.
-fn divided_on_one_side(beside: f64, of_shaft: bool) -> heal::Imported {
+/// Where one triangle is divided.
+#[derive(Clone, Copy, Debug)]
+enum At {
+    /// At the middle of an edge, times so much more than one from the axis: the triangle beside it keeps the edge.
+    Edge(f64),
+    /// In its own middle.
+    Middle,
+}
+
+/// A shaft in its bore, both with the same triangles, of which one that both have is divided on one side.
+fn divided_on_one_side(at: At, of_shaft: bool) -> heal::Imported {
     let corners = || circle(32, 0.0);
     let mut solids = [
         cylinder(corners(), [0.0, 4.0]),
@@ -295,12 +303,20 @@ fn divided_on_one_side(beside: f64, of_shaft: bool) -> heal::Imported {
     ];
     let solid = &mut solids[usize::from(!of_shaft)];
     let between = |p: &[f64; 3]| (p[0].hypot(p[1]) - 5.0).abs() < 1e-9;
-    let at = solid.iter().position(|f| f.iter().all(between));
-    let [a, b, c] = solid.remove(at.expect("a facet of the bore"));
-    let outwards = 0.5 + beside;
-    let middle = [0, 1, 2].map(|i| outwards * (a[i] + b[i]));
-    let middle = [middle[0], middle[1], 0.5 * (a[2] + b[2])];
-    solid.extend([[a, middle, c], [middle, b, c]]);
+    let facet = solid.iter().position(|f| f.iter().all(between));
+    let [a, b, c] = solid.remove(facet.expect("a facet of the bore"));
+    match at {
+        At::Edge(beside) => {
+            let middle = [0, 1, 2].map(|i| 0.5 * (a[i] + b[i]));
+            let [x, y] = [0, 1].map(|i| middle[i] * (1.0 + beside));
+            let middle = [x, y, middle[2]];
+            solid.extend([[a, middle, c], [middle, b, c]]);
+        }
+        At::Middle => {
+            let middle = [0, 1, 2].map(|i| (a[i] + b[i] + c[i]) / 3.0);
+            solid.extend([[a, b, middle], [b, c, middle], [c, a, middle]]);
+        }
+    }
     let [shaft, bore] = solids;
     two(shaft, bore)
 }
@@ -309,8 +325,8 @@ fn divided_on_one_side(beside: f64, of_shaft: bool) -> heal::Imported {
 fn triangles_that_solids_share_are_shared_where_one_side_is_divided() {
     let ring = (outside().area() - circle(32, 0.0).area()) * 4.0;
     for of_shaft in [true, false] {
-        for beside in [0.0, 1e-6, -1e-6] {
-            let body = divided_on_one_side(beside, of_shaft);
+        for at in [At::Edge(0.0), At::Edge(2e-6), At::Edge(-2e-6), At::Middle] {
+            let body = divided_on_one_side(at, of_shaft);
             let found = volumes(&body);
             let template = &body.document.templates[0];
             let area = |t: &&tmesh::Triangle| {
@@ -320,7 +336,7 @@ fn triangles_that_solids_share_are_shared_where_one_side_is_divided() {
             let is_between = |t: &&tmesh::Triangle| t.front.max(t.back) != tmesh::OUTSIDE;
             let between = || template.triangles.iter().filter(is_between);
             let wanted = 2.0 * 32.0 * 5.0 * (std::f64::consts::PI / 32.0).sin() * 4.0;
-            let case = format!("{beside} {of_shaft} {:?}", body.notices);
+            let case = format!("{at:?} {of_shaft} {:?}", body.notices);
             assert!(
                 (between().map(|t| area(&t)).sum::<f64>() / wanted - 1.0).abs() < 1e-5,
                 "{case}"

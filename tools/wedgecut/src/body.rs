@@ -91,7 +91,7 @@ impl<'a> Body<'a> {
         let regions = self.document.regions.iter().filter_map(|r| r.size);
         let mut sizes = regions.chain(self.document.wishes.size);
         let equal = self.tolerance.equal() / self.tolerance.extent().radius;
-        sizes.any(|size| size.edge_length().is_some())
+        (self.document.size_field.is_some() || sizes.any(|size| size.edge_length().is_some()))
             && self.document.wishes.deviation() == Deviation::Auto
             && self.document.deviation(equal) > equal
     }

@@ -93,10 +93,9 @@ pub fn label_mended(
     let mut joined = None;
     let to_join = match (&told, repairing) {
         (_, Repairing::Off) => None,
-        (Ok(labels), Repairing::Auto(_)) if !labels.crosses && !several => None,
-        (Ok(labels), Repairing::Auto(contacts)) if !labels.crosses => {
-            touching(apart, &tolerance, contacts)
-        }
+        (Ok(labels), Repairing::Auto(contacts)) if !labels.crosses => several
+            .then(|| touching(apart, &tolerance, contacts))
+            .flatten(),
         (_, Repairing::Auto(contacts)) => Some(contacts),
     };
     let (surface, mut labels) = match to_join {

@@ -3,7 +3,7 @@
 use super::closure::{groups_are_closed, odd_edges, open_surface};
 use super::coincident::merge;
 use super::needles;
-use super::stitch::{close, divide_alike};
+use super::stitch::{Division, close, divide_alike};
 use super::surface::Surface;
 use crate::document::{largest_coordinate, tolerance};
 use crate::{HealError, Repair, RepairKind};
@@ -123,10 +123,16 @@ impl Mending {
             };
             closed.push((group, part, done));
         }
-        let mut divided = Vec::new();
+        // Round by round, of all groups together.
+        let mut divided: Vec<Vec<Division>> = Vec::new();
         for (group, part, done) in closed {
             self.surface.take_group(group, part);
-            divided.extend(done.divided);
+            for (i, round) in done.divided.into_iter().enumerate() {
+                match divided.get_mut(i) {
+                    Some(all) => all.extend(round),
+                    None => divided.push(round),
+                }
+            }
             for repair in done.repairs {
                 match self.repairs.iter_mut().find(|r| r.kind == repair.kind) {
                     Some(known) => known.add(&repair),

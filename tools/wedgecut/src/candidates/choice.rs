@@ -84,8 +84,9 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let usual: Vec<Group> = orders.iter().flat_map(|&n| kinds_of(n)).collect();
     let mut ranking = ranked(usual.clone())?;
     // Surfaces beside a seam or the wall of a hub, which stay as they are cut, do not get the length of edges that is asked for.
-    let is_free = groups.plain == Kind::Cv && body.params.hub == Hub::Auto;
-    if is_free && body.takes_lengths() && ranking.ways[0].hub.is_some() {
+    let has_no_seams = groups.plain == Kind::Cv;
+    let has_hub_of_ours = body.params.hub == Hub::Auto && ranking.ways[0].hub.is_some();
+    if has_no_seams && has_hub_of_ours && body.takes_lengths() {
         let without = ranked_with(usual, Hubs::None);
         ranking = without.filter(|r| r.accepted > 0).unwrap_or(ranking);
     }

@@ -68,21 +68,14 @@ impl<'a> Cutter<'a> {
         self.cut.outer || surface.classes[v as usize].of(self.cut.face) >= 0
     }
 
-    /// The point at which an edge of a triangle has to be divided, if it has to.
-    fn crossing_of(&mut self, surface: &mut Surface, f: &Triangle, k: usize) -> Option<u32> {
-        let known = surface.points.len();
-        let [v, w, u] = [0, 1, 2].map(|i| f.vertices[(k + i) % 3]);
-        let x = self.crossing(surface, v, w)?;
-        if x as usize == known {
-            let (p, class) = surface.at(x);
-            let corners = [v, w, u].map(|v| surface.points[v as usize]);
-            surface.points[known] = self.cell.back_in_plane(p, class, corners);
-        }
-        Some(x)
-    }
-
-    /// The point at which an edge has to be divided, if it has to.
-    fn crossing(&mut self, surface: &mut Surface, v: u32, w: u32) -> Option<u32> {
+    /// The point at which an edge has to be divided, if it has to; of a body that is bent, the third corner of a triangle there tells
+    /// where that is in the body.
+    fn crossing(
+        &mut self,
+        surface: &mut Surface,
+        [v, w]: [u32; 2],
+        third: Option<u32>,
+    ) -> Option<u32> {
         let (p, q) = (surface.at(v), surface.at(w));
         let opposite = p.1.of(self.cut.face) * q.1.of(self.cut.face) < 0;
         let passes = self.passes_fold(surface, v, w);
@@ -98,6 +91,10 @@ impl<'a> Cutter<'a> {
         } else {
             self.cell.fold_crossing(self.cut.face, p, q, self.cut.done)
         };
+        let point = third.map_or(point, |u| {
+            let corners = [p.0, q.0, surface.points[u as usize]];
+            self.cell.back_in_plane(point, class, corners)
+        });
         let x = surface.add(point, class);
         self.crossings.insert(key, x);
         Some(x)
@@ -156,7 +153,7 @@ impl<'a> Cutter<'a> {
                     right: label(right),
                 });
             };
-            match self.crossing(surface, v, w) {
+            match self.crossing(surface, [v, w], None) {
                 Some(x) => {
                     put(v, x);
                     put(x, w);
@@ -306,7 +303,7 @@ impl<'a> Cutter<'a> {
             let (v, w) = (pair[0].1, pair[1].1);
             let (a, b) = (local.id(v), local.id(w));
             if self.passes_fold(surface, v, w) {
-                if let Some(x) = self.crossing(surface, v, w) {
+                if let Some(x) = self.crossing(surface, [v, w], None) {
                     let x = local.id(x);
                     segments.extend(open(a, x));
                     segments.extend(open(x, b));
@@ -323,8 +320,9 @@ impl<'a> Cutter<'a> {
         for f in part {
             let mut ring = Vec::with_capacity(6);
             for k in 0..3 {
-                ring.push(f.vertices[k]);
-                ring.extend(self.crossing_of(surface, f, k));
+                let [v, w, u] = [0, 1, 2].map(|i| f.vertices[(k + i) % 3]);
+                ring.push(v);
+                ring.extend(self.crossing(surface, [v, w], Some(u)));
             }
             self.divide(surface, &ring, f, &mut cut);
         }

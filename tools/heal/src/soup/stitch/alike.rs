@@ -5,7 +5,7 @@ use crate::soup::surface::Surface;
 use rustc_hash::FxHashMap;
 
 /// Divides all edges that end at the same points as those `divided`, at the same corners: solids that shared triangles
-/// there go on doing so, and what is closed stays closed, as all triangles at an edge are divided.
+/// there go on doing so, and what is closed stays closed, as all triangles at an edge are divided. Linear.
 pub fn divide_alike(surface: &mut Surface, divided: &[Division]) {
     let mut corners_on: FxHashMap<[u32; 2], &Division> = FxHashMap::default();
     for division in divided {
@@ -22,7 +22,9 @@ pub fn divide_alike(surface: &mut Surface, divided: &[Division]) {
     for t in 0..surface.triangles.len() {
         let corners = surface.triangles[t];
         let chains = [0, 1, 2].map(|i| chain(corners[i], corners[(i + 1) % 3]));
-        surface.replace(t as u32, &fans(corners, chains));
+        if chains.iter().any(|chain| !chain.is_empty()) {
+            surface.replace(t as u32, &fans(corners, chains));
+        }
     }
     // Those with a corner that one of their edges is divided at.
     surface.drop_collapsed();

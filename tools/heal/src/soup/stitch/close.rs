@@ -218,9 +218,12 @@ impl<'a> Work<'a> {
     /// Divides edges; whether there were any to divide.
     fn split(&mut self, rim: &Rim, most: f64) -> bool {
         let (stitches, divided) = split(self.surface, rim, most).unwrap_or_default();
-        self.stitches.extend(&stitches);
+        if stitches.is_empty() {
+            return false;
+        }
+        self.stitches.extend(stitches);
         self.divided.push(divided);
-        !stitches.is_empty()
+        true
     }
 
     /// By how much corners, and edges at corners, were moved.

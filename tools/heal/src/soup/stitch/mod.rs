@@ -16,3 +16,4 @@ mod split;
 
 pub use alike::divide_alike;
 pub use close::close;
+pub use split::Division;
