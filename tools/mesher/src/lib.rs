@@ -31,5 +31,5 @@ pub use mesher::{Elements, Limits, Mesh, Mesher, Task};
 pub use params::Params;
 pub use piece::Piece;
 pub use sizing::field::mean_volume;
-pub use sizing::{Sizes, TooMany};
+pub use sizing::{Sizes, TooMany, thickness};
 pub use tetgen::TetGen;

@@ -26,6 +26,8 @@ pub struct Smoothed {
 pub struct Remeshing<'a> {
     /// At most so far, model units.
     pub deviation: f64,
+    /// Of each vertex, how far it may move there if that is less; empty for no less anywhere.
+    pub nearer: &'a [f64],
     /// What is less off a plane may be noise, model units.
     pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
@@ -94,15 +96,13 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) ->
         links: &links,
         onto: &onto,
         deviation: remeshing.deviation,
+        nearer: remeshing.nearer,
         noise: remeshing.noise,
         flat: remeshing.flat,
         folds: document.unevenness(),
         feature: libm::cos(document.wishes.feature_angle().to_radians()),
         sharp: document.wishes.min_dihedral().to_radians(),
-        sizes: match takes_lengths(document, index) {
-            true => sizes,
-            false => sizes.by_shape(),
-        },
+        sizes,
     };
     let done = remesh(&surface, &rules)?;
     let triangle = |(corners, label): (&[u32; 3], &u32)| Triangle {
@@ -144,14 +144,6 @@ fn length(document: &Document, sizes: &mesher::Sizes, t: &Triangle) -> f64 {
     };
     let lengths = [t.front, t.back].into_iter().filter_map(of);
     lengths.fold(f64::INFINITY, f64::min)
-}
-
-/// Whether edges of a template get the length that is asked for. Beside faces that stay as they were cut, edges of other lengths
-/// leave bad triangles: a blade of a fan that is cut by a seam got five million tetrahedra for forty thousand. With linked faces
-/// as well: the surface of a star of ten lobes that was cut at its half turns was divided into 56,230 points for 9,400.
-pub fn takes_lengths(document: &Document, index: usize) -> bool {
-    let gluings = &document.templates[index].gluings;
-    !gluings.iter().any(|gluing| gluing.is_seam(index)) && !held(document, index).contains(&true)
 }
 
 /// The faces of a template that are glued to each other; `keys` has the face of each label.

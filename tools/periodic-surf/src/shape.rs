@@ -1,16 +1,19 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
 use crate::apart::apart;
-use crate::remeshed::{Remeshing, Smoothed, remeshed, takes_lengths, turn};
+use crate::remeshed::{Remeshing, Smoothed, remeshed, turn};
 use crate::surface::{same_body, same_size};
 use geom::tolerance::Tolerance;
 use kit::tolerance;
-use mesher::{Error, Log, Params, Progress, Sizes};
+use mesher::{Error, Log, Params, Progress, Sizes, thickness};
 use tmesh::{Deviation, Document};
 
 /// What a deviation is multiplied by where it changes volumes by too much. A choice: what a deviation changes of them is at most
 /// proportional to it, so that a few steps of this size are enough, and none gives up much more than needed.
 const NARROWER: f64 = 0.25;
+
+/// How far a face of a wall may move for the sake of lengths, over the wall's thickness: as both do at most, half of it is left.
+const OF_WALL: f64 = 0.25;
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
 /// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for. Where
@@ -45,8 +48,7 @@ pub fn follow_shape(
             points: 0.0,
             tetrahedra: 0.0,
         });
-        let wide = by_length.filter(|_| takes_lengths(document, index));
-        for attempt in wide.iter().chain(&within) {
+        for attempt in by_length.iter().chain(&within) {
             let before = &document.templates[index];
             match attempt.remeshed(document, index, (&sizes, tolerance.flat())) {
                 None => {}
@@ -55,7 +57,7 @@ pub fn follow_shape(
                     attempt.deviation
                 )),
                 Some(Ok(smoothed)) => {
-                    if wide.is_some() {
+                    if by_length.is_some() {
                         farthest = farthest.max(apart(before, &smoothed.template));
                     }
                     facts.push(fact(
@@ -98,8 +100,13 @@ impl Attempt {
         index: usize,
         (sizes, flat): (&Sizes, f64),
     ) -> Option<Result<Smoothed, String>> {
+        let nearer = match self.deviation > self.noise {
+            true => walls(document, index),
+            false => Vec::new(),
+        };
         let remeshing = Remeshing {
             deviation: self.deviation,
+            nearer: &nearer,
             noise: self.noise,
             flat,
             sizes,
@@ -156,6 +163,14 @@ fn by_length(document: &Document, sizes: &Sizes, radius: f64) -> Option<f64> {
     };
     let length = length.filter(|_| wishes.deviation() == Deviation::Auto)?;
     Some((0.25 * length * turn(wishes)).min(Deviation::LARGEST * radius))
+}
+
+/// How far the surface of a template may move at each of its vertices so that walls stay walls.
+fn walls(document: &Document, index: usize) -> Vec<f64> {
+    let copies = document.instances.len();
+    let mut walls = thickness((&document.templates[index], index), copies);
+    walls.iter_mut().for_each(|t| *t *= OF_WALL);
+    walls
 }
 
 fn fact(index: usize, smoothed: &Smoothed, before: usize, deviation: f64) -> String {

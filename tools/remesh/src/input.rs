@@ -43,6 +43,9 @@ pub struct Rules<'a> {
     pub links: &'a [Link],
     /// How far the surface may move at most, model units.
     pub deviation: f64,
+    /// Of each vertex, how far the surface may move there if that is less, but not less than what may be noise; empty for no less
+    /// anywhere.
+    pub nearer: &'a [f64],
     /// What is less than this off a plane, or away from each other, may be noise, model units; the deviation at most.
     pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
@@ -85,17 +88,6 @@ impl Sizes<'_> {
         self.turn_is_asked || self.local.is_some() || self.length(label).is_finite()
     }
 
-    /// These sizes without what was asked for.
-    #[must_use]
-    pub fn by_shape(self) -> Self {
-        Self {
-            turn_is_asked: false,
-            lengths: &[],
-            local: None,
-            ..self
-        }
-    }
-
     /// Longest edge at triangles of a label.
     fn length(&self, label: u32) -> f64 {
         let length = self.lengths.get(label as usize);
@@ -120,6 +112,12 @@ impl Sizes<'_> {
 }
 
 impl Rules<'_> {
+    /// How far the surface may move at a vertex of the input, model units.
+    pub fn deviation_at(&self, v: usize) -> f64 {
+        let nearer = self.nearer.get(v).map(|nearer| nearer.max(self.noise));
+        nearer.map_or(self.deviation, |nearer| nearer.min(self.deviation))
+    }
+
     /// The point on all planes and lines of these bits, if one projection gets there: on a single one.
     pub fn put(&self, bound: u32, p: DVec3) -> Option<DVec3> {
         match bound.count_ones() {

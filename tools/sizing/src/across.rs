@@ -49,29 +49,15 @@ pub fn across_walls(
     copies: usize,
     layers: f64,
 ) -> Result<Across, Thinnest> {
-    let triangles: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
-    let walls = Walls {
-        template,
-        triangles: &triangles,
-        rays: Rays::new(&template.vertices, &triangles),
-        beyond: beyond(template, index),
-        // A straight line passes half a turn about the axis at most, and its mirror image.
-        most_crossed: copies + 2,
-    };
+    let triangles = corners_of(template);
+    let walls = Walls::new((template, index), &triangles, copies);
     let mut across = Across::default();
     let mut merged = Merged::default();
     let mut looked_at = 0;
     let mut thinnest = (f64::INFINITY, DVec3::ZERO);
     for (t, triangle) in (0..).zip(&template.triangles) {
-        if walls.beyond.contains_key(&t) {
-            continue;
-        }
         let corners = triangle.vertices.map(|v| template.vertices[v as usize]);
-        let normal = double_area_vector(corners[0], corners[1], corners[2]).normalize_or_zero();
-        for (region, inward) in [(triangle.front, normal), (triangle.back, -normal)] {
-            if region == OUTSIDE || normal == DVec3::ZERO {
-                continue;
-            }
+        for inward in walls.inward(t) {
             let Some((first, _)) = walls.thickness(t, middle(corners), inward) else {
                 continue;
             };
@@ -112,6 +98,30 @@ pub fn across_walls(
         }
     }
     Ok(across)
+}
+
+/// How thick walls are at each vertex of a template, model units: the least distance through the material below the middle of a triangle
+/// there to what looks the other way; infinite where nothing does. n log n.
+pub fn thickness((template, index): (&Template, usize), copies: usize) -> Vec<f64> {
+    let triangles = corners_of(template);
+    let walls = Walls::new((template, index), &triangles, copies);
+    let mut thickness = vec![f64::INFINITY; template.vertices.len()];
+    for (t, triangle) in (0..).zip(&template.triangles) {
+        let middle = middle(triangle.vertices.map(|v| template.vertices[v as usize]));
+        for inward in walls.inward(t) {
+            if let Some((distance, true)) = walls.thickness(t, middle, inward) {
+                for v in triangle.vertices {
+                    let known = &mut thickness[v as usize];
+                    *known = known.min(distance);
+                }
+            }
+        }
+    }
+    thickness
+}
+
+fn corners_of(template: &Template) -> Vec<[u32; 3]> {
+    template.triangles.iter().map(|t| t.vertices).collect()
 }
 
 /// Sources of about one size in about one place, which are one: both faces of a wall tell of it, and several parts of each.
@@ -166,7 +176,36 @@ struct Walls<'a> {
     most_crossed: usize,
 }
 
-impl Walls<'_> {
+impl<'a> Walls<'a> {
+    fn new(
+        (template, index): (&'a Template, usize),
+        triangles: &'a [[u32; 3]],
+        copies: usize,
+    ) -> Self {
+        Self {
+            template,
+            triangles,
+            rays: Rays::new(&template.vertices, triangles),
+            beyond: beyond(template, index),
+            // A straight line passes half a turn about the axis at most, and its mirror image.
+            most_crossed: copies + 2,
+        }
+    }
+
+    /// The sides of a triangle on which there is material, each with the direction into it; none of faces that are glued.
+    fn inward(&self, t: u32) -> impl Iterator<Item = DVec3> {
+        let triangle = &self.template.triangles[t as usize];
+        let [a, b, c] = triangle
+            .vertices
+            .map(|v| self.template.vertices[v as usize]);
+        let normal = double_area_vector(a, b, c).normalize_or_zero();
+        let is_face = normal != DVec3::ZERO && !self.beyond.contains_key(&t);
+        let sides = [(triangle.front, normal), (triangle.back, -normal)].into_iter();
+        sides
+            .filter(move |side| is_face && side.0 != OUTSIDE)
+            .map(|side| side.1)
+    }
+
     /// The distance from a point of a triangle through the material to what is opposite, and whether that looks the other way. `None`
     /// where a ray leaves the template.
     fn thickness(&self, triangle: u32, from: DVec3, direction: DVec3) -> Option<(f64, bool)> {

@@ -12,7 +12,7 @@ mod sizes;
 mod too_many;
 mod tree;
 
-pub use across::{Across, Thinnest, across_walls};
+pub use across::{Across, Thinnest, across_walls, thickness};
 pub use sizes::{Local, Sizes};
 pub use too_many::TooMany;
 pub use tree::{Graded, Node, Source};

@@ -69,6 +69,7 @@ fn rules<'a>(
         links,
         onto: &nowhere,
         deviation,
+        nearer: &[],
         noise: deviation,
         flat: 1e-10,
         folds: 0.0,

@@ -81,9 +81,12 @@ impl Allowance {
         let mut height = vec![0.0_f64; bends.len()];
         for (v, bend) in bends.iter().enumerate() {
             let arc = bend.read();
-            height[v] = arc.map_or(0.0, |arc| arc.height(rules, longest[v]));
+            height[v] = arc.map_or(0.0, |arc| {
+                arc.height(rules, longest[v], rules.deviation_at(v))
+                    .min(rules.deviation_at(v))
+            });
             for arc in arc.into_iter().chain(curves.arcs[v]) {
-                size[v] = size[v].min(arc.size(rules, longest[v]));
+                size[v] = size[v].min(arc.size(rules, longest[v], rules.deviation_at(v)));
                 width[v] = width[v].min(arc.width());
             }
         }

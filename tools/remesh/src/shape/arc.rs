@@ -22,14 +22,14 @@ impl Arc {
 
     /// Length of chords that turn as far as is wanted and are as far from the arc as may be; at least as they are drawn, and
     /// twice what may be noise, as shorter ones may all be one point, unless shorter ones are asked for, `longest` at most.
-    pub fn size(&self, rules: &Rules<'_>, longest: f64) -> f64 {
+    pub fn size(&self, rules: &Rules<'_>, longest: f64, deviation: f64) -> f64 {
         let sizes = &rules.sizes;
         let turned = sizes.turn / self.curvature;
         // Chords that are half the deviation from the arc: the other half is for the input's own, and for steps on the way to
         // the final edges, which leave bad triangles where the envelope has no room for them. Measured with `tetwedge` on
         // parts from CAD kernels and archives: with a quarter of the deviation there are up to twice as many elements, and
         // one part in thirty (a helical gear) has larger angles; with all of it first percentiles fall by up to 4 degrees.
-        let near = (4.0 * rules.deviation / self.curvature).sqrt();
+        let near = (4.0 * deviation / self.curvature).sqrt();
         let drawn = self.width().max(2.0 * rules.noise);
         let asked = match sizes.turn_is_asked {
             true => turned.min(longest),
@@ -44,8 +44,8 @@ impl Arc {
     /// shorter than the envelope is thick. Otherwise edges have the thickness of the envelope at least, and
     /// where they have to be shorter than the turn allows, it is more than they need: with no more, steps between the
     /// input's edges and the final ones are not done.
-    pub fn height(&self, rules: &Rules<'_>, longest: f64) -> f64 {
-        let (size, old) = (self.size(rules, longest), self.width());
+    pub fn height(&self, rules: &Rules<'_>, longest: f64, deviation: f64) -> f64 {
+        let (size, old) = (self.size(rules, longest, deviation), self.width());
         let new = match rules.sizes.turn_is_asked || longest.is_finite() {
             true => size * LONG * 2.0 / 3.0_f64.sqrt(),
             false => size.max(rules.sizes.turn / self.curvature),

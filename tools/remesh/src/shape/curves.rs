@@ -146,8 +146,10 @@ impl Curves {
         self.reach = (self.ends.iter())
             .map(|ends| {
                 let arcs = ends.iter().map(|&v| v as usize);
-                let arcs = arcs.filter_map(|v| Some((self.arcs[v]?, longest[v])));
-                let heights = arcs.map(|(arc, longest)| arc.height(rules, longest));
+                let arcs =
+                    arcs.filter_map(|v| Some((self.arcs[v]?, longest[v], rules.deviation_at(v))));
+                let heights = arcs
+                    .map(|(arc, longest, within)| arc.height(rules, longest, within).min(within));
                 heights
                     .fold(0.0, f64::max)
                     .min(rules.deviation)

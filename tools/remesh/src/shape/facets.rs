@@ -3,8 +3,8 @@
 use geom::edges::{EdgeUse, Edges};
 use glam::DVec3;
 
-/// Cosine of a degree: what is bent by less is the same face, however wide.
-const SHALLOW: f64 = 0.999_847_695_156_391_2;
+/// A degree, in radians: what is bent by less may be the same face, however wide.
+const SHALLOW: f64 = std::f64::consts::PI / 180.0;
 
 /// Sets of triangles in one plane each.
 pub struct Facets<'a> {
@@ -18,6 +18,10 @@ pub struct Facets<'a> {
     pub edges: &'a Edges,
     /// Facet of each triangle.
     pub of: &'a [u32],
+    /// How far something curved may rise above its chords, model units, that goes on beside a wider facet: the facet would turn on
+    /// both sides as it does at the edge between. Of what rises more the facet is no part: it is flat, and a fine drawing of a
+    /// rounding begins beside it.
+    pub rise: f64,
 }
 
 /// What is beside a facet. Lengths are in model units.
@@ -29,8 +33,8 @@ pub struct Beside {
     pub border: f64,
     /// Length of the part beside which the surface goes on smoothly.
     pub smooth: f64,
-    /// Length of the part of it beside which it goes on with a facet of half to twice the width, across the edge, or is bent
-    /// by less than a degree.
+    /// Length of the part of it beside which it goes on with a facet of half its width at least, across the edge, or is bent
+    /// by less than a degree and does not rise far.
     pub like: f64,
     /// The first of the facets beyond that part.
     pub first: Option<u32>,
@@ -73,12 +77,15 @@ impl Facets<'_> {
                 }
                 let (w, x) = (width(f), width(g));
                 let [m, n] = [u, &v].map(|u| self.normals[u.triangle as usize]);
-                let shallow = m.dot(n).abs() >= SHALLOW;
-                for (facet, beyond, like_it) in [(f, g, w <= 2.0 * x), (g, f, x <= 2.0 * w)] {
+                let turn = libm::atan2(m.cross(n).length(), m.dot(n).abs());
+                let is_like = |w: f64, x: f64| {
+                    w <= 2.0 * x || turn <= SHALLOW && 0.25 * turn * w <= self.rise
+                };
+                for (facet, beyond, like_it) in [(f, g, is_like(w, x)), (g, f, is_like(x, w))] {
                     let facet = &mut beside[facet as usize];
                     facet.border += length;
                     facet.smooth += length;
-                    if like_it || shallow {
+                    if like_it {
                         facet.like += length;
                         facet.more |= facet.first.is_some_and(|first| first != beyond);
                         facet.first.get_or_insert(beyond);

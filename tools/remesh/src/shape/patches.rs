@@ -208,8 +208,12 @@ impl Patches {
             normals: &self.normals,
             edges: &self.edges,
             of: &self.facet,
+            rise: rules.noise,
         };
-        let beside = facets.beside(off.len(), mate);
+        let mut beside = facets.beside(off.len(), mate);
+        for (t, &facet) in (0..).zip(&self.facet) {
+            beside[facet as usize].triangles += self.images_in_plane(surface, rules, t);
+        }
         // A single triangle is one of the facets of whatever goes on smoothly beside it.
         let is_face = |(beside, off): (&Beside, &f64)| match beside.triangles {
             1 => beside.smooth == 0.0,
@@ -217,6 +221,20 @@ impl Patches {
             _ => beside.like <= ALIKE * beside.border,
         };
         beside.iter().zip(off).map(is_face).collect()
+    }
+
+    /// Beyond how many mirror walls at its sides the image of a triangle is in its plane, and of one facet with it.
+    fn images_in_plane(&self, surface: &Surface, rules: &Rules<'_>, t: u32) -> u32 {
+        let corners = surface.triangles[t as usize];
+        let plane = Plane::of(surface.corners(t));
+        let is_beyond = |i: usize| {
+            let [a, b, c] = [0, 1, 2].map(|k| corners[(i + k) % 3] as usize);
+            let walls = rules.bound[a] & rules.bound[b] & !rules.bound[c];
+            let p = surface.points[c];
+            let image = |wall: u32| (rules.onto)(wall, p) * 2.0 - p;
+            walls != 0 && plane.off([image(walls.trailing_zeros()); 3]) <= rules.flat
+        };
+        (0..3).map(|i| u32::from(is_beyond(i))).sum()
     }
 }
 
@@ -260,6 +278,7 @@ mod tests {
             links: &[],
             onto: &|_, p| p,
             deviation: 1e-3,
+            nearer: &[],
             noise: 1e-3,
             flat: 1e-10,
             folds,

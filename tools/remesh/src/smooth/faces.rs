@@ -19,6 +19,7 @@ pub fn flat_faces(sheets: &Sheets<'_>, facet: &[u32], count: usize) -> Vec<bool>
         normals: &sheets.normals,
         edges: &sheets.edges,
         of: facet,
+        rise: f64::INFINITY,
     };
     let is_face = |beside: &Beside| match beside.triangles {
         1 => beside.smooth == 0.0,
