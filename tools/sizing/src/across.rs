@@ -318,6 +318,22 @@ mod tests {
     }
 
     #[test]
+    fn vertices_know_how_thick_their_wall_is() {
+        // Half of a plate: with its image, 1 x 0.2 x 1. Its middle is on the narrow sides alone.
+        let plate = half([1.0, 0.1, 1.0]);
+        let found = thickness((&plate, 0), 2);
+        for (p, t) in plate.vertices.iter().zip(&found) {
+            let expected = if p.y > 0.0 { 0.2 } else { 1.0 };
+            assert!((t - expected).abs() < 1e-12, "{p}: {t}");
+        }
+        // Behind a wall that belongs to another template there is no telling.
+        let mut other = half([1.0, 0.1, 1.0]);
+        other.gluings[0].other = 1;
+        let found = thickness((&other, 0), 2);
+        assert!(found.iter().all(|t| (t - 1.0).abs() < 1e-12), "{found:?}");
+    }
+
+    #[test]
     fn what_is_far_too_thin_is_refused_with_its_place() {
         let film = half([1.0, 1.0, 1e-5]);
         let (thickness, near) = across_walls((&film, 0), 2, 2.0).unwrap_err();

@@ -85,8 +85,8 @@ impl<'a> Body<'a> {
         volumes.chain(self.mean_volume).reduce(f64::min)
     }
 
-    /// Whether the surface of a wedge whose faces are all mirror planes will get edges of a length that is asked for, longer ones than
-    /// those that there are, too: where it is left open how far it may move for that, and the input has not its symmetry exactly.
+    /// Whether surfaces will get edges of a length that is asked for, longer ones than those that there are, too: where it is left open how
+    /// far they may move for that, and the input has not its symmetry exactly.
     pub fn takes_lengths(&self) -> bool {
         let regions = self.document.regions.iter().filter_map(|r| r.size);
         let mut sizes = regions.chain(self.document.wishes.size);

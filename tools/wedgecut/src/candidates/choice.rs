@@ -83,10 +83,9 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let ranked = |kinds: Vec<Group>| ranked_with(kinds, hubs);
     let usual: Vec<Group> = orders.iter().flat_map(|&n| kinds_of(n)).collect();
     let mut ranking = ranked(usual.clone())?;
-    // Surfaces beside a seam or the wall of a hub, which stay as they are cut, do not get the length of edges that is asked for.
-    let has_no_seams = groups.plain == Kind::Cv;
+    // The wall of a hub stays as it is cut, and does not get the length of edges that is asked for.
     let has_hub_of_ours = body.params.hub == Hub::Auto && ranking.ways[0].hub.is_some();
-    if has_no_seams && has_hub_of_ours && body.takes_lengths() {
+    if has_hub_of_ours && body.takes_lengths() {
         let without = ranked_with(usual, Hubs::None);
         ranking = without.filter(|r| r.accepted > 0).unwrap_or(ranking);
     }
