@@ -148,6 +148,28 @@ fn corners_of_a_hub_lie_on_the_surface() {
     }
 }
 
+/// Edges from the corner of a hub that pass beside its edge are not divided without end, each time nearer to it: this wedge got 78,000
+/// points where the seam crosses the hub's wall, in half a minute, and no mesh.
+#[test]
+fn edges_beside_the_corner_of_a_hub_are_divided_a_few_times() {
+    let body = bodies::random_solid::solid(9_000_073).body;
+    let found = run("symdetect", &["-q"], &encode(&body, EXACT_STL)).success();
+    let cut = run(
+        "wedgecut",
+        &["-q", "--seam", "auto", "--deviation", "7.54e-4"],
+        &found,
+    )
+    .success();
+    let wedge = read(&cut);
+    assert_eq!(wedge.templates.len(), 2);
+    let points = wedge.templates.iter().map(|t| t.vertices.len());
+    assert!(
+        points.clone().all(|n| n < 500),
+        "{:?}",
+        points.collect::<Vec<_>>()
+    );
+}
+
 /// An impeller along whose seam two edges would be left at which no element has the angle asked for.
 #[test]
 fn a_seam_sharper_than_planes_is_not_taken() {

@@ -44,7 +44,7 @@ pub fn follow(
         let section = Section::new(&piece, cell, part);
         let cap = section.cap(&piece, cell, frame, &Known::default())?;
         let look = Look::new(surface, cell, &section, &cap);
-        let mut new = look.middles();
+        let mut new = look.middles(may_divide_axis);
         if new.is_empty() && may_divide_axis && look.is_bent() {
             new = look.borders();
         }
@@ -117,8 +117,10 @@ impl<'a> Look<'a> {
             .any(|e| self.bulge(e) > f64::EPSILON.sqrt())
     }
 
-    /// The middles of edges that are away from the seam, as coordinates of the part.
-    fn middles(&self) -> Vec<DVec2> {
+    /// The middles of edges that are away from the seam, as coordinates of the part. In the circle over an edge where the section ends
+    /// there is none: that edge is divided instead, if nothing else holds it (Ruppert, as below). Edges from its end that pass
+    /// beside it would be divided without end otherwise, each time nearer to it. `may_divide_axis`: whether those on the axis may be.
+    fn middles(&self, may_divide_axis: bool) -> Vec<DVec2> {
         let mut bulges: FxHashMap<[u32; 2], f64> = FxHashMap::default();
         for ends in self.cap.iter().flat_map(edges) {
             bulges
@@ -134,15 +136,38 @@ impl<'a> Look<'a> {
             .map(|(&[v, w], _)| (self.at[&v].distance(self.at[&w]), [v, w]))
             .collect();
         away.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let ends = self.ends();
+        let is_free = |ends: &[u32; 2]| {
+            let on_axis = ends.iter().all(|v| self.at[v].x == 0.0);
+            !self.is_rim(*ends) && (may_divide_axis || !on_axis)
+        };
         // The longest first; what is near to one of them is divided by it, and looked at in the next round.
         let mut found: Vec<DVec2> = Vec::new();
         for (length, [v, w]) in away {
-            let middle = self.middle([v, w]);
+            let mut middle = self.middle([v, w]);
+            let in_circle = |ends: &&[u32; 2]| {
+                let [a, b] = ends.map(|v| self.at[&v]);
+                **ends != [v, w] && (a - middle).dot(b - middle) < 0.0
+            };
+            match ends.iter().find(in_circle) {
+                Some(end) if is_free(end) => middle = self.middle(*end),
+                Some(_) => continue,
+                None => {}
+            }
             if found.iter().all(|q| q.distance(middle) >= length) {
                 found.push(middle);
             }
         }
         found
+    }
+
+    /// The edges where the section ends, or a region within it.
+    fn ends(&self) -> Vec<[u32; 2]> {
+        let mut all: Vec<[u32; 2]> = self.cap.iter().flat_map(edges).collect();
+        all.sort_unstable();
+        let same = all.chunk_by(|a, b| a == b);
+        let ends = same.filter(|same| same.len() == 1 || self.is_rim(same[0]));
+        ends.map(|same| same[0]).collect()
     }
 
     /// The middles of edges along the axis and the hub, which nothing else holds, in whose circle the section has the circumcentre of
