@@ -21,8 +21,8 @@ pub struct WishArgs {
     #[arg(conflicts_with = "edge_length")]
     max_volume: Option<f64>,
 
-    /// Length of edges in the mean, model units: no tetrahedron is larger than a quarter of its cube, and where the surface of
-    /// a wedge between mirror planes is remeshed, its edges get this length, up or down, as far as the deviation allows
+    /// Length of edges in the mean, model units: no tetrahedron is larger than a quarter of its cube, and where the surface is
+    /// remeshed, its edges get this length, up or down, as far as the deviation allows
     #[arg(long, value_name = "H", allow_negative_numbers = true, value_parser = positive)]
     edge_length: Option<f64>,
 

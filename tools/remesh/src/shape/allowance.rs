@@ -83,7 +83,6 @@ impl Allowance {
             let arc = bend.read();
             height[v] = arc.map_or(0.0, |arc| {
                 arc.height(rules, longest[v], rules.deviation_at(v))
-                    .min(rules.deviation_at(v))
             });
             for arc in arc.into_iter().chain(curves.arcs[v]) {
                 size[v] = size[v].min(arc.size(rules, longest[v], rules.deviation_at(v)));
@@ -96,7 +95,7 @@ impl Allowance {
             match patches.planes[patches.of[t] as usize] {
                 Some(_) => patches.off[patches.of[t] as usize],
                 None if !bent[patches.of[t] as usize] => rules.noise,
-                None => largest.min(rules.deviation).max(rules.flat),
+                None => largest.max(rules.flat),
             }
         };
         Self {

@@ -21,7 +21,8 @@ impl Arc {
     }
 
     /// Length of chords that turn as far as is wanted and are as far from the arc as may be; at least as they are drawn, and
-    /// twice what may be noise, as shorter ones may all be one point, unless shorter ones are asked for, `longest` at most.
+    /// twice what may be noise, as shorter ones may all be one point, unless shorter ones are asked for, `longest` at most. `deviation`: how
+    /// far from the arc they may be, model units.
     pub fn size(&self, rules: &Rules<'_>, longest: f64, deviation: f64) -> f64 {
         let sizes = &rules.sizes;
         let turned = sizes.turn / self.curvature;
@@ -43,13 +44,13 @@ impl Arc {
     /// such edges: without it collapsing stops at two thirds of the length, and with more triangles fold where edges are
     /// shorter than the envelope is thick. Otherwise edges have the thickness of the envelope at least, and
     /// where they have to be shorter than the turn allows, it is more than they need: with no more, steps between the
-    /// input's edges and the final ones are not done.
+    /// input's edges and the final ones are not done. At most the deviation.
     pub fn height(&self, rules: &Rules<'_>, longest: f64, deviation: f64) -> f64 {
         let (size, old) = (self.size(rules, longest, deviation), self.width());
         let new = match rules.sizes.turn_is_asked || longest.is_finite() {
             true => size * LONG * 2.0 / 3.0_f64.sqrt(),
             false => size.max(rules.sizes.turn / self.curvature),
         };
-        0.125 * (new * new + old * old) * self.curvature
+        (0.125 * (new * new + old * old) * self.curvature).min(deviation)
     }
 }

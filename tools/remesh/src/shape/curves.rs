@@ -146,14 +146,10 @@ impl Curves {
         self.reach = (self.ends.iter())
             .map(|ends| {
                 let arcs = ends.iter().map(|&v| v as usize);
-                let arcs =
-                    arcs.filter_map(|v| Some((self.arcs[v]?, longest[v], rules.deviation_at(v))));
-                let heights = arcs
-                    .map(|(arc, longest, within)| arc.height(rules, longest, within).min(within));
-                heights
-                    .fold(0.0, f64::max)
-                    .min(rules.deviation)
-                    .max(rules.flat)
+                let heights = arcs.filter_map(|v| {
+                    Some(self.arcs[v]?.height(rules, longest[v], rules.deviation_at(v)))
+                });
+                heights.fold(0.0, f64::max).max(rules.flat)
             })
             .collect();
     }

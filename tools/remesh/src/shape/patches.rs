@@ -223,7 +223,7 @@ impl Patches {
         beside.iter().zip(off).map(is_face).collect()
     }
 
-    /// Beyond how many mirror walls at its sides the image of a triangle is in its plane, and of one facet with it.
+    /// Beyond how many of the planes and lines that its sides are on the image of a triangle is in its plane, and of one facet with it.
     fn images_in_plane(&self, surface: &Surface, rules: &Rules<'_>, t: u32) -> u32 {
         let corners = surface.triangles[t as usize];
         let plane = Plane::of(surface.corners(t));
@@ -270,13 +270,21 @@ mod tests {
 
     /// The number of flat faces, and of patches that are none, where faces may be so uneven.
     fn faces(surface: &Surface, folds: f64) -> [usize; 2] {
-        let none = vec![0; surface.points.len()];
+        faces_between(surface, folds, &vec![0; surface.points.len()])
+    }
+
+    /// The same of a surface of which each vertex is on some of the planes x = 0 (bit 0) and x = y (bit 1).
+    fn faces_between(surface: &Surface, folds: f64, bound: &[u32]) -> [usize; 2] {
+        let onto = |bit: u32, p: DVec3| match bit {
+            0 => DVec3::new(0.0, p.y, p.z),
+            _ => DVec3::new(0.5 * (p.x + p.y), 0.5 * (p.x + p.y), p.z),
+        };
         let rules = Rules {
             sharp: 0.0,
             held: &vec![false; surface.points.len()],
-            bound: &none,
+            bound,
             links: &[],
-            onto: &|_, p| p,
+            onto: &onto,
             deviation: 1e-3,
             nearer: &[],
             noise: 1e-3,
@@ -317,6 +325,54 @@ mod tests {
         surface.triangles.extend(quad([0, 1, 3, 2]));
         surface.labels = vec![0; surface.triangles.len()];
         surface
+    }
+
+    /// Strips of a quarter turn along y, of radius one half, that begin at y = 1 at a level face, whose corners there are given.
+    fn rounding(corners: [DVec3; 2], strips: u32) -> Surface {
+        let mut surface = Surface::default();
+        for i in 0..=strips {
+            let angle = std::f64::consts::FRAC_PI_2 * f64::from(i) / f64::from(strips);
+            let off = DVec3::new(0.0, 0.5 * angle.sin(), 0.5 * (angle.cos() - 1.0));
+            surface.points.extend(corners.map(|p| p + off));
+        }
+        for i in 0..strips {
+            let [a, b, c, d] = [0, 1, 3, 2].map(|v| 2 * i + v);
+            surface.triangles.extend([[a, c, b], [a, d, c]]);
+        }
+        surface
+    }
+
+    #[test]
+    fn a_face_beside_a_fine_rounding_is_flat() {
+        // Half of its border is along the rounding, of which the first facet turns by less than a degree.
+        let corners = [DVec3::new(0.0, 1.0, 1.0), DVec3::new(4.0, 1.0, 1.0)];
+        for strips in [4, 64, 128] {
+            let mut surface = rounding(corners, strips);
+            let first = surface.points.len() as u32;
+            let back = corners.map(|p| p - DVec3::Y);
+            surface.points.extend(back);
+            surface
+                .triangles
+                .extend([[first, 0, 1], [first, 1, first + 1]]);
+            surface.labels = vec![0; surface.triangles.len()];
+            assert_eq!(faces(&surface, 0.0), [1, 1], "{strips}");
+        }
+    }
+
+    #[test]
+    fn one_triangle_between_mirror_planes_is_a_face() {
+        // What x = 0 and x = y leave of a level square.
+        let corners = [DVec3::new(0.0, 1.0, 1.0), DVec3::new(1.0, 1.0, 1.0)];
+        let mut surface = rounding(corners, 4);
+        let centre = surface.points.len() as u32;
+        surface.points.push(DVec3::Z);
+        surface.triangles.push([centre, 0, 1]);
+        surface.labels = vec![0; surface.triangles.len()];
+        let mut bound = vec![0; surface.points.len()];
+        (bound[0], bound[1], bound[centre as usize]) = (1, 2, 3);
+        assert_eq!(faces_between(&surface, 0.0, &bound), [1, 1]);
+        // It may be any facet of what is curved where it ends there.
+        assert_eq!(faces(&surface, 0.0), [0, 1]);
     }
 
     #[test]

@@ -6,7 +6,8 @@ use geom::edges::EdgeUse;
 
 /// Of each facet, whether it is a flat face of the shape and does not stand for something curved. As for remeshing
 /// ([`crate::shape::Patches`]), but that a low ring of facets is curved as well, where little of the outline is smooth: facets
-/// that go on smoothly on both sides, and with their like wherever they do.
+/// that go on smoothly on both sides, and with their like wherever they do. What turns by less than a degree is curved however wide it is, as
+/// nothing tells here what may be noise: where it is flat, the points in the middles of its edges hardly move.
 pub fn flat_faces(sheets: &Sheets<'_>, facet: &[u32], count: usize) -> Vec<bool> {
     let mate = |edge: usize, u: &EdgeUse| {
         let mate = sheets.mate(u.triangle, u.corner.into())?;
