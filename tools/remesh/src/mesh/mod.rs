@@ -18,6 +18,7 @@ use crate::input::{Rules, Surface};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
 use change::Sample;
 use geom::flat::Plane;
+use geom::measure::double_area_vector;
 use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -264,6 +265,22 @@ impl<'a> Mesh<'a> {
         (0..self.triangles.len() as u32)
             .map(|t| sets.find(t))
             .collect()
+    }
+
+    /// How far off a surface gets where it bridges a fold, over the distance to the fold: the sine of the angle that triangles there turn by,
+    /// or 1 at features and where they turn by more than a right angle.
+    pub fn fold(&self, [a, b]: [u32; 2]) -> f64 {
+        let [s, t] = self.at_edge(a, b)[..] else {
+            return 1.0;
+        };
+        let [p, q] = [s, t].map(|t| {
+            let [a, b, c] = self.triangles[t as usize].map(|v| self.points[v as usize]);
+            double_area_vector(a, b, c).normalize_or_zero()
+        });
+        match self.curve(a, b).is_none() && p.dot(q) > 0.0 {
+            true => p.cross(q).length(),
+            false => 1.0,
+        }
     }
 
     /// Whether a triangle is there.

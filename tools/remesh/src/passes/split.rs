@@ -2,7 +2,13 @@
 
 use crate::mesh::{Change, Mesh, Splitting};
 use crate::shape::Near;
+use geom::measure::double_area_vector;
 use glam::DVec3;
+
+/// How near to a fold that stays an edge is split, relative to the length wanted: splitting needles goes on until they are as wide as
+/// long where they are up to 64 times as long. Nearer to it than that, a needle stays one whatever is done, and its vertices only ask the
+/// mesher for elements as small as the needle is narrow there.
+const BESIDE: f64 = 1.0 / 64.0;
 
 /// Splits an edge near its middle, and its image as well, if that keeps to the rules.
 pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
@@ -17,6 +23,9 @@ pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
         Some(Splitting::With((link, true, original))) => (original, (link, [a, b])),
         Some(Splitting::With((link, false, image))) => ([a, b], (link, image)),
     };
+    if is_in_needle(mesh, first) || is_in_needle(mesh, second.1) {
+        return false;
+    }
     let mut places = places(mesh, first).into_iter();
     places.any(|place| both(mesh, first, second, place))
 }
@@ -42,6 +51,9 @@ fn both(
 
 /// Splits an edge that is nobody's image but its own.
 fn alone(mesh: &mut Mesh<'_>, edge: [u32; 2], links: &[usize]) -> bool {
+    if is_in_needle(mesh, edge) {
+        return false;
+    }
     let mut places = places(mesh, edge).into_iter();
     places.any(|place| alone_at(mesh, edge, links, place))
 }
@@ -65,6 +77,23 @@ fn make(mesh: &mut Mesh<'_>, change: &Change) -> bool {
     fitted.is_some_and(|fitted| {
         mesh.apply(change, fitted);
         true
+    })
+}
+
+/// Whether the middle of an edge is much nearer to a fold that stays than edges are to be long.
+fn is_in_needle(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> bool {
+    let near = BESIDE * 0.5 * (mesh.size[a as usize] + mesh.size[b as usize]);
+    mesh.at_edge(a, b).iter().any(|&t| {
+        let corners = mesh.triangles[t as usize];
+        let [p, q, r] = corners.map(|v| mesh.points[v as usize]);
+        let area = double_area_vector(p, q, r).length();
+        let mut apex = corners.into_iter().filter(|&v| v != a && v != b);
+        apex.any(|apex| {
+            [[a, apex], [b, apex]].into_iter().any(|side| {
+                let apart = 0.5 * area / mesh.length(side);
+                apart < near && apart * mesh.fold(side) > mesh.rules.deviation
+            })
+        })
     })
 }
 

@@ -305,6 +305,29 @@ fn flat_faces_and_what_has_no_needles_stay() {
     }
 }
 
+/// Two vertices next to each other, 1e-5 apart, make needles between folds of many degrees, which a deviation of 1e-8 cannot bridge.
+/// Vertices along them would ask for elements of their width.
+#[test]
+fn needles_that_stay_are_not_divided() {
+    let mut globe = globe(24, 12);
+    let [a, b] = [2 + 5 * 24 + 3, 2 + 5 * 24 + 4];
+    globe.points[b] = globe.points[a].lerp(globe.points[b], 4e-5);
+    let held = vec![false; globe.points.len()];
+    let bound = vec![0; globe.points.len()];
+    let mut rules = rules(1e-8, (&held, &[]), (&bound, &[]));
+    rules.sizes.turn /= 8.0;
+    let made = remesh(&globe, &rules).expect("long edges");
+    assert!(made.told.split > 0);
+    let is_needle = |t: &&[u32; 3]| [a, b].iter().all(|v| t.contains(&(*v as u32)));
+    let needles: Vec<&[u32; 3]> = globe.triangles.iter().filter(is_needle).collect();
+    assert_eq!(needles.len(), 2);
+    for needle in needles {
+        let kept = needle.map(|v| made.vertices[v as usize]);
+        let mut triangles = made.surface.triangles.iter();
+        assert!(triangles.any(|t| kept.iter().all(|v| t.contains(v))));
+    }
+}
+
 /// A round bar beside the axis, which it touches along an edge, and with it its image under half a turn.
 fn bar() -> Surface {
     let around = 24;
