@@ -5,6 +5,7 @@ use super::arc::Arc;
 use crate::input::{Rules, Surface};
 use geom::sets::DisjointSets;
 use rustc_hash::FxHashMap;
+use std::collections::BinaryHeap;
 
 /// The feature curves of a surface.
 #[derive(Default)]
@@ -142,15 +143,111 @@ impl Curves {
                 self.arcs[v as usize] = Some(Arc { angle, curvature });
             }
         }
+        self.reach = self.reaches(surface, rules, at);
+    }
+
+    /// How far curves may be from each feature edge: as far as the arcs at either end allow. The chords of an arc go on beyond its
+    /// ends by up to their length, and how far the vertices there are from an arc cannot be told from a straight edge beside them that is
+    /// many times as long: what an arc allows falls from its vertices to nothing over the length of its chords. n log n.
+    fn reaches(&self, surface: &Surface, rules: &Rules<'_>, at: &[Vec<u32>]) -> Vec<f64> {
         let longest = rules.sizes.longest(surface);
-        self.reach = (self.ends.iter())
-            .map(|ends| {
-                let arcs = ends.iter().map(|&v| v as usize);
-                let heights = arcs.filter_map(|v| {
-                    Some(self.arcs[v]?.height(rules, longest[v], rules.deviation_at(v)))
-                });
-                heights.fold(0.0, f64::max).max(rules.flat)
-            })
+        let own = |v: usize| {
+            let (arc, deviation) = (self.arcs[v]?, rules.deviation_at(v));
+            let height = arc.height(rules, longest[v], deviation);
+            let size = arc.size(rules, longest[v], deviation);
+            (height > 0.0).then_some((height, height / size))
+        };
+        let own: Vec<Option<(f64, f64)>> = (0..self.arcs.len()).map(own).collect();
+        let mut beside = vec![0.0; own.len()];
+        let mut settled = vec![false; own.len()];
+        // Bits of positive numbers are in their order.
+        let first = (0..).zip(&own).filter_map(|(v, own)| Some((v, (*own)?)));
+        let mut heap: BinaryHeap<(u64, u32, u64)> = first
+            .map(|(v, (height, slope))| (height.to_bits(), v, slope.to_bits()))
             .collect();
+        while let Some((height, v, slope)) = heap.pop() {
+            if std::mem::replace(&mut settled[v as usize], true) {
+                continue;
+            }
+            beside[v as usize] = f64::from_bits(height);
+            // No chord goes around a corner.
+            if self.corner[v as usize] {
+                continue;
+            }
+            for &i in &at[v as usize] {
+                let [a, b] = self.ends[i as usize].map(|v| surface.points[v as usize]);
+                let left = f64::from_bits(height) - f64::from_bits(slope) * a.distance(b);
+                if left > 0.0 {
+                    let ends = self.ends[i as usize].into_iter();
+                    let open = ends.filter(|&w| !settled[w as usize]);
+                    heap.extend(open.map(|w| (left.to_bits(), w, slope)));
+                }
+            }
+        }
+        let reach = |ends: &[u32; 2]| {
+            let [a, b] = ends.map(|v| own[v as usize].map_or(0.0, |own| own.0));
+            let [p, q] = ends.map(|v| beside[v as usize]);
+            a.max(b).max(p.min(q)).max(rules.flat)
+        };
+        self.ends.iter().map(reach).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::Sizes;
+    use glam::DVec3;
+
+    #[test]
+    fn an_arc_is_one_up_to_where_a_long_straight_edge_begins() {
+        // The border of a sheet: from a long edge over a quarter of a circle to another one.
+        let chords = 256;
+        let on_arc = |i: u32| {
+            let angle = std::f64::consts::FRAC_PI_2 * f64::from(i) / f64::from(chords);
+            DVec3::new(angle.sin(), angle.cos(), 0.0)
+        };
+        let mut points = vec![DVec3::new(-20.0, -20.0, 0.0), DVec3::new(-20.0, 1.0, 0.0)];
+        points.extend((0..=chords).map(on_arc));
+        points.push(DVec3::new(1.0, -20.0, 0.0));
+        let last = points.len() as u32 - 1;
+        let triangles: Vec<[u32; 3]> = (1..last).map(|v| [0, v + 1, v]).collect();
+        let labels = vec![0; triangles.len()];
+        let surface = Surface {
+            points,
+            triangles,
+            labels,
+        };
+        let held = vec![false; surface.points.len()];
+        let bound = vec![0; surface.points.len()];
+        let rules = Rules {
+            sharp: 0.0,
+            held: &held,
+            bound: &bound,
+            links: &[],
+            onto: &|_, p| p,
+            deviation: 0.1,
+            nearer: &[],
+            noise: 1e-6,
+            flat: 1e-10,
+            folds: 0.0,
+            feature: 0.75_f64.sqrt(),
+            sizes: Sizes {
+                turn: std::f64::consts::TAU / 12.0,
+                turn_is_asked: false,
+                lengths: &[0.5],
+                local: None,
+                growth: 0.5,
+            },
+        };
+        let patches = Patches::new(&surface, &rules);
+        let curves = Curves::new(&surface, &rules, &patches);
+        let reach = |v: u32| {
+            let i = curves.ends.iter().position(|ends| *ends == [v, v + 1]);
+            curves.reach[i.expect("a feature")]
+        };
+        let [middle, first, straight] = [2 + chords / 2, 2, 1].map(reach);
+        assert!(first > 0.9 * middle, "{first} {middle}");
+        assert!(straight < 0.5 * middle, "{straight} {middle}");
     }
 }
