@@ -263,6 +263,46 @@ fn what_is_nearly_exact_is_remeshed_within_the_tolerance() {
     assert!(auto.0 < near.0 && 2 * auto.1 < near.1, "{near:?} {auto:?}");
 }
 
+/// A body without symmetry that is passed on has a symmetry exactly, which says nothing of its facets: they are remeshed within the tolerance,
+/// and the document says by how much.
+#[test]
+fn what_has_no_symmetry_is_remeshed_within_the_tolerance() {
+    let heights = [-1.0, -0.5, -0.003, -0.001, 0.001, 0.003, 0.7, 1.0];
+    let rings = heights.map(|z| {
+        let bend = |p: DVec3| {
+            DVec3::new(
+                p.x + 0.2 * p.z * p.z + 0.1 * p.y * p.z,
+                p.y + 0.15 * p.x * p.x,
+                p.z,
+            )
+        };
+        ring((64, 0.0), z, [0.0; 2]).into_iter().map(bend).collect()
+    });
+    let body = written(&rings, 1.0);
+    run("symdetect", &["-q"], &body).fails(1, &["--allow-asymmetric"]);
+    let found = run("symdetect", &["-q", "--allow-asymmetric"], &body).success();
+    let cut = run("wedgecut", &["-q"], &found).success();
+    let fill = |options: &[&str]| {
+        let filled = run("tetwedge", &[&["-q"], options].concat(), &cut).success();
+        (first_percentile(&filled), read(&filled))
+    };
+    let [(before, kept), (better, filled)] = [&["--deviation", "0"][..], &[]].map(fill);
+    assert!(
+        better > 20.0 && better > before,
+        "{better}, {before} before"
+    );
+    let [kept, fewer] = [&kept, &filled].map(|document| document.templates[0].tets.len());
+    assert!(2 * fewer < kept, "{fewer} elements, {kept} before");
+    let cut = read(&cut);
+    let symmetry = cut.symmetry.as_ref().expect("none, which is one");
+    let [old, new] = [&cut, &filled].map(|document| outer(&document.templates[0]));
+    let off = farthest(&new, &old).max(farthest(&old, &new)) / symmetry.radius;
+    assert!(off <= symmetry.tolerance, "{off}");
+    // Remeshing, and faces that are nearly flat: what both move adds up to more than both together did.
+    let moved = filled.wishes.moved.expect("what was moved");
+    assert!(off <= moved && moved <= 2.0 * symmetry.tolerance, "{moved}");
+}
+
 /// A body that is exact keeps its needles unless a deviation is asked for, and who is short of elements for that is told.
 #[test]
 fn a_deviation_is_advised_where_needles_are_kept() {

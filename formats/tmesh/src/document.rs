@@ -1,8 +1,8 @@
 //! The document model.
 
 use crate::{
-    Deviation, Frame, Gluing, Isometry, Promise, RegionMap, Search, Size, SizeField, Symmetry,
-    Wishes,
+    Deviation, Frame, Gluing, Group, Isometry, Promise, RegionMap, Search, Size, SizeField,
+    Symmetry, Wishes,
 };
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -191,12 +191,17 @@ impl Document {
     }
 
     /// How far surfaces may move, relative to the radius about the axis. A body within `equal`, relative as well, of its
-    /// symmetry has no facets that stand for another shape: it is exact, and none of them moves unless that is asked for.
+    /// symmetry has no facets that stand for another shape: it is exact, and none of them moves unless that is asked for. A body without
+    /// symmetry says nothing of the kind.
     pub fn deviation(&self, equal: f64) -> f64 {
         match (self.wishes.deviation(), &self.symmetry) {
             (Deviation::Within(relative), _) => relative,
             (Deviation::Auto, None) => 0.0,
-            (Deviation::Auto, Some(found)) if found.residual <= equal => found.residual,
+            (Deviation::Auto, Some(found))
+                if found.residual <= equal && found.group != Group::TRIVIAL =>
+            {
+                found.residual
+            }
             (Deviation::Auto, Some(found)) => found.residual.max(found.tolerance),
         }
     }

@@ -45,8 +45,9 @@ pub struct Wishes {
     /// stay. Mirror walls may be refined all the same.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keep_surface: Option<bool>,
-    /// How far the surface is from the input's because faces that are nearly flat were meshed as flat ones, relative to the
-    /// radius about the axis. See [`crate::Document::unevenness`].
+    /// How far the surface is from the input's beyond what the symmetry is off, relative to the radius about the axis: because faces that
+    /// are nearly flat were meshed as flat ones, see [`crate::Document::unevenness`], or because it was remeshed for lengths of edges or
+    /// without a symmetry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<f64>,
 }

@@ -1,6 +1,7 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
 use crate::apart::apart;
+use crate::prepare::note_moved;
 use crate::remeshed::{Remeshing, Smoothed, remeshed, turn};
 use crate::surface::{same_body, same_size};
 use geom::tolerance::Tolerance;
@@ -17,7 +18,8 @@ const OF_WALL: f64 = 0.25;
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
 /// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for. Where
-/// that is left to the length of edges that is asked for, the document's wishes say afterwards how far surfaces have moved.
+/// that is left to the length of edges that is asked for, or to the tolerance of a body without symmetry, the document's wishes say
+/// afterwards how far surfaces have moved.
 ///
 /// # Errors
 /// Walls with more elements across than can be made.
@@ -40,6 +42,7 @@ pub fn follow_shape(
         noise: deviation,
         drift: None,
     });
+    let is_auto = document.wishes.deviation() == Deviation::Auto;
     let mut farthest = 0.0_f64;
     for index in 0..document.templates.len() {
         log.progress(&Progress {
@@ -57,7 +60,8 @@ pub fn follow_shape(
                     attempt.deviation
                 )),
                 Some(Ok(smoothed)) => {
-                    if by_length.is_some() {
+                    // Otherwise the input's own drift says how far it may be off.
+                    if attempt.drift.is_none() && is_auto {
                         farthest = farthest.max(apart(before, &smoothed.template));
                     }
                     facts.push(fact(
@@ -77,6 +81,8 @@ pub fn follow_shape(
     }
     if farthest > deviation {
         document.wishes.deviation = Some(Deviation::Within(farthest / radius));
+    } else if farthest > tolerance.drift() {
+        note_moved(document, farthest);
     }
     Ok(facts)
 }
@@ -123,16 +129,16 @@ impl Attempt {
 }
 
 /// What is tried one after the other. Where nobody asked for more than the tolerance, volume and area stay what they are
-/// within what the body is off its symmetry, or it is remeshed within that.
+/// within what the body is off its symmetry, or it is remeshed within that. A body without symmetry is off none.
 fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<Attempt> {
     let attempt = |deviation: f64, drift: Option<f64>| Attempt {
         deviation,
         noise: deviation,
         drift,
     };
+    let drift = tolerance.drift();
     match document.wishes.deviation() {
-        Deviation::Auto if deviation > tolerance.drift() => {
-            let drift = tolerance.drift();
+        Deviation::Auto if 0.0 < drift && drift < deviation => {
             let wider = std::iter::successors(Some(deviation), |d| Some(d * NARROWER));
             let wider = wider.take_while(|d| *d > drift);
             wider
