@@ -169,7 +169,8 @@ impl Curves {
             if std::mem::replace(&mut settled[v as usize], true) {
                 continue;
             }
-            beside[v as usize] = f64::from_bits(height);
+            // What is nearer to something else there allows less, whatever goes on beyond it.
+            beside[v as usize] = f64::from_bits(height).min(rules.deviation_at(v as usize));
             // No chord goes around a corner.
             if self.corner[v as usize] {
                 continue;
@@ -220,7 +221,7 @@ mod tests {
         };
         let held = vec![false; surface.points.len()];
         let bound = vec![0; surface.points.len()];
-        let rules = Rules {
+        let usual = Rules {
             sharp: 0.0,
             held: &held,
             bound: &bound,
@@ -240,14 +241,22 @@ mod tests {
                 growth: 0.5,
             },
         };
-        let patches = Patches::new(&surface, &rules);
-        let curves = Curves::new(&surface, &rules, &patches);
-        let reach = |v: u32| {
-            let i = curves.ends.iter().position(|ends| *ends == [v, v + 1]);
-            curves.reach[i.expect("a feature")]
+        let reaches = |rules: &Rules<'_>| {
+            let patches = Patches::new(&surface, rules);
+            let curves = Curves::new(&surface, rules, &patches);
+            [2 + chords / 2, 2, 1].map(|v| {
+                let i = curves.ends.iter().position(|ends| *ends == [v, v + 1]);
+                curves.reach[i.expect("a feature")]
+            })
         };
-        let [middle, first, straight] = [2 + chords / 2, 2, 1].map(reach);
+        let [middle, first, straight] = reaches(&usual);
         assert!(first > 0.9 * middle, "{first} {middle}");
         assert!(straight < 0.5 * middle, "{straight} {middle}");
+        // A wall begins with the arc.
+        let mut nearer = vec![usual.deviation; surface.points.len()];
+        (nearer[2], nearer[3]) = (1e-3, 1e-3);
+        let nearer = &nearer;
+        let [_, first, _] = reaches(&Rules { nearer, ..usual });
+        assert!(first <= 1e-3, "{first}");
     }
 }
