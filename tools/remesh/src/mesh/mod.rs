@@ -11,7 +11,7 @@ mod triangle;
 pub use change::Change;
 pub use fit::UPRIGHT;
 pub use images::Images;
-pub use orbits::Splitting;
+pub use orbits::Orbit;
 pub use triangle::quality;
 
 use crate::input::{Rules, Surface};

@@ -60,32 +60,76 @@ impl Mesh<'_> {
         is_apart.then_some(orbit)
     }
 
-    /// What an edge is split with. `None` if it has several images, or one beside it.
-    pub fn splitting(&self, edge: [u32; 2]) -> Option<Splitting> {
-        let images = self.images(edge)?;
-        if images.iter().all(|image| image.2 == edge) {
-            let mut links: Vec<usize> = images.iter().map(|image| image.0).collect();
-            links.dedup();
-            return Some(Splitting::Alone(links));
-        }
-        let &[image] = &images[..] else {
+    /// An edge that is to be split with all of its images. `None` if a face is without an image of it, if it is its own image
+    /// the other way round or has one beside it, or if it has images that the links lead to from none of them.
+    pub fn splitting(&self, edge: [u32; 2]) -> Option<Orbit> {
+        let all = self.orbit(edge)?.edges;
+        let mut triangles: Vec<u32> = all.iter().flat_map(|&[a, b]| self.at_edge(a, b)).collect();
+        triangles.sort_unstable();
+        // All of those of an edge that is there twice, the other way round, are.
+        if triangles.windows(2).any(|w| w[0] == w[1]) {
             return None;
-        };
-        let [c, d] = image.2;
-        let back = self.images([c, d])?;
-        let is_pair = back.len() == 1 && back[0].2 == edge;
-        let common = self
-            .at_edge(c, d)
-            .iter()
-            .any(|t| self.at_edge(edge[0], edge[1]).contains(t));
-        (is_pair && !common && [d, c] != edge).then_some(Splitting::With(image))
+        }
+        let mut each = all.iter().map(|&first| self.orbit(first));
+        each.find_map(|orbit| orbit.filter(Orbit::is_led_to))
+    }
+
+    /// An edge with all of its images. `None` if a face is without one.
+    fn orbit(&self, edge: [u32; 2]) -> Option<Orbit> {
+        let mut edges = vec![edge];
+        let mut links: Vec<(usize, [usize; 2])> = Vec::new();
+        let mut next = 0;
+        while let Some(&this) = edges.get(next) {
+            for (link, back, image) in self.images(this)? {
+                let known = edges.iter().position(|e| *e == image);
+                let at = known.unwrap_or(edges.len());
+                if known.is_none() {
+                    edges.push(image);
+                }
+                let step = (link, if back { [at, next] } else { [next, at] });
+                if !links.contains(&step) {
+                    links.push(step);
+                }
+            }
+            next += 1;
+        }
+        Some(Orbit { edges, links })
     }
 }
 
-/// What an edge is split with.
-pub enum Splitting {
-    /// Alone; under these links it is its own image, point by point.
-    Alone(Vec<usize>),
-    /// With the one edge that is its image, by this link, or that it is the image of.
-    With((usize, bool, [u32; 2])),
+/// An edge and its images.
+pub struct Orbit {
+    /// All of them. Each is the image of one before, but for the first.
+    pub edges: Vec<[u32; 2]>,
+    /// What is the image of what: the link, and of which edge it makes which one, by their places in the list.
+    pub links: Vec<(usize, [usize; 2])>,
+}
+
+impl Orbit {
+    /// The link by which an edge is the image of one before, and of which.
+    fn led_by(&self, edge: usize) -> Option<(usize, usize)> {
+        let to = |&(link, [from, to]): &(usize, [usize; 2])| (to == edge).then_some((link, from));
+        let mut before = self.links.iter().filter_map(to);
+        before.find(|(_, from)| *from < edge)
+    }
+
+    fn is_led_to(&self) -> bool {
+        (1..self.edges.len()).all(|edge| self.led_by(edge).is_some())
+    }
+
+    /// What is the image on each edge of a point of the first one. `None` if that is not the same by all links.
+    pub fn places<P: Copy + PartialEq>(
+        &self,
+        first: P,
+        image: impl Fn(usize, P) -> P,
+    ) -> Option<Vec<P>> {
+        let mut places = vec![first];
+        for edge in 1..self.edges.len() {
+            let (link, from) = self.led_by(edge)?;
+            places.push(image(link, places[from]));
+        }
+        let mut all = self.links.iter();
+        let is_same = all.all(|&(link, [from, to])| image(link, places[from]) == places[to]);
+        is_same.then_some(places)
+    }
 }

@@ -1,6 +1,6 @@
 //! Splitting edges that are too long.
 
-use crate::mesh::{Change, Mesh, Splitting};
+use crate::mesh::{Change, Mesh, Orbit};
 use crate::shape::Near;
 use geom::measure::double_area_vector;
 use glam::DVec3;
@@ -16,68 +16,35 @@ pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
     if mesh.held[a as usize] && mesh.held[b as usize] {
         return false;
     }
-    let (first, second) = match mesh.splitting([a, b]) {
-        None => return false,
-        Some(Splitting::Alone(links)) => return alone(mesh, [a, b], &links),
-        // An image is made from what it is the image of.
-        Some(Splitting::With((link, true, original))) => (original, (link, [a, b])),
-        Some(Splitting::With((link, false, image))) => ([a, b], (link, image)),
+    let Some(orbit) = mesh.splitting([a, b]) else {
+        return false;
     };
-    if is_in_needle(mesh, first) || is_in_needle(mesh, second.1) {
+    if orbit.edges.iter().any(|&edge| is_in_needle(mesh, edge)) {
         return false;
     }
-    let mut places = places(mesh, first).into_iter();
-    places.any(|place| both(mesh, first, second, place))
+    let links = mesh.rules.links;
+    let places = places(mesh, orbit.edges[0]).into_iter();
+    let mut each = places.filter_map(|p| orbit.places(p, |link, p| (links[link].image)(p)));
+    each.any(|places| at(mesh, &orbit, &places))
 }
 
-/// Splits an edge there, and its image by a link where the image of that place is.
-fn both(
-    mesh: &mut Mesh<'_>,
-    first: [u32; 2],
-    (link, second): (usize, [u32; 2]),
-    place: DVec3,
-) -> bool {
-    let image = (mesh.rules.links[link].image)(place);
+/// Splits the edges of an orbit there.
+fn at(mesh: &mut Mesh<'_>, orbit: &Orbit, places: &[DVec3]) -> bool {
     let new = mesh.points.len() as u32;
-    let changes = vec![halved(mesh, first, place), halved(mesh, second, image)];
-    if make(mesh, &Change::all(changes)) {
-        mesh.images.add(link, [new, new + 1]);
-        return true;
-    }
-    mesh.drop_last();
-    mesh.drop_last();
-    false
-}
-
-/// Splits an edge that is nobody's image but its own.
-fn alone(mesh: &mut Mesh<'_>, edge: [u32; 2], links: &[usize]) -> bool {
-    if is_in_needle(mesh, edge) {
+    let each = orbit.edges.iter().zip(places);
+    let changes = each.map(|(&edge, &place)| halved(mesh, edge, place));
+    let change = Change::all(changes.collect());
+    let Some(fitted) = mesh.fit(&change) else {
+        orbit.edges.iter().for_each(|_| mesh.drop_last());
         return false;
+    };
+    mesh.apply(&change, fitted);
+    for &(link, ends) in &orbit.links {
+        let [v, image] = ends.map(|i| new + i as u32);
+        mesh.images.add(link, [v, image]);
+        mesh.fixed[v as usize] |= v == image;
     }
-    let mut places = places(mesh, edge).into_iter();
-    places.any(|place| alone_at(mesh, edge, links, place))
-}
-
-fn alone_at(mesh: &mut Mesh<'_>, edge: [u32; 2], links: &[usize], place: DVec3) -> bool {
-    let new = mesh.points.len() as u32;
-    let change = halved(mesh, edge, place);
-    if make(mesh, &change) {
-        for &link in links {
-            mesh.images.add(link, [new, new]);
-            mesh.fixed[new as usize] = true;
-        }
-        return true;
-    }
-    mesh.drop_last();
-    false
-}
-
-fn make(mesh: &mut Mesh<'_>, change: &Change) -> bool {
-    let fitted = mesh.fit(change);
-    fitted.is_some_and(|fitted| {
-        mesh.apply(change, fitted);
-        true
-    })
+    true
 }
 
 /// Whether the middle of an edge is much nearer to a fold that stays than edges are to be long.

@@ -376,6 +376,41 @@ fn an_edge_along_which_a_body_touches_its_image_stays_its_image() {
     assert_eq!(done.links, [images]);
 }
 
+/// An edge at an axis is in two faces there, of each of which one half is the image of the other under a half turn of its own, and
+/// has the same image by both.
+#[test]
+fn an_edge_with_one_image_by_two_links_is_split_with_it() {
+    let mut surface = bar();
+    let middle = surface.points.len() as u32;
+    surface.points.push(DVec3::ZERO);
+    for t in 0..surface.triangles.len() {
+        let corners = surface.triangles[t];
+        if corners.contains(&24) && corners.contains(&25) {
+            let half = |from: u32| corners.map(|v| if v == from { middle } else { v });
+            surface.triangles[t] = half(24);
+            surface.triangles.push(half(25));
+            surface.labels.push(0);
+        }
+    }
+    let half_turn = |angle: f64| Link {
+        pairs: vec![[24, 25], [middle, middle]],
+        labels: Vec::new(),
+        image: Box::new(move |p| {
+            let (sine, cosine) = (2.0 * angle).sin_cos();
+            DVec3::new(cosine * p.x + sine * p.y, sine * p.x - cosine * p.y, -p.z)
+        }),
+    };
+    let free = vec![false; surface.points.len()];
+    let links = [half_turn(0.0), half_turn(std::f64::consts::FRAC_PI_6)];
+    let done = linked(&surface, 1e-2, (&free, Some(0.2)), &links).unwrap();
+    assert!(done.links[0].len() > 4, "{}", done.links[0].len());
+    assert_eq!(done.links[0], done.links[1]);
+    for &[v, image] in &done.links[0] {
+        let [p, q] = [v, image].map(|v| done.surface.points[v as usize]);
+        assert!(p.truncate().length() == 0.0 && p.z == -q.z, "{p} {q}");
+    }
+}
+
 /// Steps along a border, which are detail: a needle across each edge of it, that stands upright beside the triangles on both
 /// sides.
 #[test]
