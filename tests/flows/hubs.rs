@@ -297,6 +297,24 @@ fn orders_leave_no_sharp_angles_on_the_axis() {
     assert_eq!(sharp(&[]), (false, 12));
 }
 
+/// Pieces of this body touch on the axis at half a right angle, of which the mirror planes of every order leave a half.
+#[test]
+fn mirror_planes_that_halve_an_angle_on_the_axis_are_given_up() {
+    let solid = bodies::folded::folded(8).solid;
+    let body = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    let sharp = |arguments: &[&str]| {
+        let cut = run("wedgecut", arguments, &body);
+        let is_sharp = cut.stderr.contains("at the axis near");
+        let cut = read(&cut.success());
+        let is_mirror = |g: &tmesh::Gluing| g.is_mirror(0);
+        let mirrors = cut.templates[0].gluings.iter().any(is_mirror);
+        (is_sharp, mirrors, cut.instances.len())
+    };
+    assert_eq!(sharp(&["--domain", "mirror"]), (true, true, 8));
+    assert_eq!(sharp(&["--order", "8"]), (true, true, 16));
+    assert_eq!(sharp(&[]), (false, false, 8));
+}
+
 /// With a hub, with a seam, with both: the plane across the axis is one more wall.
 #[test]
 fn mirror_planes_across_the_axis_halve_wedges() {

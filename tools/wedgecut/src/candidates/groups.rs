@@ -107,7 +107,23 @@ impl Groups {
         rotations.into_iter().chain(self.at(order)).collect()
     }
 
-    /// The same without a hub, or with one of the radius asked for, as they are tried where nothing is chosen: the
+    /// Wedges between planes that are no mirror planes, where mirror planes were not asked for, the most copies first.
+    pub fn without_mirrors(&self, domain: Domain) -> Vec<Candidate> {
+        if domain != Domain::Auto || self.plain != Kind::Cv {
+            return Vec::new();
+        }
+        let kinds = |order: u32| {
+            let across = self.over.is_some() && self.found.has_horizontal_mirror();
+            let across = (across && order > 2).then_some(Kind::Ch);
+            let kinds = across.into_iter().chain([Kind::C]);
+            kinds.map(move |kind| Group::new(kind, order))
+        };
+        let groups = self.orders.iter().rev().flat_map(|&order| kinds(order));
+        let wedges = groups.filter(|g| !g.is_trivial());
+        wedges.map(|group| Candidate { group, hub: None }).collect()
+    }
+
+    /// The subgroups of an order without a hub, or with one of the radius asked for, as they are tried where nothing is chosen: the
     /// most copies first.
     pub fn unchosen(&self, order: u32, hub: Hub) -> Vec<Candidate> {
         let radius = match hub {

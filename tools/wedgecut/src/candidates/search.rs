@@ -62,7 +62,9 @@ pub fn search(body: &Body<'_>) -> Result<Found, CutError> {
     let found = first_of(body, choice.list, Some(first), &mut refusals)?;
     let found = match found {
         Some(found) if body.params.order.is_none() => {
-            Some(without_sharp(body, found, choice.accepted, &mut refusals)?)
+            let others = choice.accepted.into_iter();
+            let others = others.chain(groups.without_mirrors(body.params.domain));
+            Some(without_sharp(body, found, others, &mut refusals)?)
         }
         found => found,
     };
@@ -124,20 +126,21 @@ fn first_of(
     Ok(None)
 }
 
-/// Where a wedge has edges on the axis at which no element can have the angle asked for, the first of `others` that has none, if there
-/// is one: the order alone decides what of the angle on the axis a copy has.
+/// Where a wedge has edges on the axis at which no element can have the angle asked for, the first of `others` that has none there
+/// and in all copies fewer elsewhere, if there is one: what of the angle on the axis a copy has is decided by the order, and by
+/// whether mirror planes halve it.
 ///
 /// # Errors
 /// What holds of any candidate.
 fn without_sharp(
     body: &Body<'_>,
     found: (Cut, Option<String>),
-    others: Vec<Candidate>,
+    others: impl Iterator<Item = Candidate>,
     refusals: &mut Refusals,
 ) -> Result<(Cut, Option<String>), CutError> {
     let asked = body.document.wishes.min_dihedral();
-    let sharp = sharp_on_axis(&found.0, asked);
-    if sharp == 0 {
+    let sharp = Sharp::of(&found.0, asked);
+    if sharp.on_axis == 0 {
         return Ok(found);
     }
     for candidate in others {
@@ -147,10 +150,13 @@ fn without_sharp(
         let Some((mut cut, warning)) = first_of(body, vec![candidate], None, refusals)? else {
             continue;
         };
-        if sharp_on_axis(&cut, asked) == 0 {
+        let left = Sharp::of(&cut, asked);
+        if left.on_axis == 0 && left.all < sharp.all {
             cut.notes.push(format!(
-                "order {} leaves no edges on the axis with angles below {asked} degrees, order {} leaves {sharp}",
-                cut.candidate.group.order, found.0.candidate.group.order
+                "{} leaves no edges on the axis with angles below {asked} degrees, {} leaves {}",
+                cut.candidate.group.symbol(),
+                found.0.candidate.group.symbol(),
+                sharp.on_axis
             ));
             return Ok((cut, warning));
         }
@@ -158,11 +164,26 @@ fn without_sharp(
     Ok(found)
 }
 
-/// How many edges on the axis with angles below the one asked for a wedge and its hub have.
-fn sharp_on_axis(cut: &Cut, asked: f64) -> usize {
-    let templates = cut.templates.iter().enumerate();
-    let edges = templates.flat_map(|template| kit::sharp_edges(template, asked));
-    edges.filter(kit::Sharp::is_on_axis).count()
+/// How many edges with angles below the one asked for there are.
+struct Sharp {
+    /// On the axis, of the wedge and its hub.
+    on_axis: usize,
+    /// Of all copies.
+    all: usize,
+}
+
+impl Sharp {
+    fn of(cut: &Cut, asked: f64) -> Self {
+        let mut sharp = Self { on_axis: 0, all: 0 };
+        for (index, template) in cut.templates.iter().enumerate() {
+            let edges = kit::sharp_edges((index, template), asked);
+            let instances = cut.copies.instances.iter();
+            let copies = instances.filter(|i| i.template as usize == index).count();
+            sharp.on_axis += edges.iter().filter(|edge| edge.is_on_axis()).count();
+            sharp.all += copies * edges.len();
+        }
+        sharp
+    }
 }
 
 /// Of a wedge along a seam between the blades, if there is one, and one between planes the one whose surface costs fewer
