@@ -1,5 +1,7 @@
 //! Surfaces that follow the shape behind the triangles of the file, within the deviation.
 
+use bodies::facets::binary_stl;
+use bodies::rounds::{Circle, tube};
 use bodies::{Coating, Prism, Tessellation};
 use geom::tree::Tree;
 use glam::DVec3;
@@ -436,6 +438,67 @@ fn as_many_elements(bent: [f64; 2]) {
     });
     let [least, most] = [made.iter().min(), made.iter().max()].map(|n| *n.expect("some") as f64);
     assert!(most < 1.3 * least, "{bent:?}: {made:?}");
+}
+
+/// A tube of so many corners around, drawn with its symmetry to the last bit, and its volume.
+fn prism_of(corners: u32) -> (Vec<u8>, f64) {
+    let [inner, outer] = [0.6, 1.0].map(|radius| Circle {
+        radius,
+        corners,
+        phase: 0.0,
+    });
+    let facets = tube(inner, outer, [-0.75, 0.75]);
+    let volume = 1.5 * (outer.area() - inner.area());
+    (binary_stl(b"tube", &facets), volume)
+}
+
+/// What is drawn exactly keeps its facets, but where they are finer than the edges that are asked for.
+#[test]
+fn exact_drawings_get_the_edges_asked_for_where_they_are_finer() {
+    let made = |corners: u32, options: &[&str]| {
+        let (body, drawn) = prism_of(corners);
+        let found = run("symdetect", &["-q"], &body).success();
+        let cut = run("wedgecut", &[&["-q"], options].concat(), &found).success();
+        let filled = run("tetwedge", &["-q"], &cut).success();
+        let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+        let checked = run("meshqual", &["-q", "--check", "--json", "-"], &whole).success();
+        let quality: Value = serde_json::from_slice(&checked).expect("JSON");
+        let volume = quality["volume"].as_f64().expect("a volume");
+        let count = read(&whole).templates[0].tets.len() as f64;
+        (count, (volume / drawn - 1.0).abs())
+    };
+    let fine = [192, 384, 768].map(|corners| made(corners, &["--edge-length", "0.12"]));
+    let counts = fine.map(|(count, _)| count);
+    let [least, most] =
+        [counts.map(|n| -n), counts].map(|n| n.into_iter().fold(f64::MIN, f64::max));
+    assert!(most < -1.3 * least, "{counts:?}");
+    // By what chords of that length cut off, and as the document says.
+    assert!(
+        fine.iter().all(|(_, off)| (2e-6..2e-2).contains(off)),
+        "{fine:?}"
+    );
+    let (kept, off) = made(768, &["--edge-length", "0.12", "--deviation", "0"]);
+    assert!(kept > 3.0 * most && off < 1e-6, "{kept} {off}");
+    // STL has seven digits.
+    for options in [&["--edge-length", "0.2"][..], &[]] {
+        assert!(made(24, options).1 < 1e-6);
+    }
+    assert!(made(384, &[]).1 < 1e-6);
+}
+
+/// The order is chosen for the edges that are asked for: narrow wedges of a fine drawing would ask for shorter ones.
+#[test]
+fn fine_drawings_are_cut_as_coarse_ones_where_edges_are_asked_for() {
+    let copies = |corners: u32, options: &[&str]| {
+        let found = run("symdetect", &["-q"], &prism_of(corners).0).success();
+        let cut = run("wedgecut", &[&["-q"], options].concat(), &found).success();
+        read(&cut).instances.len()
+    };
+    let asked = ["--edge-length", "0.4"];
+    assert_eq!(copies(48, &asked), copies(384, &asked));
+    let [kept, free] =
+        [&["--deviation", "0"][..], &[]].map(|more| copies(384, &[&asked[..], more].concat()));
+    assert!(kept > free, "{kept} {free}");
 }
 
 /// The wall of a hub stays as it is cut, and the surface beside it has as many triangles as the file: no hub where edges are to get a length,

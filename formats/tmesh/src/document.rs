@@ -206,6 +206,13 @@ impl Document {
         }
     }
 
+    /// Whether edges of some length are asked for, anywhere.
+    pub fn asks_for_lengths(&self) -> bool {
+        let regions = self.regions.iter().filter_map(|region| region.size);
+        let mut sizes = regions.chain(self.wishes.size);
+        self.size_field.is_some() || sizes.any(|size| size.edge_length().is_some())
+    }
+
     /// How far off its plane a flat face may be drawn, model units: as far as the body may be off its symmetry, of which that is
     /// noise alike, or as far as surfaces may move if that was said. What faces are off by is kept, unlike what
     /// [`Self::deviation`] allows: it only decides which triangles are one face.

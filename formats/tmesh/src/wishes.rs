@@ -185,6 +185,12 @@ impl Wishes {
         self.size.map(Size::max_volume)
     }
 
+    /// The angle by which edges turn along a curved surface that is remeshed, radians.
+    pub fn turn(&self) -> f64 {
+        let segments = self.segments_per_turn;
+        std::f64::consts::TAU / segments.unwrap_or(Self::SEGMENTS_PER_TURN)
+    }
+
     /// How far the surface may be from the input's.
     pub fn deviation(&self) -> Deviation {
         self.deviation.unwrap_or(Deviation::Auto)

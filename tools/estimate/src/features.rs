@@ -1,5 +1,6 @@
 //! Sizes that the edges of the body and the thickness of its parts ask for.
 
+use crate::coarser::{Edge, coarser};
 use crate::sum::classes::RESOLUTION;
 use crate::sum::samples::Sample;
 use crate::sum::section::{SectionTriangle, flat};
@@ -25,7 +26,7 @@ pub fn edge_samples(wedge: &Wedge<'_>) -> Vec<Sample> {
         let [a, b, c] = wedge.corners(t);
         geom::measure::double_area_vector(a, b, c).normalize_or_zero()
     };
-    let mut pieces: Vec<([u32; 2], f64)> = Vec::new();
+    let mut pieces: Vec<Edge> = Vec::new();
     // Longest piece of an edge that ends at a vertex of the seam.
     let mut longest: FxHashMap<u32, f64> = FxHashMap::default();
     for e in 0..edges.len() {
@@ -44,19 +45,28 @@ pub fn edge_samples(wedge: &Wedge<'_>) -> Vec<Sample> {
             let known = longest.entry(v).or_default();
             *known = known.max(length);
         }
-        pieces.push(([a, b], length));
+        let asked = |t: u32| wedge.asked.as_ref().map(|asked| asked.length[t as usize]);
+        let wanted = around.iter().filter_map(|u| asked(u.triangle));
+        pieces.push(Edge {
+            ends: [a, b],
+            length,
+            wanted: wanted.fold(f64::INFINITY, f64::min),
+        });
     }
+    let made = wedge.asked.as_ref();
+    let made = made.map(|asked| coarser(wedge, &pieces, asked.turn));
     let mut samples = Vec::with_capacity(2 * pieces.len());
-    for (ends, length) in pieces {
+    for (i, Edge { ends, length, .. }) in pieces.into_iter().enumerate() {
         let behind = |v: u32| match partner.get(&v) {
             Some(other) => longest.get(other).copied().unwrap_or(0.0),
             None if on[v as usize] != 0 => length,
             None => 0.0,
         };
         let size = length + behind(ends[0]).max(behind(ends[1]));
-        samples.extend(ends.map(|v| Sample {
-            at: flat(vertices[v as usize]),
-            size,
+        let made = made.as_ref().map_or([0.0; 2], |made| made[i]);
+        samples.extend([0, 1].map(|k| Sample {
+            at: flat(vertices[ends[k] as usize]),
+            size: size.max(made[k]),
         }));
     }
     samples

@@ -8,6 +8,7 @@
 //!
 //! Every coefficient is a field of [`CostModel`]; `make calibrate` measures them.
 
+mod coarser;
 mod elements;
 mod features;
 pub mod harm;
@@ -19,6 +20,7 @@ mod way;
 mod ways;
 mod wedge;
 
+pub use coarser::Asked;
 pub use elements::{Estimate, Terms};
 pub use model::{Accepted, CostModel};
 pub use needles::needles;

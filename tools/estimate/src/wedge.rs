@@ -1,5 +1,6 @@
 //! A wedge as the estimate sees it: its surface, and which part of that the cuts have made.
 
+use crate::coarser::Asked;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Isometry, Template};
@@ -18,6 +19,8 @@ pub struct Wedge<'a> {
     pub faces: Vec<u8>,
     /// Elements asked for across walls, at least.
     pub layers: f64,
+    /// What is asked of edges, where surfaces are remeshed for that.
+    pub asked: Option<Asked>,
     /// The image of a vertex on the partner of its cut face.
     pub partner: FxHashMap<u32, u32>,
 }
@@ -32,6 +35,7 @@ impl<'a> Wedge<'a> {
             is_cut: vec![false; template.triangles.len()],
             faces: vec![0; template.vertices.len()],
             layers: 1.0,
+            asked: None,
             partner: FxHashMap::default(),
         };
         let mut bits = (0..8).cycle().map(|i| 1_u8 << i);

@@ -4,8 +4,7 @@ use glam::DVec3;
 use mesher::{Faces, Piece};
 use remesh::{Link, Remeshed, Rules, Sizes, Surface, Told, remesh};
 use rustc_hash::FxHashMap;
-use std::f64::consts::TAU;
-use tmesh::{Document, FixedSet, Gluing, Template, Triangle, Wishes};
+use tmesh::{Document, FixedSet, Gluing, Template, Triangle};
 
 /// The bit of the axis; mirror walls have those below.
 const AXIS: u32 = u32::BITS - 1;
@@ -32,6 +31,8 @@ pub struct Remeshing<'a> {
     pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
     pub flat: f64,
+    /// Whether all facets stay, unless some are far finer than the edges asked for.
+    pub exact: bool,
     /// How long edges are to be.
     pub sizes: &'a mesher::Sizes,
 }
@@ -82,7 +83,7 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) ->
     let local = graded.map(|graded| |p: DVec3| graded.at(p));
     let segments = document.wishes.segments_per_turn;
     let sizes = Sizes {
-        turn: turn(&document.wishes),
+        turn: document.wishes.turn(),
         turn_is_asked: segments.is_some(),
         lengths: &lengths,
         local: local
@@ -102,6 +103,7 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) ->
         folds: document.unevenness(),
         feature: libm::cos(document.wishes.feature_angle().to_radians()),
         sharp: document.wishes.min_dihedral().to_radians(),
+        exact: remeshing.exact,
         sizes,
     };
     let done = remesh(&surface, &rules)?;
@@ -127,13 +129,6 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) ->
         triangles: done.triangles,
         told: done.told,
     })
-}
-
-/// The angle by which edges turn along a curved surface, radians.
-pub fn turn(wishes: &Wishes) -> f64 {
-    TAU / wishes
-        .segments_per_turn
-        .unwrap_or(Wishes::SEGMENTS_PER_TURN)
 }
 
 /// The length of edges at a triangle, model units: the shorter one of both sides; infinite where none is asked for.

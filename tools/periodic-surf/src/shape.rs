@@ -2,7 +2,7 @@
 
 use crate::apart::apart;
 use crate::prepare::note_moved;
-use crate::remeshed::{Remeshing, Smoothed, remeshed, turn};
+use crate::remeshed::{Remeshing, Smoothed, remeshed};
 use crate::surface::{same_body, same_size};
 use geom::tolerance::Tolerance;
 use kit::tolerance;
@@ -17,8 +17,8 @@ const NARROWER: f64 = 0.25;
 const OF_WALL: f64 = 0.25;
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
-/// changed. Nothing changes where the input is as symmetric as its coordinates can be, unless a deviation is asked for. Where
-/// that is left to the length of edges that is asked for, or to the tolerance of a body without symmetry, the document's wishes say
+/// changed. Where the input is as symmetric as its coordinates can be and no deviation is asked for, nothing changes but templates
+/// that are drawn far finer than edges are asked for. Where the deviation is left to the length of edges that is asked for, or to the tolerance of a body without symmetry, the document's wishes say
 /// afterwards how far surfaces have moved.
 ///
 /// # Errors
@@ -32,15 +32,21 @@ pub fn follow_shape(
     let mut facts = Vec::new();
     let radius = tolerance.extent().radius;
     let deviation = radius * document.deviation(tolerance.equal() / radius);
-    if !params.quality || deviation <= tolerance.equal() {
+    let exact = deviation <= tolerance.equal();
+    if !params.quality || exact && !document.asks_for_lengths() {
         return Ok(facts);
     }
     let sizes = Sizes::new(document)?;
-    let within = attempts(document, &tolerance, deviation);
+    let within = match exact {
+        true => Vec::new(),
+        false => attempts(document, &tolerance, deviation),
+    };
+    let noise = deviation.max(tolerance.equal());
     let by_length = by_length(document, &sizes, radius).map(|wide| Attempt {
-        deviation: wide.max(deviation),
-        noise: deviation,
+        deviation: wide.max(noise),
+        noise,
         drift: None,
+        exact,
     });
     let is_auto = document.wishes.deviation() == Deviation::Auto;
     let mut farthest = 0.0_f64;
@@ -96,6 +102,8 @@ struct Attempt {
     noise: f64,
     /// Volumes and areas stay what they are within what comes of a surface that is off by this, model units.
     drift: Option<f64>,
+    /// Whether all facets stay, unless some are far finer than the edges asked for.
+    exact: bool,
 }
 
 impl Attempt {
@@ -115,6 +123,7 @@ impl Attempt {
             nearer: &nearer,
             noise: self.noise,
             flat,
+            exact: self.exact,
             sizes,
         };
         let smoothed = remeshed(document, index, &remeshing)?;
@@ -135,6 +144,7 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
         deviation,
         noise: deviation,
         drift,
+        exact: false,
     };
     let drift = tolerance.drift();
     match document.wishes.deviation() {
@@ -168,7 +178,7 @@ fn by_length(document: &Document, sizes: &Sizes, radius: f64) -> Option<f64> {
         }
     };
     let length = length.filter(|_| wishes.deviation() == Deviation::Auto)?;
-    Some((0.25 * length * turn(wishes)).min(Deviation::LARGEST * radius))
+    Some((0.25 * length * wishes.turn()).min(Deviation::LARGEST * radius))
 }
 
 /// How far the surface of a template may move at each of its vertices so that walls stay walls.

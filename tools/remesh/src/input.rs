@@ -57,6 +57,8 @@ pub struct Rules<'a> {
     /// Angle between triangles at an edge, radians: no change leaves a smaller one where there was none. No element at the edge has a
     /// larger one.
     pub sharp: f64,
+    /// Whether all stays as it is drawn, unless some facets of curved patches are detail beside the edges asked for.
+    pub exact: bool,
     /// How long edges are to be.
     pub sizes: Sizes<'a>,
 }

@@ -85,15 +85,16 @@ impl<'a> Body<'a> {
         volumes.chain(self.mean_volume).reduce(f64::min)
     }
 
-    /// Whether surfaces will get edges of a length that is asked for, longer ones than those that there are, too: where it is left open how
-    /// far they may move for that, and the input has not its symmetry exactly.
+    /// Whether edges of some length are asked for, and it is left open how far surfaces may move for that.
+    pub fn asks_for_lengths(&self) -> bool {
+        self.document.asks_for_lengths() && self.document.wishes.deviation() == Deviation::Auto
+    }
+
+    /// Whether surfaces will get edges of that length, longer ones than those that there are, too, however they are drawn: where the input has
+    /// not its symmetry exactly.
     pub fn takes_lengths(&self) -> bool {
-        let regions = self.document.regions.iter().filter_map(|r| r.size);
-        let mut sizes = regions.chain(self.document.wishes.size);
         let equal = self.tolerance.equal() / self.tolerance.extent().radius;
-        (self.document.size_field.is_some() || sizes.any(|size| size.edge_length().is_some()))
-            && self.document.wishes.deviation() == Deviation::Auto
-            && self.document.deviation(equal) > equal
+        self.asks_for_lengths() && self.document.deviation(equal) > equal
     }
 
     /// The size of elements beside a triangle, model units: as asked for, at most that of the body.

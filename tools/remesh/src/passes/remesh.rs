@@ -146,6 +146,9 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     );
     mesh.joins = joins;
     let mut told = Told::default();
+    if rules.exact && !fine(&mesh).contains(&true) {
+        return None;
+    }
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
     let none = vec![false; patches.planes.len()];
     told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL], Rows::unknown());
@@ -252,16 +255,26 @@ fn slenderness(mesh: &Mesh<'_>) -> f64 {
 fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
     let facets = mesh.facets();
     let angles = corners_of_facets(mesh);
-    let mut active = vec![false; mesh.planes.len()];
+    let mut active = fine(mesh);
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let patch = mesh.patch[t] as usize;
         let is_sharp = |v: u32| angles[&(facets[t], v)] < SHARP;
-        let is_fine = |v: u32| mesh.width[v as usize] < DETAIL * mesh.size[v as usize];
-        let corners = mesh.triangles[t].into_iter();
-        active[patch] |= mesh.planes[patch].is_none()
-            && (corners.clone().any(is_sharp) || corners.clone().all(is_fine));
+        active[patch] |=
+            mesh.planes[patch].is_none() && mesh.triangles[t].into_iter().any(is_sharp);
     }
     active
+}
+
+/// Whether each patch is drawn with facets that are detail beside the edges wanted.
+fn fine(mesh: &Mesh<'_>) -> Vec<bool> {
+    let mut fine = vec![false; mesh.planes.len()];
+    for (corners, &patch) in mesh.triangles.iter().zip(&mesh.patch) {
+        let is_fine =
+            |&v: &u32| v != NONE && mesh.width[v as usize] < DETAIL * mesh.size[v as usize];
+        fine[patch as usize] |=
+            mesh.planes[patch as usize].is_none() && corners.iter().all(is_fine);
+    }
+    fine
 }
 
 /// Whether an edge is in or beside a patch that is remeshed.

@@ -75,6 +75,7 @@ fn rules<'a>(
         folds: 0.0,
         feature: 0.75_f64.sqrt(),
         sharp: SHARP,
+        exact: false,
         sizes: Sizes {
             turn: std::f64::consts::TAU / 12.0,
             turn_is_asked: false,

@@ -223,6 +223,7 @@ mod tests {
         let bound = vec![0; surface.points.len()];
         let usual = Rules {
             sharp: 0.0,
+            exact: false,
             held: &held,
             bound: &bound,
             links: &[],

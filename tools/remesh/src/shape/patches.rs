@@ -281,6 +281,7 @@ mod tests {
         };
         let rules = Rules {
             sharp: 0.0,
+            exact: false,
             held: &vec![false; surface.points.len()],
             bound,
             links: &[],
