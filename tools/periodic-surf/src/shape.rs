@@ -18,8 +18,8 @@ const OF_WALL: f64 = 0.25;
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
 /// changed. Where the input is as symmetric as its coordinates can be and no deviation is asked for, nothing changes but templates
-/// that are drawn far finer than edges are asked for. Where the deviation is left to the length of edges that is asked for, or to the tolerance of a body without symmetry, the document's wishes say
-/// afterwards how far surfaces have moved.
+/// that are drawn far finer than edges are asked for. Where the deviation is left to the length of edges that is asked for, or to
+/// the tolerance of a body without symmetry, the document's wishes say afterwards how far surfaces have moved.
 ///
 /// # Errors
 /// Walls with more elements across than can be made.

@@ -268,11 +268,10 @@ fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
 /// Whether each patch is drawn with facets that are detail beside the edges wanted.
 fn fine(mesh: &Mesh<'_>) -> Vec<bool> {
     let mut fine = vec![false; mesh.planes.len()];
-    for (corners, &patch) in mesh.triangles.iter().zip(&mesh.patch) {
-        let is_fine =
-            |&v: &u32| v != NONE && mesh.width[v as usize] < DETAIL * mesh.size[v as usize];
-        fine[patch as usize] |=
-            mesh.planes[patch as usize].is_none() && corners.iter().all(is_fine);
+    for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
+        let patch = mesh.patch[t] as usize;
+        let is_fine = |v: u32| mesh.width[v as usize] < DETAIL * mesh.size[v as usize];
+        fine[patch] |= mesh.planes[patch].is_none() && mesh.triangles[t].into_iter().all(is_fine);
     }
     fine
 }
