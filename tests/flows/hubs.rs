@@ -313,6 +313,8 @@ fn mirror_planes_that_halve_an_angle_on_the_axis_are_given_up() {
     assert_eq!(sharp(&["--domain", "mirror"]), (true, true, 8));
     assert_eq!(sharp(&["--order", "8"]), (true, true, 16));
     assert_eq!(sharp(&[]), (false, false, 8));
+    // What was asked for stays.
+    assert!(sharp(&["--start-angle", "0"]).1 && sharp(&["--hub", "0.1"]).1);
 }
 
 /// With a hub, with a seam, with both: the plane across the axis is one more wall.

@@ -206,11 +206,12 @@ impl Document {
         }
     }
 
-    /// Whether edges of some length are asked for, anywhere.
-    pub fn asks_for_lengths(&self) -> bool {
+    /// Whether edges of some length are asked for, anywhere, and it is left open how far surfaces may move for that.
+    pub fn moves_for_lengths(&self) -> bool {
         let regions = self.regions.iter().filter_map(|region| region.size);
         let mut sizes = regions.chain(self.wishes.size);
-        self.size_field.is_some() || sizes.any(|size| size.edge_length().is_some())
+        let asks = self.size_field.is_some() || sizes.any(|size| size.edge_length().is_some());
+        asks && self.wishes.deviation() == Deviation::Auto
     }
 
     /// How far off its plane a flat face may be drawn, model units: as far as the body may be off its symmetry, of which that is

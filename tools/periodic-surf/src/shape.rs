@@ -33,7 +33,7 @@ pub fn follow_shape(
     let radius = tolerance.extent().radius;
     let deviation = radius * document.deviation(tolerance.equal() / radius);
     let exact = deviation <= tolerance.equal();
-    if !params.quality || exact && !document.asks_for_lengths() {
+    if !params.quality || exact && !document.moves_for_lengths() {
         return Ok(facts);
     }
     let sizes = Sizes::new(document)?;

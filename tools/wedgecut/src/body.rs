@@ -10,7 +10,7 @@ use glam::DVec3;
 use sizing::field::mean_volume;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use tmesh::{Deviation, Document, Frame, OUTSIDE, Size, Symmetry, Template, Triangle};
+use tmesh::{Document, Frame, OUTSIDE, Size, Symmetry, Template, Triangle};
 
 /// The body to be cut.
 pub struct Body<'a> {
@@ -85,16 +85,11 @@ impl<'a> Body<'a> {
         volumes.chain(self.mean_volume).reduce(f64::min)
     }
 
-    /// Whether edges of some length are asked for, and it is left open how far surfaces may move for that.
-    pub fn asks_for_lengths(&self) -> bool {
-        self.document.asks_for_lengths() && self.document.wishes.deviation() == Deviation::Auto
-    }
-
-    /// Whether surfaces will get edges of that length, longer ones than those that there are, too, however they are drawn: where the input has
-    /// not its symmetry exactly.
+    /// Whether surfaces will get edges of a length that is asked for, longer ones than those that there are, too, however they are
+    /// drawn: where the input has not its symmetry exactly.
     pub fn takes_lengths(&self) -> bool {
         let equal = self.tolerance.equal() / self.tolerance.extent().radius;
-        self.asks_for_lengths() && self.document.deviation(equal) > equal
+        self.document.moves_for_lengths() && self.document.deviation(equal) > equal
     }
 
     /// The size of elements beside a triangle, model units: as asked for, at most that of the body.

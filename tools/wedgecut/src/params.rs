@@ -6,8 +6,8 @@ use std::sync::Arc;
 /// Which walls the wedge gets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Domain {
-    /// Mirror walls where the body has mirror planes, a seam elsewhere; half turns and rotary reflections where it
-    /// has these
+    /// Mirror walls where the body has mirror planes, unless they leave an angle on the axis below --min-dihedral that others do not,
+    /// a seam elsewhere; half turns and rotary reflections where it has these
     #[default]
     Auto,
     /// A wedge between two mirror planes

@@ -53,7 +53,7 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let needles = estimate::needles(body.surface, body.element_size());
     let mut wedge = estimate::Wedge::new(&first.templates[0], 0, first.wedges);
     wedge.layers = f64::from(body.document.wishes.layers_across.unwrap_or(1));
-    if body.asks_for_lengths() {
+    if body.document.moves_for_lengths() {
         let triangles = first.templates[0].triangles.iter();
         wedge.asked = Some(estimate::Asked {
             turn: body.document.wishes.turn(),

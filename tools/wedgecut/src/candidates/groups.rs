@@ -7,7 +7,7 @@ use crate::cutting::Candidate;
 use crate::error::CutError;
 use crate::graph::Parity;
 use crate::names;
-use crate::params::{Domain, Hub, Seam};
+use crate::params::{Domain, Hub, Params, Seam};
 use glam::DVec3;
 use tmesh::{Group, Kind};
 
@@ -107,9 +107,11 @@ impl Groups {
         rotations.into_iter().chain(self.at(order)).collect()
     }
 
-    /// Wedges between planes that are no mirror planes, where mirror planes were not asked for, the most copies first.
-    pub fn without_mirrors(&self, domain: Domain) -> Vec<Candidate> {
-        if domain != Domain::Auto || self.plain != Kind::Cv {
+    /// Wedges between planes that are no mirror planes, the most copies first: none where there are no others, and where mirror planes, the
+    /// place of one or a hub were asked for.
+    pub fn without_mirrors(&self, params: &Params) -> Vec<Candidate> {
+        let is_free = params.domain == Domain::Auto && params.start_angle.is_none();
+        if !is_free || matches!(params.hub, Hub::Radius(_)) || self.plain != Kind::Cv {
             return Vec::new();
         }
         let kinds = |order: u32| {

@@ -63,7 +63,7 @@ pub fn search(body: &Body<'_>) -> Result<Found, CutError> {
     let found = match found {
         Some(found) if body.params.order.is_none() => {
             let others = choice.accepted.into_iter();
-            let others = others.chain(groups.without_mirrors(body.params.domain));
+            let others = others.chain(groups.without_mirrors(body.params));
             Some(without_sharp(body, found, others, &mut refusals)?)
         }
         found => found,
