@@ -40,7 +40,12 @@ fn random_bladed_bodies_are_meshed_and_checked() {
 
 #[test]
 fn surfaces_stay_within_the_deviation_asked_for() {
-    all_are_meshed(Kind::Solids, true, 1..=16);
+    let mended = [
+        // Filling uneven facets that meet at a small angle makes them cross.
+        9_400_049, // TetGen's walk goes in circles while it refines.
+        9_401_263,
+    ];
+    all_are_meshed(Kind::Solids, true, (1..=16).chain(mended));
 }
 
 #[test]

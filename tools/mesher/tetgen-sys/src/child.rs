@@ -47,7 +47,8 @@ impl Child {
             i32::try_from(n).map_err(|_| Error::Unfit(format!("{n} {what} are too many")))
         };
         let sizes = complex.sizes.as_ref();
-        let counters = limits.counted_every.map(|_| Counters::new()).transpose()?;
+        let is_counted = limits.counted_every.is_some() || limits.silence.is_some();
+        let counters = is_counted.then(Counters::new).transpose()?;
         let input = ffi::Input {
             switches: text.as_ptr(),
             points: complex.points.as_ptr().cast(),
@@ -126,7 +127,8 @@ impl Child {
                 next_count = self.next_count();
             }
             if !readable {
-                match silence.as_ref().and_then(Silence::broken) {
+                let checked = || self.counters.as_ref().map_or(0, |now| now.read().checked);
+                match silence.as_mut().and_then(|s| s.broken(checked())) {
                     Some(most) => return Err(Error::Silent(most)),
                     None => continue,
                 }
@@ -149,7 +151,7 @@ impl Child {
             }
         }
         let status = self.wait()?;
-        if let Some(counters) = &self.counters {
+        if let Some(counters) = self.counters.as_ref().filter(|_| next_count.is_some()) {
             listener(News::Counted(counters.read()));
         }
         self.outcome(status)

@@ -98,7 +98,7 @@ pub enum Error {
     #[error("TetGen was stopped after {} s, the time limit", .0.as_secs_f64())]
     TimedOut(Duration),
     /// A step came to no end.
-    #[error("TetGen was stopped after {} s of work without a word", .0.as_secs_f64())]
+    #[error("TetGen was stopped after {} s of work without a sign that it goes on", .0.as_secs_f64())]
     Silent(Duration),
     /// The operating system refused what running the mesher needs.
     #[error("cannot run TetGen: {what}: {error}")]

@@ -63,8 +63,8 @@ pub struct Limits {
     pub timeout: Option<Duration>,
     /// Memory that the mesher may take beyond what the caller holds, bytes; `None` for no limit.
     pub memory: Option<u64>,
-    /// Processor time that the mesher may take from one thing that it prints to the next until it refines; `None` for no limit. Its
-    /// steps before are done in milliseconds for a thousand points, or come to no end.
+    /// Processor time that the mesher may take from one thing that it prints to the next until it refines, and then without checking or
+    /// making a tetrahedron; `None` for no limit. Its steps before are done in milliseconds for a thousand points, or come to no end.
     pub silence: Option<Duration>,
     /// Time from one count to the next, see [`crate::News::Counted`]; `None` for no counts.
     pub counted_every: Option<Duration>,

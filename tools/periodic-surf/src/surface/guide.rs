@@ -3,7 +3,9 @@
 use crate::coarse::{Left, coarsened};
 use glam::DVec3;
 use improve::Leaves;
-use mesher::{Answer, Asks, Attempt, Climb, EASING, Error, Facets, Place, label, settled};
+use mesher::{
+    Answer, Asks, Attempt, Climb, Description, EASING, Error, Facets, Place, label, settled,
+};
 use std::convert::Infallible;
 
 /// A refined surface.
@@ -29,11 +31,11 @@ pub struct Refined {
 
 /// Meshes a template as asked for, but free to put points on every facet, and gives
 /// the surface of that mesh. No facet joins wall faces with anything else, nor the two faces of a
-/// seam.
+/// seam. `description`: of the first attempt; others follow where the mesher fails.
 ///
 /// # Errors
 /// See [`Error`].
-pub fn refine(climb: &Climb<'_>) -> Result<Refined, Error> {
+pub fn refine(climb: &Climb<'_>, description: Description) -> Result<Refined, Error> {
     let free = Climb {
         preserve: false,
         ..*climb
@@ -42,7 +44,11 @@ pub fn refine(climb: &Climb<'_>) -> Result<Refined, Error> {
     // points.
     let [ratio, angle] = EASING;
     let asks = Asks::Eased([ratio * ratio, angle]);
-    free.climb(Attempt::new(asks), |answer| surface_of(climb, answer))
+    let first = Attempt {
+        description,
+        ..Attempt::new(asks)
+    };
+    free.climb(first, |answer| surface_of(climb, answer))
 }
 
 /// The surface of the mesher's answer.

@@ -7,7 +7,8 @@ use super::guide::refine;
 use super::maker::Maker;
 use super::pairing::Pairing;
 use crate::SurfaceError;
-use mesher::{Climb, Piece, face_key};
+use geom::contacts::contacts;
+use mesher::{Climb, Description, Piece, face_key};
 use tmesh::Template;
 
 /// A new surface.
@@ -27,16 +28,52 @@ pub struct Made {
 /// Makes the surface of a template: its seam's faces become images of each other, its own hub
 /// walls stay as they are, everything else is as fine as a free pass of the mesher has it.
 ///
+/// Where the surface crosses itself because facets are uneven (two that meet at a small angle are filled as if they were flat), it is
+/// made again without uneven facets.
+///
 /// # Errors
 /// See [`SurfaceError`].
 pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
+    let made = make_as(climb, Description::PLAIN)?;
+    if !made.is_uneven || !crosses_itself(&made.template) {
+        return Ok(made);
+    }
+    climb.log.detail(&format!(
+        "template {}: the surface crosses itself where facets are uneven, made again with all folds kept",
+        climb.piece.index
+    ));
+    let apart = Description {
+        apart: true,
+        ..Description::PLAIN
+    };
+    make_as(climb, apart)
+}
+
+/// Whether triangles meet anywhere but in common vertices and edges.
+fn crosses_itself(template: &Template) -> bool {
+    let triangles: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
+    let mut crosses = false;
+    contacts(
+        &template.vertices,
+        &triangles,
+        |t| t,
+        |_| {
+            crosses = true;
+            false
+        },
+    );
+    crosses
+}
+
+/// Makes the surface, described in one way first.
+fn make_as(climb: &Climb<'_>, description: Description) -> Result<Made, SurfaceError> {
     let Piece {
         index,
         template: input,
         ..
     } = climb.piece;
     let pairings = Pairing::of(input, index);
-    let guide = refine(climb)?;
+    let guide = refine(climb, description)?;
     let features = Features::new(input, index, &guide)?;
     let mut maker = Maker::new((input, index), &pairings, &guide, &features);
     maker.divide_edges();
