@@ -1,8 +1,9 @@
 //! Moving vertices along the surface.
 
-use super::worth::{GAIN, GOOD};
+use super::worth::{GAIN, GOOD, is_needle};
 use crate::mesh::{Change, Mesh};
 use crate::shape::Near;
+use geom::flat::Plane;
 use geom::measure::triangle_area;
 use glam::DVec3;
 
@@ -41,7 +42,9 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
         .map(|&(t, patch)| mesh.quality_of(t, patch));
     let after = after.fold(1.0, f64::min);
     let is_better = after > before + GAIN || (after >= GOOD && before >= GOOD);
-    let fitted = match is_better {
+    // Where lengths are asked for, needles are divided by them.
+    let keeps_flat = mesh.rules.sizes.are_asked() || !folds_needles(mesh, &change);
+    let fitted = match is_better && keeps_flat {
         true => mesh.fit(&change),
         false => None,
     };
@@ -55,6 +58,31 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
             false
         }
     }
+}
+
+/// Whether a move folds a facet beside a sharp corner of a triangle: the mesher would have to keep the fold, and the corner with it.
+fn folds_needles(mesh: &Mesh<'_>, change: &Change) -> bool {
+    let Some((v, _)) = change.moved else {
+        return false;
+    };
+    let was = |t: u32| mesh.triangles[t as usize].map(|v| mesh.before(change, v));
+    let is = |t: u32| mesh.triangles[t as usize].map(|v| mesh.points[v as usize]);
+    let is_flat = |p: [DVec3; 3], q: [DVec3; 3]| {
+        Plane::of(p).off(q) <= mesh.rules.flat || Plane::of(q).off(p) <= mesh.rules.flat
+    };
+    mesh.around(v).iter().any(|&s| {
+        let [a, b, c] = mesh.triangles[s as usize];
+        [[a, b], [b, c], [c, a]].into_iter().any(|[a, b]| {
+            let &[x, y] = &mesh.at_edge(a, b)[..] else {
+                return false;
+            };
+            let t = if x == s { y } else { x };
+            mesh.curve(a, b).is_none()
+                && (is_needle(is(s)) || is_needle(is(t)))
+                && is_flat(was(s), was(t))
+                && !is_flat(is(s), is(t))
+        })
+    })
 }
 
 /// The middle of the triangles around a vertex, weighted by area over the square of the size wanted, on the surface.

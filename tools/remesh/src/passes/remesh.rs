@@ -6,12 +6,11 @@ use super::relocate::relocate;
 use super::rows::Rows;
 use super::split::split;
 use super::uncap::uncap;
-use super::worth::{DETAIL, GOOD, LONG, SHORT};
+use super::worth::{DETAIL, GOOD, LONG, SHARP, SHORT, is_needle};
 use crate::input::{Rules, Surface};
 use crate::mesh::{Images, Mesh, NONE};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
 use geom::contacts::contacts;
-use geom::measure::double_area_vector;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -53,10 +52,6 @@ impl Told {
         *self == Self::default()
     }
 }
-
-/// Sharpest corner of a facet, degrees, below which a patch is remeshed: what the mesher keeps of a corner between segments is
-/// an angle of elements, and below 20 degrees that is less than what they get elsewhere.
-const SHARP: f64 = 20.0;
 /// Rounds of splitting, collapsing, flipping and moving: vertices settle within five (Botsch and Kobbelt).
 const ROUNDS: usize = 6;
 /// Rounds more where lengths are asked for: a fine drawing takes all of the others to become a coarse one, and needles on the way mean
@@ -355,7 +350,6 @@ fn split_all(mesh: &mut Mesh<'_>, active: &[bool], mut rows: Rows) -> usize {
 /// without splitting, and one first percentile in twenty below 24 degrees for one in five.
 fn split_needles(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
     let is_sized = mesh.rules.sizes.are_asked();
-    let sine = libm::sin(SHARP.to_radians());
     let mut needles: Vec<(f64, [u32; 2])> = Vec::new();
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let ([a, b, c], patch) = (mesh.triangles[t], mesh.patch[t]);
@@ -364,10 +358,7 @@ fn split_needles(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
         }
         let mut sides = [[a, b], [b, c], [c, a]].map(|side| (mesh.length(side), side));
         sides.sort_by(|x, y| x.0.total_cmp(&y.0));
-        let is_sharp = || {
-            let [p, q, r] = [a, b, c].map(|v| mesh.points[v as usize]);
-            double_area_vector(p, q, r).length() < sine * sides[1].0 * sides[2].0
-        };
+        let is_sharp = || is_needle([a, b, c].map(|v| mesh.points[v as usize]));
         if sides[2].0 > 2.0 * sides[0].0 && (!is_sized || is_sharp()) {
             needles.push(sides[2]);
         }
