@@ -84,12 +84,12 @@ pub enum Size {
 impl Size {
     /// Largest volume of an element over the cube of the edge length wanted.
     ///
-    /// An element of a mesh by Delaunay refinement has 0.094 of the cube of the mean edge (0.093 to 0.095 on cubes, prisms, gears
-    /// and ratchets of `body`, each from a thousand to a million elements; the regular tetrahedron has 0.118). What is larger than
-    /// the bound is split, which leaves elements of a third to half of it in the mean: 0.31 to 0.37 with three to five edges along
-    /// the diagonal, and down to 0.15 where the length does not divide a wedge, 0.42 with twenty, 0.50 with ninety. From
+    /// An element of a mesh by Delaunay refinement has 0.094 of the cube of the mean edge (0.091 to 0.099 on a cube, prisms and a gear
+    /// of `body`, each from two hundred to a million elements; the regular tetrahedron has 0.118). What is larger than
+    /// the bound is split, which leaves elements of a third to half of it in the mean: 0.31 to 0.39 with five to nine edges along
+    /// the diagonal, and down to 0.15 where the length does not divide a wedge, 0.41 to 0.46 with twenty, 0.51 with ninety. From
     /// 0.38, in between, the quarter follows: 0.094 / 0.38. So edges are as long as wanted with nine of
-    /// them along the diagonal, up to a tenth longer in fine meshes, and shorter in coarse ones, 0.74 to 0.98 times.
+    /// them along the diagonal, up to an eighth longer in fine meshes, and shorter in coarse ones, 0.72 to 0.99 times.
     pub const OF_CUBE: f64 = 0.25;
 
     /// Largest volume of an element: of an edge length, that for which edges have this length in the mean.

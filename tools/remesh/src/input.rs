@@ -54,8 +54,8 @@ pub struct Rules<'a> {
     pub folds: f64,
     /// Cosine of the angle between the normals at a feature edge, from which on it is one.
     pub feature: f64,
-    /// Angle between triangles at an edge, radians: no change leaves a smaller one where there was none. No element at the edge has a
-    /// larger one.
+    /// The smallest angle asked of elements, radians: no change leaves triangles that meet at an edge in a smaller one where there was none, as no
+    /// element at the edge has a larger one, and no vertex is moved so that a corner of a facet gets sharper than that.
     pub sharp: f64,
     /// Whether all stays as it is drawn, unless some facets of curved patches are detail beside the edges asked for.
     pub exact: bool,

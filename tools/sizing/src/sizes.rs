@@ -75,20 +75,6 @@ impl Sizes {
         }
         Ok(sizes)
     }
-
-    /// The limit of volumes that holds everywhere: the loosest one, when every listed region has one.
-    pub fn loosest(&self, used: &[usize]) -> Option<f64> {
-        used.iter()
-            .map(|&r| self.of_region[r])
-            .try_fold(0.0_f64, |most, limit| limit.map(|v| most.max(v)))
-            .filter(|_| !used.is_empty())
-    }
-
-    /// Whether the listed regions have different limits of volumes.
-    pub fn differ(&self, used: &[usize]) -> bool {
-        used.windows(2)
-            .any(|w| self.of_region[w[0]] != self.of_region[w[1]])
-    }
 }
 
 impl Local {
@@ -185,8 +171,6 @@ mod tests {
         let edges = Size::EdgeLength(0.5).max_volume();
         assert_eq!(sizes.of_region, [Some(4.0), Some(edges), Some(1.0)]);
         assert_eq!(sizes.lengths, [None, Some(0.5), None]);
-        assert_eq!(sizes.loosest(&[0, 1, 2]), Some(4.0));
-        assert!(sizes.differ(&[0, 1]) && !sizes.differ(&[2]));
         // Some instance has the third region where the template has the first.
         document.region_maps = vec![RegionMap {
             pairs: vec![[3, 7], [7, 3]],
@@ -196,7 +180,5 @@ mod tests {
         document.region_maps.clear();
         document.wishes.size = None;
         let sizes = Sizes::of_regions(&document);
-        assert_eq!(sizes.loosest(&[0, 2]), None);
-        assert_eq!(sizes.loosest(&[0]), Some(4.0));
     }
 }

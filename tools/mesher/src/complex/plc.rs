@@ -46,7 +46,7 @@ pub struct Plc {
     pub markers: Vec<i32>,
     /// A point in each void.
     pub holes: Vec<[f64; 3]>,
-    /// Sizes of single cells.
+    /// Sizes of single cells; none where no region has one.
     pub sizes: Vec<SizeSeed>,
     /// Facets; the marker of facet `f` is `f + 1`.
     pub facets: Facets,
@@ -58,10 +58,6 @@ pub struct Plc {
     pub extent: f64,
     /// What computing may lose, model units; see [`Tolerance::rounding`].
     pub rounding: f64,
-    /// Limit that holds in all regions, the mesher's unit cubed.
-    pub max_volume: Option<f64>,
-    /// Whether seeds carry limits for single regions.
-    pub per_region: bool,
     /// Length of edges that changes from place to place, scaled.
     pub graded: Option<Graded>,
 }
@@ -184,19 +180,16 @@ impl Plc {
     /// Says where voids are, and which sizes are wanted where.
     fn place_seeds(&mut self, document: &Document, sizes: &Sizes, seeds: &[Seed]) {
         let number = |id: u32| document.regions.binary_search_by_key(&id, |r| r.id).ok();
-        let mut present: Vec<usize> = seeds.iter().filter_map(|s| number(s.region)).collect();
-        present.sort_unstable();
-        present.dedup();
-        self.per_region = sizes.differ(&present);
         let cube = self.scale * self.scale * self.scale;
-        self.max_volume = sizes.loosest(&present).map(|v| v * cube);
         let local = sizes.local.get(self.template).and_then(Option::as_ref);
         self.graded = local.map(|local| local.graded.scaled(self.scale));
+        let is_sized = |s: &Seed| number(s.region).is_some_and(|r| sizes.of_region[r].is_some());
+        let are_sized = seeds.iter().any(is_sized);
         for seed in seeds {
             let point = (seed.point * self.scale).to_array();
             if seed.region == OUTSIDE {
                 self.holes.push(point);
-            } else if let Some(r) = number(seed.region).filter(|_| self.per_region) {
+            } else if let Some(r) = number(seed.region).filter(|_| are_sized) {
                 self.sizes.push(SizeSeed {
                     point,
                     number: r as u32,

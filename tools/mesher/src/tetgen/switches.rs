@@ -6,8 +6,9 @@ use std::fmt::Write;
 /// TetGen's switches.
 ///
 /// `p` with the dihedral angle above which triangles of one marker are merged into a facet: only those that were found coplanar
-/// share a marker (see [`crate::Facets`]), so that the middle between a fold and a plane does. `q` the bounds, `a` the volumes, `A` makes TetGen read
-/// region seeds, `Y` preserves the surface, `nn` asks for adjacency, `J` keeps input points at their numbers, `S` limits
+/// share a marker (see [`crate::Facets`]), so that the middle between a fold and a plane does. `q` the bounds, `Aa` makes TetGen read
+/// volumes from region seeds: by a volume for all it also divides every edge between facets that is longer than the cube root of that, of edges as
+/// long as wanted each into two. `Y` preserves the surface, `nn` asks for adjacency, `J` keeps input points at their numbers, `S` limits
 /// the points that are added, `b` says from how many points on they are inserted in random rounds.
 pub fn switches(plc: &Plc, task: &Task) -> String {
     let mut text = "p90".to_owned();
@@ -18,10 +19,7 @@ pub fn switches(plc: &Plc, task: &Task) -> String {
     if let Some([radius_edge, min_dihedral]) = task.bounds {
         add(format_args!("q{radius_edge}/{min_dihedral}"));
     }
-    if let Some(volume) = plc.max_volume {
-        add(format_args!("a{volume}"));
-    }
-    if plc.per_region {
+    if !plc.sizes.is_empty() {
         add(format_args!("Aa"));
     }
     if task.preserve {
@@ -40,12 +38,17 @@ pub fn switches(plc: &Plc, task: &Task) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SizeSeed;
 
     #[test]
     fn switches_have_no_exponents() {
-        let mut plc = Plc {
+        let seed = SizeSeed {
+            point: [0.0; 3],
+            number: 0,
             max_volume: Some(1e-12),
-            per_region: true,
+        };
+        let mut plc = Plc {
+            sizes: vec![seed],
             ..Plc::default()
         };
         let mut task = Task {
@@ -55,14 +58,11 @@ mod tests {
             rounds_from: None,
             switches: String::new(),
         };
-        assert_eq!(switches(&plc, &task), "p90q1.4/10a0.000000000001AaYnnJ");
+        assert_eq!(switches(&plc, &task), "p90q1.4/10AaYnnJ");
         task.most_points = Some(5e4);
         task.rounds_from = Some(4);
-        plc.per_region = false;
-        assert_eq!(
-            switches(&plc, &task),
-            "p90q1.4/10a0.000000000001YnnJS50000b4"
-        );
+        plc.sizes.clear();
+        assert_eq!(switches(&plc, &task), "p90q1.4/10YnnJS50000b4");
         let plain = Task {
             bounds: None,
             preserve: false,
@@ -70,7 +70,6 @@ mod tests {
             switches: "S7".to_owned(),
             ..task
         };
-        plc.max_volume = None;
         assert_eq!(switches(&plc, &plain), "p90nnJS7b4");
     }
 }

@@ -1,6 +1,6 @@
 //! Moving vertices along the surface.
 
-use super::worth::{GAIN, GOOD, is_needle};
+use super::worth::{GAIN, GOOD};
 use crate::mesh::{Change, Mesh};
 use crate::shape::Near;
 use geom::flat::Plane;
@@ -43,7 +43,7 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
     let after = after.fold(1.0, f64::min);
     let is_better = after > before + GAIN || (after >= GOOD && before >= GOOD);
     // Where lengths are asked for, needles are divided by them.
-    let keeps_flat = mesh.rules.sizes.are_asked() || !folds_needles(mesh, &change);
+    let keeps_flat = mesh.rules.sizes.are_asked() || !sharpens(mesh, &change);
     let fitted = match is_better && keeps_flat {
         true => mesh.fit(&change),
         false => None,
@@ -60,29 +60,56 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
     }
 }
 
-/// Whether a move folds a facet beside a sharp corner of a triangle: the mesher would have to keep the fold, and the corner with it.
-fn folds_needles(mesh: &Mesh<'_>, change: &Change) -> bool {
+/// Whether a move folds facets so that the mesher has to keep a corner sharper than is asked of elements, and sharper than those before.
+fn sharpens(mesh: &Mesh<'_>, change: &Change) -> bool {
     let Some((v, _)) = change.moved else {
         return false;
     };
-    let was = |t: u32| mesh.triangles[t as usize].map(|v| mesh.before(change, v));
-    let is = |t: u32| mesh.triangles[t as usize].map(|v| mesh.points[v as usize]);
-    let is_flat = |p: [DVec3; 3], q: [DVec3; 3]| {
-        Plane::of(p).off(q) <= mesh.rules.flat || Plane::of(q).off(p) <= mesh.rules.flat
+    let after = sharpest_kept(mesh, v, |w| mesh.points[w as usize]);
+    after < mesh.rules.sharp && after < sharpest_kept(mesh, v, |w| mesh.before(change, w))
+}
+
+/// The sharpest corner that triangles at a vertex have together with those that are flat with them, radians.
+fn sharpest_kept(mesh: &Mesh<'_>, v: u32, at: impl Fn(u32) -> DVec3) -> f64 {
+    let corners = |t: u32| mesh.triangles[t as usize].map(&at);
+    let angle = |t: u32, w: u32| {
+        let [a, b] = others(mesh.triangles[t as usize], w).map(|u| at(u) - at(w));
+        a.angle_between(b)
     };
-    mesh.around(v).iter().any(|&s| {
-        let [a, b, c] = mesh.triangles[s as usize];
-        [[a, b], [b, c], [c, a]].into_iter().any(|[a, b]| {
-            let &[x, y] = &mesh.at_edge(a, b)[..] else {
-                return false;
-            };
-            let t = if x == s { y } else { x };
-            mesh.curve(a, b).is_none()
-                && (is_needle(is(s)) || is_needle(is(t)))
-                && is_flat(was(s), was(t))
-                && !is_flat(is(s), is(t))
+    // A triangle that is flat with another one across an edge.
+    let flat_with = |t: u32, [a, b]: [u32; 2]| {
+        let beside = match mesh.at_edge(a, b)[..] {
+            [x, y] if mesh.curve(a, b).is_none() => {
+                if x == t {
+                    y
+                } else {
+                    x
+                }
+            }
+            _ => return None,
+        };
+        let (p, q) = (corners(t), corners(beside));
+        let is_flat = |p, q| Plane::of(p).off(q) <= mesh.rules.flat;
+        (is_flat(p, q) || is_flat(q, p)).then_some(beside)
+    };
+    let of_triangle = |t: u32| {
+        mesh.triangles[t as usize].map(|w| {
+            let sides = others(mesh.triangles[t as usize], w).map(|u| [u, w]);
+            let beside = sides.into_iter().filter_map(|side| flat_with(t, side));
+            angle(t, w) + beside.map(|s| angle(s, w)).sum::<f64>()
         })
-    })
+    };
+    let kept = mesh.around(v).iter().flat_map(|&t| of_triangle(t));
+    kept.fold(f64::INFINITY, f64::min)
+}
+
+/// The corners other than one.
+fn others([a, b, c]: [u32; 3], v: u32) -> [u32; 2] {
+    match v {
+        v if v == a => [b, c],
+        v if v == b => [c, a],
+        _ => [a, b],
+    }
 }
 
 /// The middle of the triangles around a vertex, weighted by area over the square of the size wanted, on the surface.

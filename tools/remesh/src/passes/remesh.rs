@@ -6,11 +6,12 @@ use super::relocate::relocate;
 use super::rows::Rows;
 use super::split::split;
 use super::uncap::uncap;
-use super::worth::{DETAIL, GOOD, LONG, SHARP, SHORT, is_needle};
+use super::worth::{DETAIL, GOOD, LONG, SHARP, SHORT, WIDE};
 use crate::input::{Rules, Surface};
 use crate::mesh::{Images, Mesh, NONE};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
 use geom::contacts::contacts;
+use geom::measure::double_area_vector;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -141,7 +142,7 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     );
     mesh.joins = joins;
     let mut told = Told::default();
-    if rules.exact && !fine(&mesh).contains(&true) {
+    if rules.exact && !fine(&mesh, WIDE).contains(&true) {
         return None;
     }
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
@@ -250,7 +251,7 @@ fn slenderness(mesh: &Mesh<'_>) -> f64 {
 fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
     let facets = mesh.facets();
     let angles = corners_of_facets(mesh);
-    let mut active = fine(mesh);
+    let mut active = fine(mesh, DETAIL);
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let patch = mesh.patch[t] as usize;
         let is_sharp = |v: u32| angles[&(facets[t], v)] < SHARP;
@@ -260,12 +261,12 @@ fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
     active
 }
 
-/// Whether each patch is drawn with facets that are detail beside the edges wanted.
-fn fine(mesh: &Mesh<'_>) -> Vec<bool> {
+/// Whether each patch is drawn with facets that are narrower than this part of the edges wanted.
+fn fine(mesh: &Mesh<'_>, part: f64) -> Vec<bool> {
     let mut fine = vec![false; mesh.planes.len()];
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let patch = mesh.patch[t] as usize;
-        let is_fine = |v: u32| mesh.width[v as usize] < DETAIL * mesh.size[v as usize];
+        let is_fine = |v: u32| mesh.width[v as usize] < part * mesh.size[v as usize];
         fine[patch] |= mesh.planes[patch].is_none() && mesh.triangles[t].into_iter().all(is_fine);
     }
     fine
@@ -350,6 +351,7 @@ fn split_all(mesh: &mut Mesh<'_>, active: &[bool], mut rows: Rows) -> usize {
 /// without splitting, and one first percentile in twenty below 24 degrees for one in five.
 fn split_needles(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
     let is_sized = mesh.rules.sizes.are_asked();
+    let sine = libm::sin(SHARP.to_radians());
     let mut needles: Vec<(f64, [u32; 2])> = Vec::new();
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let ([a, b, c], patch) = (mesh.triangles[t], mesh.patch[t]);
@@ -358,7 +360,10 @@ fn split_needles(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
         }
         let mut sides = [[a, b], [b, c], [c, a]].map(|side| (mesh.length(side), side));
         sides.sort_by(|x, y| x.0.total_cmp(&y.0));
-        let is_sharp = || is_needle([a, b, c].map(|v| mesh.points[v as usize]));
+        let is_sharp = || {
+            let [p, q, r] = [a, b, c].map(|v| mesh.points[v as usize]);
+            double_area_vector(p, q, r).length() < sine * sides[1].0 * sides[2].0
+        };
         if sides[2].0 > 2.0 * sides[0].0 && (!is_sized || is_sharp()) {
             needles.push(sides[2]);
         }

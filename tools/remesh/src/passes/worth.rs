@@ -1,8 +1,6 @@
 //! What a step is worth.
 
 pub use crate::shape::LONG;
-use geom::measure::double_area_vector;
-use glam::DVec3;
 
 /// Shortest edge relative to the length wanted (Botsch and Kobbelt): two edges that meet at a vertex in between, of which
 /// one is shorter, are together nearer to it.
@@ -15,13 +13,9 @@ pub const GAIN: f64 = 1e-3;
 /// Edges shorter than this, relative to the length wanted, go even where a patch is not remeshed: what a cut leaves of
 /// a facet.
 pub const DETAIL: f64 = 0.25;
+/// Width of facets over the length wanted from which on exact ones are kept: of narrower ones, every second edge between them can go, and what
+/// is left is no longer than wanted.
+pub const WIDE: f64 = 0.5;
 /// Sharpest corner of a facet, degrees, below which a patch is remeshed: what the mesher keeps of a corner between segments is
 /// an angle of elements, and below 20 degrees that is less than what they get elsewhere.
 pub const SHARP: f64 = 20.0;
-
-/// Whether a triangle has a corner that is too sharp.
-pub fn is_needle([a, b, c]: [DVec3; 3]) -> bool {
-    let mut sides = [a.distance(b), b.distance(c), c.distance(a)];
-    sides.sort_by(f64::total_cmp);
-    double_area_vector(a, b, c).length() < libm::sin(SHARP.to_radians()) * sides[1] * sides[2]
-}
