@@ -180,5 +180,6 @@ mod tests {
         document.region_maps.clear();
         document.wishes.size = None;
         let sizes = Sizes::of_regions(&document);
+        assert_eq!(sizes.of_region, [Some(4.0), Some(edges), None]);
     }
 }
