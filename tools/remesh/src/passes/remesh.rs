@@ -6,7 +6,7 @@ use super::relocate::relocate;
 use super::rows::Rows;
 use super::split::split;
 use super::uncap::uncap;
-use super::worth::{DETAIL, GOOD, LONG, SHARP, SHORT, WIDE};
+use super::worth::{DETAIL, GOOD, LONG, SHARP, SHORT};
 use crate::input::{Rules, Surface};
 use crate::mesh::{Images, Mesh, NONE};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
@@ -142,7 +142,7 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     );
     mesh.joins = joins;
     let mut told = Told::default();
-    if rules.exact && !fine(&mesh, WIDE).contains(&true) {
+    if rules.exact && !fine(&mesh).contains(&true) {
         return None;
     }
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
@@ -251,7 +251,7 @@ fn slenderness(mesh: &Mesh<'_>) -> f64 {
 fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
     let facets = mesh.facets();
     let angles = corners_of_facets(mesh);
-    let mut active = fine(mesh, DETAIL);
+    let mut active = fine(mesh);
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let patch = mesh.patch[t] as usize;
         let is_sharp = |v: u32| angles[&(facets[t], v)] < SHARP;
@@ -261,12 +261,12 @@ fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
     active
 }
 
-/// Whether each patch is drawn with facets that are narrower than this part of the edges wanted.
-fn fine(mesh: &Mesh<'_>, part: f64) -> Vec<bool> {
+/// Whether each patch is drawn with facets that are detail beside the edges wanted.
+fn fine(mesh: &Mesh<'_>) -> Vec<bool> {
     let mut fine = vec![false; mesh.planes.len()];
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let patch = mesh.patch[t] as usize;
-        let is_fine = |v: u32| mesh.width[v as usize] < part * mesh.size[v as usize];
+        let is_fine = |v: u32| mesh.width[v as usize] < DETAIL * mesh.size[v as usize];
         fine[patch] |= mesh.planes[patch].is_none() && mesh.triangles[t].into_iter().all(is_fine);
     }
     fine
