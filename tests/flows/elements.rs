@@ -75,3 +75,22 @@ fn edges_have_the_length_asked_for_in_the_mean() {
         }
     }
 }
+
+/// By a volume that holds for all TetGen divides every edge between facets that is longer than its cube root.
+#[test]
+fn edges_between_facets_may_be_as_long_as_those_asked_for() {
+    let prism = Prism {
+        order: 24,
+        tessellation: Tessellation::Symmetric,
+        ..Prism::default()
+    };
+    let found = run("symdetect", &["-q"], &encode(&prism.build(), EXACT_STL)).success();
+    let cut = run("wedgecut", &["-q", "--edge-length", "0.6"], &found).success();
+    let filled = run("tetwedge", &["-q"], &cut).success();
+    let report = run("meshqual", &["-q", "--check", "--json", "-"], &filled).success();
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    let mean = &report["metrics"]["edge_length"]["mean"];
+    let mean = mean.as_f64().expect("a length") / 0.6;
+    // It was 0.42.
+    assert!((0.7..1.1).contains(&mean), "{mean}");
+}

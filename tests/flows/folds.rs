@@ -73,6 +73,14 @@ fn random_bodies_that_made_trouble_are_meshed() {
     }
 }
 
+#[test]
+fn bands_are_not_twisted() {
+    // Of bands 38 times as long as wide, vertices at one end were moved: each became two triangles, whose corners elements had to
+    // fit into, and the first percentile 10 degrees.
+    let (p01, _) = meshed(&folded(615).solid.body, &[]);
+    assert!(p01 > 20.0, "{p01}");
+}
+
 /// Share of the first percentile of the flat body that a bent one has at least: points are kept where faces were bent.
 const LEAST: f64 = 0.9;
 

@@ -15,8 +15,9 @@ use tmesh::Size;
 /// Time from one word of progress to the next. A choice: people see a line move, and reading the counts takes nothing.
 const TOLD_EVERY: Duration = Duration::from_millis(200);
 
-/// Processor time that a step other than refinement may take, and refinement from one sign of life to the next, and for each point. The slowest was measured to take some ten
-/// microseconds for a point; a hundred times that, and what starting a process may take, are for slower machines.
+/// Processor time that a step other than refinement may take, and refinement from one sign of life to the next; and for each
+/// point. The slowest was measured to take some ten microseconds for a point; a hundred times that, and what starting a process
+/// may take, are for slower machines.
 const SILENCE: Duration = Duration::from_secs(10);
 const SILENCE_OF_POINT: Duration = Duration::from_millis(1);
 

@@ -43,8 +43,8 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
     let after = after.fold(1.0, f64::min);
     let is_better = after > before + GAIN || (after >= GOOD && before >= GOOD);
     // Where lengths are asked for, needles are divided by them.
-    let keeps_flat = mesh.rules.sizes.are_asked() || !sharpens(mesh, &change);
-    let fitted = match is_better && keeps_flat {
+    let is_sharper = || !mesh.rules.sizes.are_asked() && sharpens(mesh, &change);
+    let fitted = match is_better && !is_sharper() {
         true => mesh.fit(&change),
         false => None,
     };
@@ -78,16 +78,12 @@ fn sharpest_kept(mesh: &Mesh<'_>, v: u32, at: impl Fn(u32) -> DVec3) -> f64 {
     };
     // A triangle that is flat with another one across an edge.
     let flat_with = |t: u32, [a, b]: [u32; 2]| {
-        let beside = match mesh.at_edge(a, b)[..] {
-            [x, y] if mesh.curve(a, b).is_none() => {
-                if x == t {
-                    y
-                } else {
-                    x
-                }
-            }
-            _ => return None,
-        };
+        let at_edge = mesh.at_edge(a, b);
+        let [x, y] = at_edge[..] else { return None };
+        let beside = if x == t { y } else { x };
+        if mesh.curve(a, b).is_some() {
+            return None;
+        }
         let (p, q) = (corners(t), corners(beside));
         let is_flat = |p, q| Plane::of(p).off(q) <= mesh.rules.flat;
         (is_flat(p, q) || is_flat(q, p)).then_some(beside)

@@ -6,7 +6,7 @@ use super::relocate::relocate;
 use super::rows::Rows;
 use super::split::split;
 use super::uncap::uncap;
-use super::worth::{DETAIL, GOOD, LONG, SHARP, SHORT};
+use super::worth::{DETAIL, GOOD, LONG, SHORT};
 use crate::input::{Rules, Surface};
 use crate::mesh::{Images, Mesh, NONE};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
@@ -53,6 +53,10 @@ impl Told {
         *self == Self::default()
     }
 }
+
+/// Sharpest corner of a facet, degrees, below which a patch is remeshed: what the mesher keeps of a corner between segments is
+/// an angle of elements, and below 20 degrees that is less than what they get elsewhere.
+const SHARP: f64 = 20.0;
 /// Rounds of splitting, collapsing, flipping and moving: vertices settle within five (Botsch and Kobbelt).
 const ROUNDS: usize = 6;
 /// Rounds more where lengths are asked for: a fine drawing takes all of the others to become a coarse one, and needles on the way mean

@@ -13,6 +13,3 @@ pub const GAIN: f64 = 1e-3;
 /// Edges shorter than this, relative to the length wanted, go even where a patch is not remeshed: what a cut leaves of
 /// a facet.
 pub const DETAIL: f64 = 0.25;
-/// Sharpest corner of a facet, degrees, below which a patch is remeshed: what the mesher keeps of a corner between segments is
-/// an angle of elements, and below 20 degrees that is less than what they get elsewhere.
-pub const SHARP: f64 = 20.0;
