@@ -91,6 +91,5 @@ fn edges_between_facets_may_be_as_long_as_those_asked_for() {
     let report: Value = serde_json::from_slice(&report).expect("JSON");
     let mean = &report["metrics"]["edge_length"]["mean"];
     let mean = mean.as_f64().expect("a length") / 0.6;
-    // It was 0.42.
     assert!((0.7..1.1).contains(&mean), "{mean}");
 }

@@ -21,11 +21,11 @@ enum Step {
 
 /// What changes while TetGen refines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Life {
+struct Life {
     /// Tetrahedra checked so far.
-    pub checked: u64,
+    checked: u64,
     /// Pages of memory.
-    pub pages: u64,
+    pages: u64,
 }
 
 /// Watches for steps that come to no end. Time is the processor's, so that a machine that is busy or stopped makes no difference.

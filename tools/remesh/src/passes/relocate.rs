@@ -43,7 +43,7 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
     let after = after.fold(1.0, f64::min);
     let is_better = after > before + GAIN || (after >= GOOD && before >= GOOD);
     // Where lengths are asked for, needles are divided by them.
-    let is_sharper = || !mesh.rules.sizes.are_asked() && sharpens(mesh, &change);
+    let is_sharper = || !mesh.rules.sizes.are_asked() && sharpens(mesh, &change, v);
     let fitted = match is_better && !is_sharper() {
         true => mesh.fit(&change),
         false => None,
@@ -60,11 +60,8 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
     }
 }
 
-/// Whether a move folds facets so that the mesher has to keep a corner sharper than is asked of elements, and sharper than those before.
-fn sharpens(mesh: &Mesh<'_>, change: &Change) -> bool {
-    let Some((v, _)) = change.moved else {
-        return false;
-    };
+/// Whether the move of a vertex folds facets so that the mesher has to keep a corner sharper than is asked of elements, and sharper than those before.
+fn sharpens(mesh: &Mesh<'_>, change: &Change, v: u32) -> bool {
     let after = sharpest_kept(mesh, v, |w| mesh.points[w as usize]);
     after < mesh.rules.sharp && after < sharpest_kept(mesh, v, |w| mesh.before(change, w))
 }
