@@ -10,8 +10,8 @@ mod make;
 use bodies::{Body, Placement};
 use clap::Parser;
 use cli::Cli;
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use kit::{Closed, Failure, Output};
+use std::io::Write;
 use std::process::ExitCode;
 
 fn volumes_json(body: &Body) -> serde_json::Value {
@@ -30,31 +30,24 @@ fn volumes_json(body: &Body) -> serde_json::Value {
     })
 }
 
-fn run(cli: &Cli) -> Result<(), (u8, String)> {
-    let usage = |text| (2, text);
-    let mut body = make::body(cli).map_err(usage)?;
+fn run(cli: &Cli) -> Result<(), Failure> {
+    let mut body = make::body(cli).map_err(Failure::Usage)?;
     let placement = Placement {
         rotate: cli.rotate,
         scale: cli.scale,
         jitter: cli.jitter,
     };
     placement.apply(&mut body);
-    let encoding = cli.encoding(&body).map_err(usage)?;
-    let written = |e: io::Error| match e.kind() {
-        io::ErrorKind::Unsupported => (2, e.to_string()),
-        _ => (4, format!("cannot write: {e}")),
-    };
-    let mut out: Box<dyn Write> = match &cli.output {
-        Some(path) => Box::new(File::create(path).map_err(written)?),
-        None => Box::new(io::stdout()),
-    };
-    let mut buffer = BufWriter::new(&mut out);
-    bodies::write(&body, encoding, &mut buffer).map_err(written)?;
-    buffer.flush().map_err(written)?;
+    let encoding = cli.encoding(&body).map_err(Failure::Usage)?;
+    let mut out = Output::create(cli.output.as_deref(), false)?;
+    bodies::write(&body, encoding, &mut out).map_err(|e| out.failure(&e))?;
+    let mut done = vec![out.close()?];
     if let Some(path) = &cli.volumes {
-        let text = format!("{:#}\n", volumes_json(&body));
-        std::fs::write(path, text).map_err(written)?;
+        let mut out = Output::create(Some(path), false)?;
+        writeln!(out, "{:#}", volumes_json(&body)).map_err(|e| out.failure(&e))?;
+        done.push(out.close()?);
     }
+    done.into_iter().try_for_each(Closed::publish)?;
     if cli.verbose {
         for (index, material) in body.materials.iter().enumerate() {
             eprintln!("{:e} {}", body.volume(index), material.name);
@@ -64,11 +57,15 @@ fn run(cli: &Cli) -> Result<(), (u8, String)> {
 }
 
 fn main() -> ExitCode {
-    match run(&Cli::parse()) {
+    let cli = Cli::parse();
+    kit::remove_on_signals();
+    match run(&cli) {
         Ok(()) => ExitCode::SUCCESS,
-        Err((code, text)) => {
-            eprintln!("body: error: {text}");
-            ExitCode::from(code)
+        Err(failure) => {
+            if !matches!(failure, Failure::ClosedPipe) {
+                eprintln!("body: error: {failure}");
+            }
+            ExitCode::from(failure.code())
         }
     }
 }

@@ -26,4 +26,5 @@ pub use run::{Command, main};
 pub use session::{Progress, Session, Status, duration};
 pub use threads::{ThreadArgs, available_threads, both, in_parallel};
 pub use tolerance::tolerance;
+pub use unfinished::remove_on_signals;
 pub use wishes::{Sharp, StrictArgs, WishArgs, sharp_edges, shortfalls};

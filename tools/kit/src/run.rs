@@ -58,7 +58,7 @@ pub fn main<C: Command>() -> ExitCode {
             say(&form.line(&name, Level::Error(1), &text));
         }
     }));
-    unfinished::watch();
+    unfinished::remove_on_signals();
     match catch_unwind(AssertUnwindSafe(|| cli.run(&session))) {
         Ok(Ok(())) => ExitCode::SUCCESS,
         Ok(Err(failure)) => {

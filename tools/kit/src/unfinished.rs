@@ -35,7 +35,7 @@ pub fn persist(file: TempPath, path: PathBuf) -> io::Result<()> {
 /// Signals that the process was started to ignore stay ignored. Where the system grants no thread or
 /// pipe, signals end the process as if this had not been called, and its temporary files stay.
 #[cfg(unix)]
-pub fn watch() {
+pub fn remove_on_signals() {
     use signal_hook::consts::signal::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
