@@ -226,16 +226,23 @@ impl Freedoms {
     /// What a vertex in a patch of the surface may do, and what it must keep: what all corners of a triangle there keep.
     pub fn within(&self, sheet: &Sheet) -> (Freedom, Exact) {
         let (a, b) = sheet.normal.any_orthonormal_pair();
-        let of = |v: u32| self.exact.get(&v).copied().unwrap_or_default();
-        let all = sheet.corners.map(of);
-        let exact = Exact {
-            vertical: all[0]
-                .vertical
-                .filter(|_| all.iter().all(|e| e.vertical == all[0].vertical)),
-            level: all.iter().all(|e| e.level),
+        (Freedom::Plane(a, b), self.common(&sheet.corners))
+    }
+
+    /// What a vertex between others must keep: what all of them keep.
+    pub fn common(&self, vertices: &[u32]) -> Exact {
+        let of = |v: &u32| self.exact.get(v).copied().unwrap_or_default();
+        let vertical = vertices.first().and_then(|v| of(v).vertical);
+        Exact {
+            vertical: vertical.filter(|_| vertices.iter().all(|v| of(v).vertical == vertical)),
+            level: vertices.iter().all(|v| of(v).level),
             axis: false,
-        };
-        (Freedom::Plane(a, b), exact)
+        }
+    }
+
+    /// Whether a vertex is on the axis.
+    pub fn is_on_axis(&self, v: u32) -> bool {
+        self.exact.get(&v).is_some_and(|exact| exact.axis)
     }
 
     /// Notes what a new vertex may do.

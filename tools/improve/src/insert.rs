@@ -4,12 +4,15 @@
 //! new vertex in their place; the cavity is filled from the vertex, which then moves to where the worst of the
 //! new tetrahedra is best (after B. Klingner, J. Shewchuk, "Aggressive tetrahedral mesh improvement", 2007). It
 //! is the only way where all corners are on a surface that has to stay. In a flat facet with nothing beyond, the vertex may be
-//! on the surface: the cavity is open there, and triangles of the facet are filled from the vertex too.
+//! on the surface: the cavity is open there, and triangles of the facet are filled from the vertex too. On an edge of the surface,
+//! there is a cavity in each of the spaces that meet there.
 
+use crate::cavity::{Cavity, faces};
+use crate::crease::Crease;
 use crate::freedom::{Exact, Freedom, Freedoms};
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
-use crate::smooth::settle;
+use crate::smooth::{Newcomer, settle};
 use crate::surface::{Sheet, outline};
 use geom::measure::double_area_vector;
 use geom::tet::{EDGES, FACES};
@@ -19,25 +22,28 @@ use glam::DVec3;
 /// better.
 const TRIED: usize = 4;
 
-/// Tetrahedra that make room for a vertex, at most: about twice as many as there are at an inner vertex.
-const ROOM: usize = 40;
-
 /// A new vertex, and the tetrahedra at it in the place of others.
 pub struct Insertion {
     at: DVec3,
-    old: Vec<u32>,
-    new: Vec<(Corners, Grade)>,
+    parts: Vec<Part>,
     least: f64,
-    /// Triangles of the surface that it divides, and what it may do there.
-    divided: Vec<[u32; 3]>,
+    /// Triangles of the surface that it divides, by patch, the edge that it is on, and what it may do there.
+    divided: Vec<Vec<[u32; 3]>>,
+    edge: Option<[u32; 2]>,
     within: (Freedom, Exact),
+}
+
+/// Tetrahedra of one region that are replaced.
+struct Part {
+    old: Vec<Corners>,
+    new: Vec<(Corners, Grade)>,
 }
 
 impl Insertion {
     /// Whether no more than `count` tetrahedra make room.
     #[cfg(test)]
     pub fn replaces_at_most(&self, count: usize) -> bool {
-        self.old.len() <= count
+        self.parts.iter().map(|p| p.old.len()).sum::<usize>() <= count
     }
 
     /// The smallest quality of the tetrahedra at the vertex.
@@ -49,44 +55,70 @@ impl Insertion {
     pub fn apply(&self, mesh: &mut Mesh<'_>, freedoms: &mut Freedoms) {
         mesh.renew();
         let vertex = mesh.add(self.at);
-        mesh.replace(&self.old, &self.new);
+        for part in &self.parts {
+            // Numbers change with each replacement.
+            let old: Vec<u32> = part.old.iter().filter_map(|&c| mesh.number(c)).collect();
+            mesh.replace(&old, &part.new);
+        }
         if !self.divided.is_empty() {
             let (freedom, exact) = self.within;
             freedoms.add(vertex, freedom, exact);
-            mesh.divide_surface(&self.divided, vertex);
+            for triangles in &self.divided {
+                mesh.divide_surface(triangles, vertex, self.edge);
+            }
         }
     }
 }
 
+/// Where a vertex comes to be.
+enum Site {
+    /// Inside of a region.
+    Inside,
+    /// In a flat patch of the surface with nothing beyond.
+    Sheet(Sheet),
+    /// On an edge of the surface.
+    Crease(Crease),
+}
+
 /// Tetrahedra that would make room for a vertex.
-struct Cavity {
+struct Place {
     start: DVec3,
-    old: Vec<u32>,
-    /// What would be in their place, and the smallest quality of them with the vertex at `start`.
-    new: Vec<Corners>,
+    site: Site,
+    /// One in each of the spaces that the surface leaves there.
+    cavities: Vec<Cavity>,
+    /// The smallest quality of what would be there with the vertex at `start`.
     least: f64,
-    /// The patch of the surface that the vertex is in, and the triangles that are divided.
-    sheet: Option<Sheet>,
-    divided: Vec<[u32; 3]>,
 }
 
 /// The new vertex in or at a tetrahedron that makes the worst one there better, and as good as possible.
 pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> Option<Insertion> {
-    let points = mesh.corners(tet).map(|v| mesh.positions[v as usize]);
-    let inside = places(points).filter_map(|p| cavity(mesh, tet, p, None));
-    let sheets = faces(mesh, tet).filter_map(|(face, _)| mesh.surface().sheet(face));
-    let on_surface = sheets.flat_map(|sheet| {
-        let corners = sheet.corners.map(|v| mesh.positions[v as usize]);
+    let corners = mesh.corners(tet);
+    let points = corners.map(|v| mesh.positions[v as usize]);
+    let mut places: Vec<Place> = places(points)
+        .filter_map(|p| place(mesh, tet, p, Site::Inside))
+        .collect();
+    for (face, _) in faces(mesh, tet) {
+        let Some(sheet) = mesh.surface().sheet(face) else {
+            continue;
+        };
         let exact = freedoms.within(&sheet).1;
-        places_on_face(corners).filter_map(move |p| cavity(mesh, tet, exact.place(p), Some(sheet)))
-    });
-    let mut cavities: Vec<Cavity> = inside.chain(on_surface).collect();
+        let points = sheet.corners.map(|v| mesh.positions[v as usize]);
+        let there = places_on_face(points);
+        places.extend(there.filter_map(|p| place(mesh, tet, exact.place(p), Site::Sheet(sheet))));
+    }
+    for [i, j] in EDGES {
+        let Some(crease) = Crease::new(mesh, freedoms, [corners[i], corners[j]]) else {
+            continue;
+        };
+        let middle = crease.within.1.place((points[i] + points[j]) * 0.5);
+        places.extend(place(mesh, tet, middle, Site::Crease(crease)));
+    }
     // The vertex is moved from there, which takes time.
-    cavities.sort_by(|a, b| b.least.total_cmp(&a.least));
-    cavities.truncate(TRIED);
+    places.sort_by(|a, b| b.least.total_cmp(&a.least));
+    places.truncate(TRIED);
     let mut best: Option<Insertion> = None;
-    for cavity in cavities {
-        let found = fill(mesh, freedoms, cavity);
+    for place in places {
+        let found = fill(mesh, freedoms, place);
         if let Some(found) = found
             && best.as_ref().is_none_or(|b| b.least < found.least)
         {
@@ -124,140 +156,102 @@ fn places_on_face([a, b, c]: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
     all.chain(Some(centre).filter(|p| p.is_finite()))
 }
 
-/// The cavity that suits a vertex at `start`, inside or in a patch of the surface.
-fn cavity(mesh: &Mesh<'_>, tet: u32, start: DVec3, sheet: Option<Sheet>) -> Option<Cavity> {
-    let region = mesh.region(tet);
+/// The cavities that suit a vertex at `start` for a tetrahedron.
+fn place(mesh: &Mesh<'_>, tet: u32, start: DVec3, site: Site) -> Option<Place> {
     let (above, _) = mesh.bounds(&[tet], GAIN, HALF_DIGITS);
-    let vertex = mesh.positions.len() as u32;
-    let mut old = vec![tet];
-    // Faces of the cavity, seen from inside, with the tetrahedron inside.
-    let mut hull: Vec<([u32; 3], u32)> = faces(mesh, tet).collect();
-    let mut divided: Vec<[u32; 3]> = Vec::new();
-    let mut next = 0;
-    while let Some(&(face, inside)) = hull.get(next) {
-        if sheet.is_some_and(|s| mesh.surface().is_in(&s, face)) {
-            divided.push(face);
-            hull.remove(next);
-            continue;
+    let cavities = match &site {
+        Site::Inside => vec![Cavity::new(mesh, vec![tet], (start, above), |_| false)?],
+        Site::Sheet(sheet) => {
+            let is_open = |face| mesh.surface().is_in(sheet, face);
+            vec![Cavity::new(mesh, vec![tet], (start, above), is_open)?]
         }
-        let points = face.map(|v| mesh.positions[v as usize]);
-        let grade = mesh.of_points([points[0], points[1], points[2], start]);
-        if grade.quality > above {
-            next += 1;
-            continue;
+        Site::Crease(crease) => {
+            let grown = |above: f64| -> Option<Vec<Cavity>> {
+                let is_open = |face| crease.is_divided(mesh, face);
+                let all = crease.spaces.iter();
+                all.map(|space| Cavity::new(mesh, space.clone(), (start, above), is_open))
+                    .collect()
+            };
+            // Otherwise what is at the edge alone makes room.
+            grown(above).or_else(|| grown(HALF_DIGITS))?
         }
-        let other = beyond(mesh, face, inside)
-            .filter(|&t| mesh.region(t) == region && !mesh.is_fixed_face(face))
-            .filter(|_| old.len() < ROOM);
-        let Some(other) = other else {
-            // The vertex is moved later on.
-            if grade.quality <= HALF_DIGITS {
-                return None;
-            }
-            next += 1;
-            continue;
-        };
-        old.push(other);
-        // Faces that it has in common with the cavity are gone, the others are new ones.
-        for (face, inside) in faces(mesh, other) {
-            let same = |f: &([u32; 3], u32)| f.0.iter().all(|v| face.contains(v));
-            match hull.iter().position(same) {
-                Some(place) => {
-                    hull.remove(place);
-                    next -= usize::from(place < next);
-                }
-                None => hull.push((face, inside)),
-            }
-        }
-    }
-    // Otherwise what it divides is not one piece without holes.
-    if sheet.is_some() && outline(&divided).len() != divided.len() + 2 {
-        return None;
-    }
-    let kept = |v: &u32| hull.iter().any(|(face, _)| face.contains(v));
-    let edge_kept = |a: u32, b: u32| {
-        !mesh.is_fixed_edge(a, b) || hull.iter().any(|(f, _)| f.contains(&a) && f.contains(&b))
     };
-    let whole = old.iter().all(|&t| {
-        let corners = mesh.corners(t);
-        corners.iter().all(kept)
-            && EDGES
-                .iter()
-                .all(|&[i, j]| edge_kept(corners[i], corners[j]))
-    });
-    if !whole {
-        return None;
-    }
-    let new: Vec<Corners> = hull
-        .iter()
-        .map(|&([a, b, c], _)| [a, b, c, vertex])
-        .collect();
-    let qualities = hull.iter().map(|(face, _)| {
+    let qualities = cavities.iter().flat_map(|cavity| cavity.hull.iter());
+    let qualities = qualities.map(|(face, _)| {
         let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
         mesh.of_points([a, b, c, start]).quality
     });
-    Some(Cavity {
+    Some(Place {
         least: qualities.fold(f64::INFINITY, f64::min),
         start,
-        old,
-        new,
-        sheet,
-        divided,
+        site,
+        cavities,
     })
 }
 
-/// Fills a cavity from a vertex that is moved to the best place, if that makes the worst tetrahedron better.
-fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, cavity: Cavity) -> Option<Insertion> {
-    let Cavity {
-        start,
-        old,
-        new,
-        sheet,
-        divided,
-        ..
-    } = cavity;
-    let inside = (Freedom::Free, Exact::default());
-    let within = sheet.map_or(inside, |sheet| freedoms.within(&sheet));
-    let (above, most) = mesh.bounds(&old, GAIN, HALF_DIGITS);
-    let region = mesh.region(*old.first()?);
-    let (at, grades) = settle(mesh, freedoms, start, &new, (region, most), within);
-    let qualities = grades.iter().map(|g| g.quality);
-    let least = qualities.fold(f64::INFINITY, f64::min);
-    (least > above && sees_all(mesh, at, &divided)).then(|| Insertion {
+/// Fills cavities from a vertex that is moved to the best place, if that makes the worst tetrahedron better.
+fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, place: Place) -> Option<Insertion> {
+    let (within, edge) = match &place.site {
+        Site::Inside => ((Freedom::Free, Exact::default()), None),
+        Site::Sheet(sheet) => (freedoms.within(sheet), None),
+        Site::Crease(crease) => (crease.within, Some(crease.ends)),
+    };
+    let all_old = place.cavities.iter().flat_map(|c| c.old.iter().copied());
+    let (above, _) = mesh.bounds(&all_old.collect::<Vec<_>>(), GAIN, HALF_DIGITS);
+    let vertex = mesh.positions.len() as u32;
+    let mut star = Newcomer::default();
+    for cavity in &place.cavities {
+        let (_, most) = mesh.bounds(&cavity.old, GAIN, HALF_DIGITS);
+        let region = mesh.region(*cavity.old.first()?);
+        for &([a, b, c], _) in &cavity.hull {
+            star.add([a, b, c, vertex], region, most);
+        }
+    }
+    let corners = star.corners().to_vec();
+    let (at, grades) = settle(mesh, freedoms, place.start, star, within);
+    let least = grades
+        .iter()
+        .map(|g| g.quality)
+        .fold(f64::INFINITY, f64::min);
+    let divided: Vec<Vec<[u32; 3]>> = match place.site {
+        Site::Inside => Vec::new(),
+        _ => mesh
+            .surface()
+            .by_patch(place.cavities.iter().flat_map(|c| &c.open)),
+    };
+    if least <= above || !divided.iter().all(|t| sees_all(mesh, at, t, edge)) {
+        return None;
+    }
+    let mut new = corners.into_iter().zip(grades);
+    let parts = place.cavities.iter().map(|cavity| Part {
+        old: cavity.old.iter().map(|&t| mesh.corners(t)).collect(),
+        new: new.by_ref().take(cavity.hull.len()).collect(),
+    });
+    Some(Insertion {
         at,
-        old,
-        new: new.into_iter().zip(grades).collect(),
+        parts: parts.collect(),
         least,
         divided,
+        edge,
         within,
     })
 }
 
-/// Whether a place in the plane of triangles of the surface sees all of their outline from inside. Where the body goes on beyond
-/// the edge of a facet, tetrahedra may be positive from outside as well.
-fn sees_all(mesh: &Mesh<'_>, at: DVec3, triangles: &[[u32; 3]]) -> bool {
+/// Whether a place in the plane of triangles of the surface, or on an edge of theirs, sees all of their outline from inside, and they
+/// are one piece without holes. Where the body goes on beyond the edge of a facet, tetrahedra may be positive from outside as well.
+fn sees_all(mesh: &Mesh<'_>, at: DVec3, triangles: &[[u32; 3]], edge: Option<[u32; 2]>) -> bool {
     let position = |v: u32| mesh.positions[v as usize];
     let vector = |[a, b, c]: [DVec3; 3]| double_area_vector(a, b, c);
     let all = triangles.iter().map(|t| vector(t.map(position)));
     let whole: DVec3 = all.sum();
-    outline(triangles).into_iter().all(|[a, b]| {
-        let part = vector([position(a), position(b), at]);
-        part.dot(whole) > HALF_DIGITS * whole.length_squared()
-    })
-}
-
-/// The faces of a tetrahedron, each positive with a vertex inside as the fourth.
-fn faces(mesh: &Mesh<'_>, tet: u32) -> impl Iterator<Item = ([u32; 3], u32)> + use<> {
-    let corners = mesh.corners(tet);
-    FACES
-        .iter()
-        .map(move |&[i, j, k]| ([corners[i], corners[k], corners[j]], tet))
-}
-
-/// The tetrahedron on the other side of a face.
-fn beyond(mesh: &Mesh<'_>, face: [u32; 3], inside: u32) -> Option<u32> {
-    mesh.star(face[0]).iter().copied().find(|&t| {
-        let corners = mesh.corners(t);
-        t != inside && face.iter().all(|v| corners.contains(v))
-    })
+    let outline = outline(triangles);
+    let is_whole = outline.len() == triangles.len() + 2;
+    let mut others = outline
+        .into_iter()
+        .filter(|side| edge.is_none_or(|[a, b]| *side != [a, b] && *side != [b, a]));
+    is_whole
+        && others.all(|[a, b]| {
+            let part = vector([position(a), position(b), at]);
+            part.dot(whole) > HALF_DIGITS * whole.length_squared()
+        })
 }

@@ -7,7 +7,9 @@
 //! facet, a wall or a seam is triangulated as the elements there want it. What templates share stays as it is.
 
 mod ahead;
+mod cavity;
 mod coarsen;
+mod crease;
 mod flip;
 mod freedom;
 mod improve;

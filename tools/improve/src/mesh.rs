@@ -63,9 +63,9 @@ impl<'a> Mesh<'a> {
         &self.surface
     }
 
-    /// Puts a vertex into triangles of the surface.
-    pub fn divide_surface(&mut self, faces: &[[u32; 3]], vertex: u32) {
-        self.surface.divide(faces, vertex);
+    /// Puts a vertex into triangles of the surface that are in one patch, or on an edge of them, between the ends of that.
+    pub fn divide_surface(&mut self, faces: &[[u32; 3]], vertex: u32, edge: Option<[u32; 2]>) {
+        self.surface.divide(faces, vertex, edge);
     }
 
     /// Replaces an edge of the surface.
@@ -186,6 +186,12 @@ impl<'a> Mesh<'a> {
             (q.min(g.quality), v.max(g.six_volume))
         });
         ((worst + gain * worst.abs()).max(least), most)
+    }
+
+    /// The number of a tetrahedron.
+    pub fn number(&self, corners: Corners) -> Option<u32> {
+        let at = self.star(corners[0]).iter().copied();
+        at.into_iter().find(|&t| self.corners(t) == corners)
     }
 
     /// Whether three vertices are a surface triangle inside of a region.

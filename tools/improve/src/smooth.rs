@@ -171,14 +171,34 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
     })
 }
 
-/// The best place found for a vertex that is new and may do so much, from `start` on, and the grades of the tetrahedra at it. They
-/// are all in one region, and may have a size of `most`, six volumes, in any case.
+/// The tetrahedra at a vertex that is new.
+#[derive(Default)]
+pub struct Newcomer {
+    tets: Vec<Corners>,
+    regions: Vec<u32>,
+    sizes: Vec<f64>,
+}
+
+impl Newcomer {
+    /// Adds one, which may have a size of `most`, six volumes, in any case.
+    pub fn add(&mut self, corners: Corners, region: u32, most: f64) {
+        self.tets.push(corners);
+        self.regions.push(region);
+        self.sizes.push(most);
+    }
+
+    /// Their corners.
+    pub fn corners(&self) -> &[Corners] {
+        &self.tets
+    }
+}
+
+/// The best place found for a vertex that is new and may do so much, from `start` on, and the grades of the tetrahedra at it.
 pub fn settle(
     mesh: &Mesh<'_>,
     freedoms: &Freedoms,
     start: DVec3,
-    tets: &[Corners],
-    (region, most): (u32, f64),
+    newcomer: Newcomer,
     (freedom, exact): (Freedom, Exact),
 ) -> (DVec3, Vec<Grade>) {
     let star = Star {
@@ -186,9 +206,9 @@ pub fn settle(
         freedoms,
         vertex: mesh.positions.len() as u32,
         exact: Some(exact),
-        tets: tets.to_vec(),
-        regions: vec![region; tets.len()],
-        sizes: vec![most; tets.len()],
+        tets: newcomer.tets,
+        regions: newcomer.regions,
+        sizes: newcomer.sizes,
     };
     let directions: Vec<DVec3> = freedom.directions().collect();
     let qualities = star.grades(start).map(|g| g.quality).collect();

@@ -15,8 +15,8 @@ use tmesh::{Gluing, OUTSIDE, Template};
 #[derive(Clone, Default)]
 pub struct Surface {
     triangles: Vec<[u32; 3]>,
-    /// Edges between triangles with the same number may be replaced.
-    patches: Vec<Option<u32>>,
+    /// What may become of each triangle.
+    patches: Vec<Patch>,
     /// Regions on both sides of each triangle.
     regions: Vec<[u32; 2]>,
     /// The triangle that each one on a seam is glued to, and the partners of its vertices.
@@ -27,6 +27,27 @@ pub struct Surface {
     normals: Vec<DVec3>,
     /// Of each triangle that has come since, one that it is a part of.
     parents: Vec<u32>,
+}
+
+/// What may become of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Patch {
+    /// Nothing: others have it as it is.
+    Kept,
+    /// It may be divided at a vertex on one of its edges, which leaves the shape as it is.
+    Single,
+    /// Edges between triangles with the same number may be replaced, and vertices put into them.
+    Of(u32),
+}
+
+impl Patch {
+    /// The number that it has in common with others.
+    fn number(self) -> Option<u32> {
+        match self {
+            Self::Of(number) => Some(number),
+            Self::Kept | Self::Single => None,
+        }
+    }
 }
 
 /// A flat patch with nothing beyond, by one of its triangles.
@@ -65,9 +86,13 @@ impl Surface {
         let triangles = &template.triangles;
         let is_flat = |f: usize| flats.slopes[f] == 0.0 && flats.normals[f] != DVec3::ZERO;
         let facets = flats.of_triangle.iter();
-        let mut patches: Vec<Option<u32>> =
-            facets.map(|&f| is_flat(f as usize).then_some(f)).collect();
-        patches.resize(triangles.len(), None);
+        let mut patches: Vec<Patch> = facets
+            .map(|&f| match is_flat(f as usize) {
+                true => Patch::Of(f),
+                false => Patch::Single,
+            })
+            .collect();
+        patches.resize(triangles.len(), Patch::Kept);
         let mut surface = Self {
             triangles: triangles.iter().map(|t| t.vertices).collect(),
             patches,
@@ -92,7 +117,7 @@ impl Surface {
         surface.keep(flats.kept.iter().copied());
         let free = surface.triangles.iter().zip(&surface.patches).enumerate();
         surface.numbers = free
-            .filter(|(_, (_, patch))| patch.is_some())
+            .filter(|(_, (_, patch))| **patch != Patch::Kept)
             .map(|(i, (t, _))| (sorted(*t), i as u32))
             .collect();
         surface
@@ -101,7 +126,7 @@ impl Surface {
     /// Triangles stay as they are.
     fn keep(&mut self, triangles: impl Iterator<Item = u32>) {
         for t in triangles {
-            self.patches[t as usize] = None;
+            self.patches[t as usize] = Patch::Kept;
         }
     }
 
@@ -134,7 +159,7 @@ impl Surface {
             self.twins.insert(here, (there, images));
             self.twins.insert(there, (here, back));
             for (side, t) in [here, there].into_iter().enumerate() {
-                self.patches[t as usize] = Some(patch(t, side));
+                self.patches[t as usize] = Patch::Of(patch(t, side));
             }
         }
     }
@@ -174,30 +199,64 @@ impl Surface {
     /// The patch that a face is in, if a vertex may be put there.
     pub fn sheet(&self, face: [u32; 3]) -> Option<Sheet> {
         let t = *self.numbers.get(&sorted(face))?;
-        let patch = self.patches[t as usize]?;
-        let has_one_side = self.regions[t as usize].contains(&OUTSIDE);
-        (has_one_side && !self.twins.contains_key(&t)).then(|| Sheet {
+        self.flat(face)
+            .filter(|_| self.regions[t as usize].contains(&OUTSIDE))
+    }
+
+    /// Whether a face is a triangle of a patch.
+    pub fn is_in(&self, sheet: &Sheet, face: [u32; 3]) -> bool {
+        let number = self.numbers.get(&sorted(face));
+        number.is_some_and(|&t| self.patches[t as usize] == Patch::Of(sheet.patch))
+    }
+
+    /// Whether a vertex on an edge of a triangle may divide it: with or without something beyond, but not on a seam, nor inside of
+    /// a region.
+    pub fn is_divisible(&self, face: [u32; 3]) -> bool {
+        self.divisible(face).is_some()
+    }
+
+    fn divisible(&self, face: [u32; 3]) -> Option<u32> {
+        let t = *self.numbers.get(&sorted(face))?;
+        let [front, back] = self.regions[t as usize];
+        (front != back && !self.twins.contains_key(&t)).then_some(t)
+    }
+
+    /// The flat patch that a face is in, if it may be divided.
+    pub fn flat(&self, face: [u32; 3]) -> Option<Sheet> {
+        let patch = self.patches[self.divisible(face)? as usize].number()?;
+        Some(Sheet {
             corners: face,
             normal: self.normals[patch as usize],
             patch,
         })
     }
 
-    /// Whether a face is a triangle of a patch.
-    pub fn is_in(&self, sheet: &Sheet, face: [u32; 3]) -> bool {
-        let number = self.numbers.get(&sorted(face));
-        number.is_some_and(|&t| self.patches[t as usize] == Some(sheet.patch))
+    /// Triangles as they run, those of each patch, none twice; alone where they are in none.
+    pub fn by_patch<'f>(&self, faces: impl Iterator<Item = &'f [u32; 3]>) -> Vec<Vec<[u32; 3]>> {
+        let number = |face: &[u32; 3]| self.numbers.get(&sorted(*face)).copied();
+        let mut numbers: Vec<u32> = faces.filter_map(number).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers.sort_by_key(|&t| self.patches[t as usize]);
+        let by_patch = numbers.chunk_by(|&s, &t| {
+            let [p, q] = [s, t].map(|t| self.patches[t as usize]);
+            p == q && p != Patch::Single
+        });
+        let triangles = by_patch.map(|some| some.iter().map(|&t| self.triangles[t as usize]));
+        triangles.map(Iterator::collect).collect()
     }
 
-    /// Puts triangles from a new vertex to the outline of some in their place. There are two more than before.
-    pub fn divide(&mut self, faces: &[[u32; 3]], vertex: u32) {
+    /// Puts triangles from a new vertex to the outline of some in their place, which are in one patch: there are two more than before,
+    /// or one if it is on an edge of the outline, between the ends of that.
+    pub fn divide(&mut self, faces: &[[u32; 3]], vertex: u32, edge: Option<[u32; 2]>) {
         let numbers = faces
             .iter()
             .filter_map(|f| self.numbers.remove(&sorted(*f)));
         let gone: Vec<u32> = numbers.collect();
         let Some(&parent) = gone.first() else { return };
         let triangles = gone.iter().map(|&t| self.triangles[t as usize]);
-        let outline = outline(&triangles.collect::<Vec<_>>());
+        let mut outline = outline(&triangles.collect::<Vec<_>>());
+        outline.retain(|&[a, b]| edge.is_none_or(|e| e != [a, b] && e != [b, a]));
         for (i, [a, b]) in outline.into_iter().enumerate() {
             let number = gone.get(i).copied().unwrap_or_else(|| {
                 self.triangles.push([0; 3]);
@@ -228,7 +287,7 @@ impl Surface {
         let both = [number(new[0])?, number(new[1])?];
         let [s, t] = both.map(|t| self.triangles[t as usize]);
         let [p, q] = both.map(|t| self.patches[t as usize]);
-        (p == q && runs(s, a, b) != runs(t, a, b)).then_some(both)
+        (p == q && p != Patch::Single && runs(s, a, b) != runs(t, a, b)).then_some(both)
     }
 
     /// The image of an edge between two triangles of a seam.
@@ -400,7 +459,7 @@ mod tests {
         let sheet = flat.sheet([2, 1, 0]).unwrap();
         assert_eq!(sheet.normal, DVec3::Z);
         assert!(flat.is_in(&sheet, [3, 0, 2]) && !flat.is_in(&sheet, [3, 0, 1]));
-        flat.divide(&[[2, 1, 0], [0, 3, 2]], 4);
+        flat.divide(&[[2, 1, 0], [0, 3, 2]], 4, None);
         // Two more, which all run as before.
         let all: Vec<[u32; 3]> = flat.triangles().to_vec();
         assert_eq!(all.len(), 4);
@@ -409,11 +468,28 @@ mod tests {
         }
         assert_eq!(flat.parents(), [0, 0]);
         // What is new is in the same patch, and parts of it are parts of the same.
-        flat.divide(&[all[3]], 5);
+        flat.divide(&[all[3]], 5, None);
         assert_eq!(flat.parents(), [0; 4]);
         let [a, b, _] = all[3];
         assert!(flat.is_in(&sheet, [a, b, 5]) && !flat.is_in(&sheet, all[3]));
-        // Not on interfaces, not on seams, not in what leans.
+        // On an edge of the outline, it leaves that to both of its ends.
+        let mut sides = surface(&square(OUTSIDE, 5), &[7, 7], &[]);
+        sides.divide(&[[0, 1, 2]], 4, Some([1, 0]));
+        assert_eq!(sides.triangles(), [[1, 2, 4], [2, 3, 0], [2, 0, 4]]);
+        assert_eq!(
+            sides
+                .by_patch([[4, 2, 1], [0, 2, 4], [2, 1, 4]].iter())
+                .len(),
+            1
+        );
+        let leaning = surface(&square(OUTSIDE, 5), &[8, 8], &[]);
+        assert_eq!(leaning.by_patch([[0, 1, 2], [2, 3, 0]].iter()).len(), 2);
+        let divisible = |surface: Surface| surface.is_divisible([2, 1, 0]);
+        assert!(divisible(leaning) && divisible(surface(&square(4, 5), &[7, 7], &[])));
+        assert!(!divisible(surface(&square(5, 5), &[7, 7], &[])));
+        assert!(!divisible(surface(&square(4, 5), &[7, 7], &[0])));
+        assert!(!divisible(surface(&seam(0), &[7; 4], &[])));
+        // Not inside of triangles of interfaces, not on seams, not in what leans.
         assert!(
             surface(&square(4, 5), &[7, 7], &[])
                 .sheet([0, 1, 2])

@@ -4,11 +4,12 @@ use super::insert;
 use super::mesh::Mesh;
 use super::quality::Goal;
 use super::smooth;
+use super::surface::sorted;
 use super::{Flats, Freedoms, Wish, improve};
 use geom::measure::tet_volume;
-use geom::tet::TetMeasures;
-use glam::DVec3;
-use rustc_hash::FxHashMap;
+use geom::tet::{FACES, TetMeasures};
+use glam::{DVec2, DVec3};
+use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Gluing, Isometry, OUTSIDE, Template, Tet, Triangle};
 
 /// Does what is found to replace a tetrahedron, if anything.
@@ -365,6 +366,145 @@ fn vertices_come_on_mirror_planes() {
             .iter()
             .all(|&v| template.vertices[v as usize].y == 0.0)
     );
+}
+
+/// Two regions of two tetrahedra each around an edge of length 8, which are a sector of 150 degrees with a radius of 1, and their surface.
+fn sector() -> Template {
+    let mut template = ring(5, 4.0);
+    for (p, angle) in template.vertices[2..]
+        .iter_mut()
+        .zip([0.0_f64, 40.0, 80.0, 115.0, 150.0])
+    {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        *p = DVec3::new(cos, sin, 0.0);
+    }
+    template.tets.truncate(4);
+    template.tets[2..].iter_mut().for_each(|t| t.region = 8);
+    let mut triangles: Vec<Triangle> = Vec::new();
+    for (vertices, region) in faces_of(&template) {
+        let known = triangles
+            .iter_mut()
+            .find(|t| sorted(t.vertices) == sorted(vertices));
+        match known {
+            Some(triangle) => triangle.front = region,
+            None => triangles.push(Triangle {
+                vertices,
+                marker: 0,
+                front: OUTSIDE,
+                back: region,
+            }),
+        }
+    }
+    triangles.retain(|t| t.front != t.back);
+    template.triangles = triangles;
+    template
+}
+
+/// All faces of tetrahedra, which run counter-clockwise seen from outside of them, with their regions.
+fn faces_of(template: &Template) -> Vec<([u32; 3], u32)> {
+    let faces = |t: &Tet| FACES.map(|f| (f.map(|i| t.vertices[i]), t.region));
+    template.tets.iter().flat_map(faces).collect()
+}
+
+/// Area of the triangles of each facet.
+fn areas(template: &Template, parents: &[u32], facets: usize) -> Vec<f64> {
+    let mut areas = vec![0.0; facets];
+    for (i, t) in template.triangles.iter().enumerate() {
+        let [a, b, c] = t.vertices.map(|v| template.vertices[v as usize]);
+        let facet = i.checked_sub(facets).map_or(i, |new| parents[new] as usize);
+        areas[facet] += 0.5 * (b - a).cross(c - a).length();
+    }
+    areas
+}
+
+#[test]
+fn vertices_come_on_edges_of_the_surface() {
+    let wish = Wish {
+        angle: 30.0,
+        radius_edge: 1.4,
+        min_dihedral: 10.0,
+        max_volume: &FxHashMap::default(),
+        scale: 1.0,
+    };
+    let before = sector();
+    let (of_triangle, normals) = facets(&before);
+    let count = before.triangles.len();
+    let is_at_edge = |t: &Triangle| t.vertices.contains(&0) && t.vertices.contains(&1);
+    assert_eq!(before.triangles.iter().filter(|t| is_at_edge(t)).count(), 3);
+    let run = |template: &mut Template, slope: f64, kept: &[u32]| {
+        let flats = Flats {
+            of_triangle: &of_triangle,
+            normals: &normals,
+            slopes: &vec![slope; count],
+            fixed: &[],
+            kept,
+            straight: 1e-12,
+        };
+        let freedoms = Freedoms::new((&*template, 0), &flats);
+        improve(template, &freedoms, &wish)
+    };
+    // In flat facets, and where it is only the edges that may be divided.
+    for slope in [0.0, 0.1] {
+        let mut template = before.clone();
+        let (done, parents) = run(&mut template, slope, &[]);
+        assert!(done.inserted > 0, "{done:?}");
+        assert!(!template.triangles.iter().any(is_at_edge));
+        assert!(
+            template.vertices[7..]
+                .iter()
+                .any(|p| p.truncate() == DVec2::ZERO)
+        );
+        for region in [7, 8] {
+            let of = |t: &Template| -> Vec<Tet> {
+                t.tets
+                    .iter()
+                    .copied()
+                    .filter(|t| t.region == region)
+                    .collect()
+            };
+            let volumes = [&before, &template].map(|t| volume(t, &of(t)));
+            assert!((volumes[0] - volumes[1]).abs() < 1e-12, "{volumes:?}");
+        }
+        let areas = [
+            areas(&before, &[], count),
+            areas(&template, &parents, count),
+        ];
+        assert!(
+            areas[0]
+                .iter()
+                .zip(&areas[1])
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
+        // Triangles are the faces between regions, all of them, and the right way around.
+        let mut faces = faces_of(&template);
+        let mut take = |vertices: [u32; 3], region: u32| {
+            let is_it = |f: &([u32; 3], u32)| sorted(f.0) == sorted(vertices) && f.1 == region;
+            let place = faces.iter().position(is_it).expect("a face");
+            faces.remove(place).0
+        };
+        for t in &template.triangles {
+            let mut run = take(t.vertices, t.back);
+            while run[0] != t.vertices[0] {
+                run.rotate_left(1);
+            }
+            assert_eq!(run, t.vertices);
+            if t.front != OUTSIDE {
+                take(t.vertices, t.front);
+            }
+        }
+        let inside = faces.iter().map(|f| sorted(f.0)).collect::<FxHashSet<_>>();
+        assert_eq!(faces.len(), 2 * inside.len());
+    }
+    // Not where one of the triangles is to stay, and not on the axis.
+    let at_edge = before.triangles.iter().position(|t| is_at_edge(t));
+    let mut kept = before.clone();
+    run(&mut kept, 0.0, &[at_edge.expect("a triangle") as u32]);
+    let mut axis = before.clone();
+    axis.axis = vec![0, 1];
+    run(&mut axis, 0.0, &[]);
+    for same in [kept, axis] {
+        assert_eq!(same.triangles.iter().filter(|t| is_at_edge(t)).count(), 3);
+    }
 }
 
 /// A triangular prism from z = 0 to 1 with a vertex in the middle of its bottom and one on an upright edge.
