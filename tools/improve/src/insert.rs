@@ -8,15 +8,16 @@
 //! there is a cavity in each of the spaces that meet there.
 
 use crate::cavity::{Cavity, faces};
-use crate::crease::Crease;
 use crate::freedom::{Exact, Freedom, Freedoms};
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
 use crate::smooth::{Newcomer, settle};
-use crate::surface::{Sheet, outline};
+use crate::support::Support;
+use crate::surface::outline;
 use geom::measure::double_area_vector;
 use geom::tet::{EDGES, FACES};
 use glam::DVec3;
+use std::rc::Rc;
 
 /// Places from which the vertex is moved to where it is best: the best of all, beyond which the result is hardly ever
 /// better.
@@ -70,20 +71,11 @@ impl Insertion {
     }
 }
 
-/// Where a vertex comes to be.
-enum Site {
-    /// Inside of a region.
-    Inside,
-    /// In a flat patch of the surface with nothing beyond.
-    Sheet(Sheet),
-    /// On an edge of the surface.
-    Crease(Crease),
-}
-
 /// Tetrahedra that would make room for a vertex.
 struct Place {
     start: DVec3,
-    site: Site,
+    /// What of the surface the vertex is on, unless it is inside.
+    support: Option<Rc<Support>>,
     /// One in each of the spaces that the surface leaves there.
     cavities: Vec<Cavity>,
     /// The smallest quality of what would be there with the vertex at `start`.
@@ -94,25 +86,18 @@ struct Place {
 pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> Option<Insertion> {
     let corners = mesh.corners(tet);
     let points = corners.map(|v| mesh.positions[v as usize]);
-    let mut places: Vec<Place> = places(points)
-        .filter_map(|p| place(mesh, tet, p, Site::Inside))
+    let inside = places(points).map(|p| (p, None));
+    let triangles = faces(mesh, tet).filter_map(|face| Support::triangle(mesh, freedoms, face));
+    let edges = EDGES.iter().filter_map(|&[i, j]| {
+        let ends = [corners[i], corners[j]];
+        Support::edge(mesh, freedoms, ends)
+    });
+    let on_surface = triangles.chain(edges).map(Rc::new);
+    let on_surface = on_surface.flat_map(|s| s.places(mesh).map(move |p| (p, Some(s.clone()))));
+    let all = inside.chain(on_surface);
+    let mut places: Vec<Place> = all
+        .filter_map(|(start, support)| place(mesh, tet, start, support))
         .collect();
-    for (face, _) in faces(mesh, tet) {
-        let Some(sheet) = mesh.surface().sheet(face) else {
-            continue;
-        };
-        let exact = freedoms.within(&sheet).1;
-        let points = sheet.corners.map(|v| mesh.positions[v as usize]);
-        let there = places_on_face(points);
-        places.extend(there.filter_map(|p| place(mesh, tet, exact.place(p), Site::Sheet(sheet))));
-    }
-    for [i, j] in EDGES {
-        let Some(crease) = Crease::new(mesh, freedoms, [corners[i], corners[j]]) else {
-            continue;
-        };
-        let middle = crease.within.1.place((points[i] + points[j]) * 0.5);
-        places.extend(place(mesh, tet, middle, Site::Crease(crease)));
-    }
     // The vertex is moved from there, which takes time.
     places.sort_by(|a, b| b.least.total_cmp(&a.least));
     places.truncate(TRIED);
@@ -144,35 +129,19 @@ fn places(points: [DVec3; 4]) -> impl Iterator<Item = DVec3> {
     all.chain(towards.into_iter().filter(|p| p.is_finite()))
 }
 
-/// Where to try on a face: its middle, those of its edges, and the centre of its circumscribed circle.
-fn places_on_face([a, b, c]: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
-    let middle = (a + b + c) / 3.0;
-    let (u, v) = (b - a, c - a);
-    let normal = u.cross(v);
-    let sum = u.length_squared() * v.cross(normal) + v.length_squared() * normal.cross(u);
-    let centre = a + sum / (2.0 * normal.length_squared());
-    let edges = [[a, b], [b, c], [c, a]].map(|[p, q]| (p + q) * 0.5);
-    let all = std::iter::once(middle).chain(edges);
-    all.chain(Some(centre).filter(|p| p.is_finite()))
-}
-
 /// The cavities that suit a vertex at `start` for a tetrahedron.
-fn place(mesh: &Mesh<'_>, tet: u32, start: DVec3, site: Site) -> Option<Place> {
+fn place(mesh: &Mesh<'_>, tet: u32, start: DVec3, support: Option<Rc<Support>>) -> Option<Place> {
     let (above, _) = mesh.bounds(&[tet], GAIN, HALF_DIGITS);
-    let cavities = match &site {
-        Site::Inside => vec![Cavity::new(mesh, vec![tet], (start, above), |_| false)?],
-        Site::Sheet(sheet) => {
-            let is_open = |face| mesh.surface().is_in(sheet, face);
-            vec![Cavity::new(mesh, vec![tet], (start, above), is_open)?]
-        }
-        Site::Crease(crease) => {
+    let cavities = match &support {
+        None => vec![Cavity::new(mesh, vec![tet], (start, above), |_| false)?],
+        Some(support) => {
             let grown = |above: f64| -> Option<Vec<Cavity>> {
-                let is_open = |face| crease.is_divided(mesh, face);
-                let all = crease.spaces.iter();
+                let is_open = |face| support.is_divided(mesh, face);
+                let all = support.spaces.iter();
                 all.map(|space| Cavity::new(mesh, space.clone(), (start, above), is_open))
                     .collect()
             };
-            // Otherwise what is at the edge alone makes room.
+            // Otherwise what is there alone makes room.
             grown(above).or_else(|| grown(HALF_DIGITS))?
         }
     };
@@ -184,18 +153,16 @@ fn place(mesh: &Mesh<'_>, tet: u32, start: DVec3, site: Site) -> Option<Place> {
     Some(Place {
         least: qualities.fold(f64::INFINITY, f64::min),
         start,
-        site,
+        support,
         cavities,
     })
 }
 
 /// Fills cavities from a vertex that is moved to the best place, if that makes the worst tetrahedron better.
 fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, place: Place) -> Option<Insertion> {
-    let (within, edge) = match &place.site {
-        Site::Inside => ((Freedom::Free, Exact::default()), None),
-        Site::Sheet(sheet) => (freedoms.within(sheet), None),
-        Site::Crease(crease) => (crease.within, Some(crease.ends)),
-    };
+    let support = place.support.as_deref();
+    let within = support.map_or((Freedom::Free, Exact::default()), |s| s.within);
+    let edge = support.and_then(Support::ends);
     let all_old = place.cavities.iter().flat_map(|c| c.old.iter().copied());
     let (above, _) = mesh.bounds(&all_old.collect::<Vec<_>>(), GAIN, HALF_DIGITS);
     let vertex = mesh.positions.len() as u32;
@@ -213,12 +180,9 @@ fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, place: Place) -> Option<Insertion>
         .iter()
         .map(|g| g.quality)
         .fold(f64::INFINITY, f64::min);
-    let divided: Vec<Vec<[u32; 3]>> = match place.site {
-        Site::Inside => Vec::new(),
-        _ => mesh
-            .surface()
-            .by_patch(place.cavities.iter().flat_map(|c| &c.open)),
-    };
+    // None where the vertex is inside.
+    let open = place.cavities.iter().flat_map(|c| &c.open);
+    let divided = mesh.surface().by_patch(open);
     if least <= above || !divided.iter().all(|t| sees_all(mesh, at, t, edge)) {
         return None;
     }

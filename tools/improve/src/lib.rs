@@ -9,7 +9,6 @@
 mod ahead;
 mod cavity;
 mod coarsen;
-mod crease;
 mod flip;
 mod freedom;
 mod improve;
@@ -18,6 +17,7 @@ mod mesh;
 mod quality;
 mod smooth;
 mod stars;
+mod support;
 mod surface;
 
 #[cfg(test)]

@@ -496,7 +496,7 @@ fn vertices_come_on_edges_of_the_surface() {
         assert_eq!(faces.len(), 2 * inside.len());
     }
     // Not where one of the triangles is to stay, and not on the axis.
-    let at_edge = before.triangles.iter().position(|t| is_at_edge(t));
+    let at_edge = before.triangles.iter().position(is_at_edge);
     let mut kept = before.clone();
     run(&mut kept, 0.0, &[at_edge.expect("a triangle") as u32]);
     let mut axis = before.clone();

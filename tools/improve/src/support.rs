@@ -1,28 +1,45 @@
-//! Edges of the surface that a vertex may come to be on.
+//! Edges and triangles of the surface that a vertex may come to be on.
 //!
-//! Around such an edge, triangles of the surface and the spaces between them take turns. The vertex divides the triangles, and what is
-//! in each of the spaces makes room for it.
+//! Around an edge, triangles of the surface and the spaces between them take turns. The vertex divides the triangles, and what is in each
+//! of the spaces makes room for it.
 
 use crate::freedom::{Exact, Freedom, Freedoms};
 use crate::mesh::Mesh;
 use crate::surface::Sheet;
+use arrayvec::ArrayVec;
+use glam::DVec3;
 
-/// An edge of the surface.
-pub struct Crease {
-    /// Its ends.
-    pub ends: [u32; 2],
+/// An edge of the surface, or a triangle with nothing beyond.
+pub struct Support {
+    /// Its two or three corners.
+    corners: ArrayVec<u32, 3>,
     /// The tetrahedra at it, those of each space.
     pub spaces: Vec<Vec<u32>>,
     /// What a vertex on it may do, and what it must keep.
     pub within: (Freedom, Exact),
-    /// Patches with nothing beyond at the edge, in which more triangles may be divided.
+    /// Patches with nothing beyond, in which more triangles may be divided.
     sheets: Vec<Sheet>,
 }
 
-impl Crease {
+impl Support {
+    /// A face of a tetrahedron, if it is a triangle of a patch with nothing beyond.
+    pub fn triangle(
+        mesh: &Mesh<'_>,
+        freedoms: &Freedoms,
+        (face, tet): ([u32; 3], u32),
+    ) -> Option<Self> {
+        let sheet = mesh.surface().sheet(face)?;
+        Some(Self {
+            corners: face.into(),
+            spaces: vec![vec![tet]],
+            within: freedoms.within(&sheet),
+            sheets: vec![sheet],
+        })
+    }
+
     /// The edge between two vertices, if it is on the surface and all triangles there may be divided. Edges with an end on the axis
     /// stay.
-    pub fn new(mesh: &Mesh<'_>, freedoms: &Freedoms, ends: [u32; 2]) -> Option<Self> {
+    pub fn edge(mesh: &Mesh<'_>, freedoms: &Freedoms, ends: [u32; 2]) -> Option<Self> {
         let [a, b] = ends;
         if freedoms.is_on_axis(a) || freedoms.is_on_axis(b) {
             return None;
@@ -85,16 +102,43 @@ impl Crease {
             }
         };
         Some(Self {
-            ends,
+            corners: ends.into_iter().collect(),
             spaces,
             within,
             sheets,
         })
     }
 
+    /// The ends of an edge.
+    pub fn ends(&self) -> Option<[u32; 2]> {
+        match self.corners[..] {
+            [a, b] => Some([a, b]),
+            _ => None,
+        }
+    }
+
+    /// Places to try: the middle, and for a triangle, those of its edges and the centre of its circumscribed circle.
+    pub fn places(&self, mesh: &Mesh<'_>) -> impl Iterator<Item = DVec3> + use<> {
+        let points: ArrayVec<DVec3, 3> = (self.corners.iter())
+            .map(|&v| mesh.positions[v as usize])
+            .collect();
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        let mut all = ArrayVec::<DVec3, 5>::from_iter([middle]);
+        if let [a, b, c] = points[..] {
+            all.extend([[a, b], [b, c], [c, a]].map(|[p, q]| (p + q) * 0.5));
+            let (u, v) = (b - a, c - a);
+            let normal = u.cross(v);
+            let sum = u.length_squared() * v.cross(normal) + v.length_squared() * normal.cross(u);
+            let centre = a + sum / (2.0 * normal.length_squared());
+            all.extend(Some(centre).filter(|p| p.is_finite()));
+        }
+        let exact = self.within.1;
+        all.into_iter().map(move |p| exact.place(p))
+    }
+
     /// Whether a face of what makes room for the vertex is one that it divides.
     pub fn is_divided(&self, mesh: &Mesh<'_>, face: [u32; 3]) -> bool {
-        self.ends.iter().all(|v| face.contains(v))
+        self.corners.iter().all(|v| face.contains(v))
             || self.sheets.iter().any(|s| mesh.surface().is_in(s, face))
     }
 }
