@@ -166,7 +166,8 @@ impl Laboratory {
             return Ok(verdict);
         }
         let report = report(folder, "symmetry.json")?;
-        let distance = surface::distance(subject, &folder.join(output))?;
+        let distance =
+            surface::distance(subject, &folder.join(output), surface::is_union(&report))?;
         let deviation = deviation + surface::moved(folder)?;
         Ok(verdict::of_distance(&report, deviation, &distance))
     }

@@ -5,6 +5,7 @@ use bodies::Dice;
 use geom::tolerance::{Extent, Tolerance};
 use geom::tree::Tree;
 use glam::DVec3;
+use serde_json::Value;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::Path;
@@ -48,7 +49,7 @@ impl Asked {
 
 /// How far surfaces are from each other, model units.
 pub struct Measured {
-    /// The largest distance, measured both ways at corners and middles of triangles.
+    /// The largest distance, measured at corners and middles of triangles.
     pub distance: f64,
     /// The largest distance of a point of the body from the mesh's axis.
     pub radius: f64,
@@ -56,11 +57,12 @@ pub struct Measured {
     pub equal: f64,
 }
 
-/// Compares the surfaces of a body and of an assembled mesh.
+/// Compares the surfaces of a body and of an assembled mesh: only from the mesh to the body if that is a union, inside of which
+/// parts of its surface are gone.
 ///
 /// # Errors
 /// Fails when the mesh cannot be read.
-pub fn distance(subject: &Subject, mesh: &Path) -> io::Result<Measured> {
+pub fn distance(subject: &Subject, mesh: &Path, is_union: bool) -> io::Result<Measured> {
     let file = BufReader::new(File::open(mesh)?);
     let document = tmesh::read(file).map_err(io::Error::other)?;
     let body = &subject.body;
@@ -74,9 +76,21 @@ pub fn distance(subject: &Subject, mesh: &Path) -> io::Result<Measured> {
     let extent = Extent::about(&body.vertices, origin, rotation.z_axis);
     let precision = document.source.as_ref().map_or(0.0, |s| s.precision);
     Ok(Measured {
-        distance: one_way(&known, &found).max(one_way(&found, &known)),
+        distance: match is_union {
+            true => one_way(&found, &known),
+            false => one_way(&known, &found).max(one_way(&found, &known)),
+        },
         radius: extent.radius,
         equal: Tolerance::new(extent, precision, 0.0).equal(),
+    })
+}
+
+/// Whether symdetect reports that a body fills some space more than once.
+pub fn is_union(symmetry: &Value) -> bool {
+    let volumes = symmetry["joined"]["volumes"].as_array();
+    volumes.into_iter().flatten().any(|of| {
+        let [before, after] = ["before", "after"].map(|key| of[key].as_f64());
+        before > after
     })
 }
 
@@ -116,6 +130,16 @@ mod tests {
     use super::*;
     use crate::trial::Kind;
     use tmesh::{Template, Triangle};
+
+    #[test]
+    fn bodies_that_fill_a_space_twice_are_unions() {
+        let report = |before: f64| {
+            let volumes = [serde_json::json!({"before": before, "after": 0.5})];
+            serde_json::json!({"joined": {"volumes": volumes}})
+        };
+        assert!(is_union(&report(0.6)) && !is_union(&report(0.5)));
+        assert!(!is_union(&serde_json::json!({"joined": null})));
+    }
 
     #[test]
     fn a_surface_that_was_moved_is_as_far_as_it_was_moved() {

@@ -95,7 +95,7 @@ impl Laboratory {
             volume: number(&quality["volume"]),
             seconds,
         };
-        let measured = surface::distance(subject, &folder.join("mesh.tmesh"))?;
+        let measured = surface::distance(subject, &folder.join("mesh.tmesh"), false)?;
         let known: f64 = subject.regions.iter().map(|r| r.volume).sum();
         versus.distance = measured.distance / measured.radius;
         versus.volume = (figures.volume - known) / known;
