@@ -38,44 +38,14 @@ impl Support {
     }
 
     /// The edge between two vertices, if it is on the surface and all triangles there may be divided. Edges with an end on the axis
-    /// stay.
+    /// stay, and those that touch a wall.
     pub fn edge(mesh: &Mesh<'_>, freedoms: &Freedoms, ends: [u32; 2]) -> Option<Self> {
         let [a, b] = ends;
-        if freedoms.is_on_axis(a) || freedoms.is_on_axis(b) {
+        let is_kept = freedoms.is_on_axis(a) || freedoms.is_on_axis(b);
+        if is_kept || mesh.surface().is_touching(ends) {
             return None;
         }
-        let around = mesh.star(a).iter().copied();
-        let mut left: Vec<u32> = around.filter(|&t| mesh.corners(t).contains(&b)).collect();
-        let mut spaces: Vec<Vec<u32>> = Vec::new();
-        // The other corner of each triangle of the surface at the edge.
-        let mut corners: Vec<u32> = Vec::new();
-        let others = |tet: u32| mesh.corners(tet).into_iter().filter(|v| !ends.contains(v));
-        while let Some(first) = left.pop() {
-            let mut space = vec![first];
-            let mut open: Vec<u32> = others(first).collect();
-            while let Some(c) = open.pop() {
-                let is_next = |t: &u32| mesh.corners(*t).contains(&c);
-                let next = left
-                    .iter()
-                    .position(is_next)
-                    .filter(|&i| mesh.region(left[i]) == mesh.region(first));
-                match next.filter(|_| !mesh.is_fixed_face([a, b, c])) {
-                    Some(i) => {
-                        let tet = left.swap_remove(i);
-                        space.push(tet);
-                        open.extend(others(tet).filter(|&v| v != c));
-                    }
-                    // The last face of a ring around an edge inside is between two that are known.
-                    None if mesh.is_fixed_face([a, b, c]) || !closes(mesh, &space, c) => {
-                        corners.push(c);
-                    }
-                    None => {}
-                }
-            }
-            spaces.push(space);
-        }
-        corners.sort_unstable();
-        corners.dedup();
+        let (spaces, corners) = spaces_around(mesh, ends);
         if corners.is_empty() {
             return None;
         }
@@ -143,8 +113,39 @@ impl Support {
     }
 }
 
-/// Whether two of some tetrahedra have a vertex.
-fn closes(mesh: &Mesh<'_>, space: &[u32], v: u32) -> bool {
-    let at = space.iter().filter(|&&t| mesh.corners(t).contains(&v));
-    at.count() == 2
+/// The tetrahedra at an edge, those of each space that the surface leaves there, and the third corners of the triangles of the surface,
+/// increasing.
+fn spaces_around(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> (Vec<Vec<u32>>, Vec<u32>) {
+    let around = mesh.star(a).iter().copied();
+    let mut left: Vec<u32> = around.filter(|&t| mesh.corners(t).contains(&b)).collect();
+    let others = |tet: u32| {
+        let corners = mesh.corners(tet).into_iter();
+        corners.filter(move |&v| v != a && v != b)
+    };
+    let mut spaces: Vec<Vec<u32>> = Vec::new();
+    let mut corners: Vec<u32> = Vec::new();
+    while let Some(first) = left.pop() {
+        let mut space = vec![first];
+        let mut open: Vec<u32> = others(first).collect();
+        while let Some(c) = open.pop() {
+            let is_fixed = mesh.is_fixed_face([a, b, c]);
+            let beyond = left.iter().position(|&t| mesh.corners(t).contains(&c));
+            let next = beyond.filter(|&i| !is_fixed && mesh.region(left[i]) == mesh.region(first));
+            if let Some(i) = next {
+                let tet = left.swap_remove(i);
+                space.push(tet);
+                open.extend(others(tet).filter(|&v| v != c));
+                continue;
+            }
+            // The last face of a ring around an edge inside is between two that are known.
+            let known = space.iter().filter(|&&t| mesh.corners(t).contains(&c));
+            if is_fixed || known.count() < 2 {
+                corners.push(c);
+            }
+        }
+        spaces.push(space);
+    }
+    corners.sort_unstable();
+    corners.dedup();
+    (spaces, corners)
 }

@@ -8,7 +8,7 @@
 
 use crate::freedom::Flats;
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Gluing, OUTSIDE, Template};
 
 /// The triangles of a template's surface, and where their edges may be replaced.
@@ -21,6 +21,8 @@ pub struct Surface {
     regions: Vec<[u32; 2]>,
     /// The triangle that each one on a seam is glued to, and the partners of its vertices.
     twins: FxHashMap<u32, (u32, [u32; 3])>,
+    /// Edges that others have, too, where only they touch a wall: no triangle of it is there.
+    touching: FxHashSet<[u32; 2]>,
     /// Number of the triangle between three vertices.
     numbers: FxHashMap<[u32; 3], u32>,
     /// Unit normal of each facet, which are the first patches.
@@ -103,6 +105,7 @@ impl Surface {
         let first = flats.normals.len() as u32;
         let mut kinds: FxHashMap<_, u32> = FxHashMap::default();
         for (g, gluing) in template.gluings.iter().enumerate() {
+            surface.touch(gluing, own);
             if gluing.other_than(own).is_some() {
                 surface.keep(gluing.triangle_pairs.iter().map(|p| p[0]));
                 continue;
@@ -128,6 +131,30 @@ impl Surface {
         for t in triangles {
             self.patches[t as usize] = Patch::Kept;
         }
+    }
+
+    /// Notes the edges between vertices of a wall that are at none of its triangles.
+    fn touch(&mut self, gluing: &Gluing, own: usize) {
+        let mut sides = vec![gluing.vertices_here().collect::<FxHashSet<u32>>()];
+        let mut triangles: FxHashSet<u32> = gluing.triangle_pairs.iter().map(|p| p[0]).collect();
+        if gluing.other_than(own).is_none() {
+            sides.push(gluing.vertices_there().collect());
+            triangles.extend(gluing.triangle_pairs.iter().map(|p| p[1]));
+        }
+        let of = |t: u32| edges(self.triangles[t as usize]);
+        let of_wall: FxHashSet<[u32; 2]> = triangles.iter().flat_map(|&t| of(t)).collect();
+        let all = self.triangles.iter().flat_map(|&t| edges(t));
+        let is_on = |edge: &[u32; 2]| {
+            let on = |side: &FxHashSet<u32>| edge.iter().all(|v| side.contains(v));
+            sides.iter().any(on)
+        };
+        let touching = all.filter(|edge| is_on(edge) && !of_wall.contains(edge));
+        self.touching.extend(touching.collect::<Vec<_>>());
+    }
+
+    /// Whether an edge touches a wall, so that what is beyond has it, too.
+    pub fn is_touching(&self, [a, b]: [u32; 2]) -> bool {
+        self.touching.contains(&[a.min(b), a.max(b)])
     }
 
     /// Notes which triangles of a seam are the same in the assembled mesh; `patch` numbers those on each side that may have
@@ -348,6 +375,11 @@ pub fn outline(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
         .collect()
 }
 
+/// The edges of a triangle, each from its lower to its higher end.
+fn edges([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
+    [[a, b], [b, c], [c, a]].map(|[p, q]| [p.min(q), p.max(q)])
+}
+
 /// Whether the way around a triangle goes from `a` to `b`.
 fn runs([x, y, z]: [u32; 3], a: u32, b: u32) -> bool {
     [(x, y), (y, z), (z, x)].contains(&(a, b))
@@ -489,6 +521,15 @@ mod tests {
         assert!(!divisible(surface(&square(5, 5), &[7, 7], &[])));
         assert!(!divisible(surface(&square(4, 5), &[7, 7], &[0])));
         assert!(!divisible(surface(&seam(0), &[7; 4], &[])));
+        // An edge that touches a wall is also that of what is beyond.
+        let mut touching = square(OUTSIDE, 5);
+        let mirror = Isometry::reflection(0, 1);
+        touching.gluings = vec![Gluing::mirror("wall-a", 0, mirror, [0, 2], [])];
+        let touching = surface(&touching, &[7, 7], &[]);
+        assert!(touching.is_touching([2, 0]) && !touching.is_touching([1, 2]));
+        let mut wall = square(OUTSIDE, 5);
+        wall.gluings = vec![Gluing::mirror("wall-a", 0, mirror, 0..4, 0..2)];
+        assert!(!surface(&wall, &[7, 7], &[]).is_touching([2, 0]));
         // Not inside of triangles of interfaces, not on seams, not in what leans.
         assert!(
             surface(&square(4, 5), &[7, 7], &[])
