@@ -6,6 +6,7 @@ mod pipe;
 mod spoilt;
 mod subject;
 mod surface;
+mod union;
 mod verdict;
 mod versus;
 
@@ -166,8 +167,7 @@ impl Laboratory {
             return Ok(verdict);
         }
         let report = report(folder, "symmetry.json")?;
-        let distance =
-            surface::distance(subject, &folder.join(output), surface::is_union(&report))?;
+        let distance = surface::distance(subject, &folder.join(output), union::is_union(&report))?;
         let deviation = deviation + surface::moved(folder)?;
         Ok(verdict::of_distance(&report, deviation, &distance))
     }

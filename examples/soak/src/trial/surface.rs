@@ -5,7 +5,6 @@ use bodies::Dice;
 use geom::tolerance::{Extent, Tolerance};
 use geom::tree::Tree;
 use glam::DVec3;
-use serde_json::Value;
 use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::Path;
@@ -85,15 +84,6 @@ pub fn distance(subject: &Subject, mesh: &Path, is_union: bool) -> io::Result<Me
     })
 }
 
-/// Whether symdetect reports that a body fills some space more than once.
-pub fn is_union(symmetry: &Value) -> bool {
-    let volumes = symmetry["joined"]["volumes"].as_array();
-    volumes.into_iter().flatten().any(|of| {
-        let [before, after] = ["before", "after"].map(|key| of[key].as_f64());
-        before > after
-    })
-}
-
 /// How far the mesh in a folder says that faces which are nearly flat were moved, relative to the radius about the axis.
 ///
 /// # Errors
@@ -130,16 +120,6 @@ mod tests {
     use super::*;
     use crate::trial::Kind;
     use tmesh::{Template, Triangle};
-
-    #[test]
-    fn bodies_that_fill_a_space_twice_are_unions() {
-        let report = |before: f64| {
-            let volumes = [serde_json::json!({"before": before, "after": 0.5})];
-            serde_json::json!({"joined": {"volumes": volumes}})
-        };
-        assert!(is_union(&report(0.6)) && !is_union(&report(0.5)));
-        assert!(!is_union(&serde_json::json!({"joined": null})));
-    }
 
     #[test]
     fn a_surface_that_was_moved_is_as_far_as_it_was_moved() {
