@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::process::CommandExt;
 use std::path::Path;
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Instant, SystemTime};
 
@@ -107,4 +107,28 @@ fn make_is_interrupted() {
         }
         tally.close();
     }
+}
+
+/// The generator's files are there when they are whole, all of them or none.
+#[test]
+fn bodies_that_cannot_be_written_leave_nothing() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let output = folder.path().join("gear.stl");
+    let nowhere = folder.path().join("none/volumes.json");
+    let made = Command::new(support::generator())
+        .args(["gear", "--order", "8", "--output"])
+        .arg(&output)
+        .arg("--volumes")
+        .arg(&nowhere)
+        .output()
+        .expect("the generator was built");
+    assert_eq!(made.status.code(), Some(4));
+    assert!(made.stdout.is_empty());
+    let said = String::from_utf8_lossy(&made.stderr);
+    let wanted = format!("body: error: cannot write {}", nowhere.display());
+    assert!(
+        said.starts_with(&wanted) && said.lines().count() == 1,
+        "{said}"
+    );
+    assert!(files(folder.path()).is_empty());
 }

@@ -322,7 +322,7 @@ fn vertices_come_on_mirror_planes() {
     let (_, normals) = facets(&template);
     let of_triangle = [0, 0, 0, 3, 4, 5, 6, 7];
     let before = freedoms(&template, &of_triangle, &normals);
-    // In no patch, nothing can be done.
+    // In no patch, triangles stay but for what a vertex on their edges divides.
     let mut same = template.clone();
     let wish = Wish {
         angle: 45.0,
