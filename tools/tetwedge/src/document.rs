@@ -1,10 +1,11 @@
 //! The whole document: every template meshed, walls between templates renumbered.
 
+use crate::done::Done;
 use crate::fill::{Filled, NONE};
 use crate::follow::{Follow, Followed, Led, follower};
 use crate::leads::leader;
 use crate::settle::{Settled, settle};
-use crate::template::{Done, Job, template};
+use crate::template::{Job, template};
 use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
 use periodic_surf::{apart, note_moved};
 use rayon::prelude::*;

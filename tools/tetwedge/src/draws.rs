@@ -1,19 +1,19 @@
 //! Templates of few elements are filled several times, and the best is taken.
 
-use crate::template::Done;
+use crate::done::Done;
 use geom::tet::TetMeasures;
 use mesher::{Asks, Attempt, Climb, Description, EASING, Log, Order, Params, Room};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
-/// Up to so many elements the first percentile of the angles is the smallest one, which is that of a single element and a matter of
-/// luck; and another mesh takes a few milliseconds.
-const FEW: usize = 100;
+/// The draws of a template have about so many elements together, so that they take a few hundredths of a second. How good a mesh of
+/// few elements is, is a matter of luck: its smallest angle is that of one element, and its first percentile, too, up to a hundred.
+const DRAWN: usize = 1600;
 
-/// How often such a template is filled anew: equivalent descriptions of its surface, with usual and stricter bounds and angles to reach in
+/// How often a template is filled anew at most: equivalent descriptions of its surface, with usual and stricter bounds and angles to reach in
 /// turn. Measured on 68 small bodies, ten of which TetGen alone gives a larger first percentile without draws: 3 have it after
 /// sixteen draws, 5 after eight at the usual angles, and the smallest angles are 16 % and 5 % larger, with 9 % and 5 % more elements.
-const DRAWS: u64 = 16;
+const DRAWS: usize = 16;
 
 /// Factors of the bounds asked for, those of the radius-edge ratio and of the smallest dihedral angle, instead of [`EASING`].
 const STRICTER: [f64; 2] = [0.9, 2.0];
@@ -22,40 +22,68 @@ const STRICTER: [f64; 2] = [0.9, 2.0];
 /// one to reach is 40 degrees. A choice: all of 70.5 are those of a regular tetrahedron, which fill no body; few bodies have 40 throughout.
 const LARGEST: f64 = 100.0;
 
+/// How often a template of so many elements is filled anew.
+pub fn draws(elements: usize) -> usize {
+    DRAWS.min(DRAWN / elements.max(1))
+}
+
 /// Of a template that was filled and others, the one that is best, and whether that is another; `again` fills it once more. What is not
 /// to be improved stays as it is, as does what the user's own switches say how to mesh, and what cannot be as asked: there it is not luck.
+///
+/// Stricter bounds take several times as long and are for templates that are filled as often as any. Where edges have a length that was
+/// asked for, angles beyond those of good elements are no reason for shorter ones.
 pub fn best_of_draws(
     climb: &Climb<'_>,
     first: Done,
     again: impl Fn(&Climb<'_>, Attempt) -> Option<Done> + Sync,
 ) -> (Done, bool) {
     let filled = &first.filled;
+    let count = draws(filled.template.tets.len());
     let is_as_asked =
         filled.improved.is_some() && first.advice.is_none() && climb.params.switches.is_empty();
-    if !is_as_asked || filled.template.tets.len() > FEW {
+    let angle = climb.params.angle().filter(|_| is_as_asked && count > 0);
+    let Some(angle) = angle else {
         return (first, false);
-    }
-    let room = Room::beside(filled.template.vertices.len());
+    };
     let strict = Params {
         optimize: climb.params.optimize.map(|largest| largest.min(LARGEST)),
         ..climb.params.clone()
     };
-    let goals = [climb.params, &strict];
-    let quiet = |draw: u64| Climb {
-        params: goals[(draw / 2 % 2) as usize],
-        rungs: &[],
-        log: Log::new(&|_| ()),
-        ..*climb
+    let all = [
+        (EASING, climb.params),
+        (STRICTER, climb.params),
+        (EASING, &strict),
+        (STRICTER, &strict),
+    ];
+    let is_sized = climb.sizes.of_region.iter().any(Option::is_some);
+    let ways = match is_sized || count < DRAWS {
+        true => &all[..1],
+        false => &all[..],
     };
-    let draws = (0..DRAWS).into_par_iter();
-    let others: Vec<Option<Done>> = draws
-        .map(|draw| again(&quiet(draw), attempt(draw, room)))
+    let enough = match is_sized {
+        true => angle,
+        false => strict.angle().unwrap_or(angle),
+    };
+    let score = |done: &Done| Score::new(done, enough);
+    let room = score(&first).room(filled.template.vertices.len(), enough);
+    let others: Vec<Option<Done>> = (0..count)
+        .into_par_iter()
+        .map(|draw| {
+            let (factors, params) = ways[draw % ways.len()];
+            let quiet = Climb {
+                params,
+                rungs: &[],
+                log: Log::new(&|_| ()),
+                ..*climb
+            };
+            again(&quiet, attempt(draw as u64, factors, room))
+        })
         .collect();
     let failed = first.failed;
     let mut best = first;
     let mut is_another = false;
     for other in others.into_iter().flatten() {
-        if is_better(&other, &best) {
+        if score(&other).is_better_than(&score(&best)) {
             best = other;
             is_another = true;
         }
@@ -64,20 +92,16 @@ pub fn best_of_draws(
         climb.log.detail(&format!(
             "template {}: the best of {} meshes has {} tetrahedra, none with an angle below {:.1} degrees",
             climb.piece.index,
-            DRAWS + 1,
+            count + 1,
             best.filled.template.tets.len(),
-            worst(&best),
+            score(&best).angle,
         ));
     }
     (Done { failed, ..best }, is_another)
 }
 
 /// The attempt of a draw. Refinement to stricter bounds may not come to an end.
-fn attempt(draw: u64, room: Room) -> Attempt {
-    let factors = match draw % 2 {
-        0 => EASING,
-        _ => STRICTER,
-    };
+fn attempt(draw: u64, factors: [f64; 2], room: Room) -> Attempt {
     Attempt {
         description: Description {
             order: Order::Shuffled(draw),
@@ -90,24 +114,50 @@ fn attempt(draw: u64, room: Room) -> Attempt {
     }
 }
 
-/// Whether one has fewer elements that fail what is asked for, or as many and fewer elements for what its smallest angle is worth: its
-/// cube, as edges that are shorter by a part make as many more elements. Whole degrees count.
-fn is_better(one: &Done, other: &Done) -> bool {
-    let failing = |done: &Done| done.filled.improved.map_or(0, |i| i.past + i.low);
-    let elements = |done: &Done| done.filled.template.tets.len() as f64;
-    let worth = |done: &Done| worst(done).floor().powi(3);
-    match failing(one).cmp(&failing(other)) {
-        Ordering::Equal => elements(one) * worth(other) < elements(other) * worth(one),
-        differ => differ.is_lt(),
-    }
+/// How good a mesh is.
+struct Score {
+    /// Elements that fail what is asked for.
+    failing: usize,
+    elements: usize,
+    /// The smallest dihedral angle of all elements, degrees.
+    angle: f64,
+    /// What that is worth in elements: its cube, as edges that are shorter by a part make as many more elements. Whole degrees count, up
+    /// to those that are enough.
+    worth: f64,
 }
 
-/// The smallest dihedral angle of all elements, degrees.
-fn worst(done: &Done) -> f64 {
-    let template = &done.filled.template;
-    let angles = template.tets.iter().map(|tet| {
-        let corners = tet.vertices.map(|v| template.vertices[v as usize]);
-        TetMeasures::of(corners).min_dihedral().to_degrees()
-    });
-    angles.fold(f64::INFINITY, f64::min)
+impl Score {
+    fn new(done: &Done, enough: f64) -> Self {
+        let template = &done.filled.template;
+        let angles = template.tets.iter().map(|tet| {
+            let corners = tet.vertices.map(|v| template.vertices[v as usize]);
+            TetMeasures::of(corners).min_dihedral().to_degrees()
+        });
+        let angle = angles.fold(f64::INFINITY, f64::min);
+        Self {
+            failing: done.filled.improved.map_or(0, |i| i.past + i.low),
+            elements: template.tets.len(),
+            angle,
+            worth: angle.min(enough).floor().powi(3),
+        }
+    }
+
+    /// Whether it has fewer elements that fail, or as many and fewer elements for what the smallest angle is worth.
+    fn is_better_than(&self, other: &Self) -> bool {
+        let price = |one: &Self, other: &Self| one.elements as f64 * other.worth;
+        match self.failing.cmp(&other.failing) {
+            Ordering::Equal => price(self, other) < price(other, self),
+            differ => differ.is_lt(),
+        }
+    }
+
+    /// Room for all meshes that are better than one of so many vertices, which have `enough` degrees at best. Improvement begins with
+    /// taking vertices out, up to every other one.
+    fn room(&self, vertices: usize, enough: f64) -> Room {
+        let times = match self.failing {
+            0 => 2.0 * enough.powi(3) / self.worth,
+            _ => f64::INFINITY,
+        };
+        Room::beside(vertices, times)
+    }
 }

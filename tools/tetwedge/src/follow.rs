@@ -1,7 +1,8 @@
 //! A template that shares faces with one that was meshed before.
 
+use crate::done::Done;
 use crate::fill::Filled;
-use crate::template::{Done, Job, template};
+use crate::template::{Job, template};
 use mesher::{Deadline, Error, Piece};
 use periodic_surf::{Other, impose, make};
 use tmesh::Template;

@@ -8,6 +8,7 @@
 
 mod cli;
 mod document;
+mod done;
 mod draws;
 mod fill;
 mod follow;

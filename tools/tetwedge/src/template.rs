@@ -1,11 +1,10 @@
-//! One template: filled, improved, checked, and those that follow it.
+//! One template: how it is meshed.
 
-use crate::draws::best_of_draws;
-use crate::fill::{Filled, fill, finish};
-use improve::Leaves;
+use crate::done::{Done, done};
+use crate::draws::{best_of_draws, draws};
+use crate::fill::Filled;
 use mesher::{
-    Answer, Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Progress,
-    Sizes, TetGen,
+    Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
 };
 use tmesh::Document;
 
@@ -41,22 +40,8 @@ impl<'a> Job<'a> {
     }
 }
 
-/// A filled template, and what there is to say about it.
-pub struct Done {
-    /// The template.
-    pub filled: Filled,
-    /// TetGen's switches.
-    pub switches: String,
-    /// What the user should know or do otherwise.
-    pub advice: Option<String>,
-    /// Descriptions that failed before.
-    pub failed: usize,
-    /// Whether faces are uneven, so that the surface is off the one that was given.
-    pub is_uneven: bool,
-}
-
 /// Meshes a template, with the bounds eased if elements are improved afterwards. What it shares with others is settled
-/// before: where there are threads, `beside` works on that at the same time, and what it makes of it is returned.
+/// before: where there are threads and only one mesh is made, `beside` works on that at the same time, and what it makes of it is returned.
 ///
 /// # Errors
 /// See [`Error`].
@@ -69,114 +54,17 @@ pub fn template<B: Send>(
         false => Asks::AsWished,
     };
     let beside = beside.filter(|_| rayon::current_num_threads() > 1);
+    let beside = beside.map(|beside| {
+        move |filled: &Filled| (draws(filled.template.tets.len()) == 0).then(|| beside(filled))
+    });
+    let beside = beside
+        .as_ref()
+        .map(|b| b as &(dyn Fn(&Filled) -> Option<B> + Sync));
     let (first, made) = climb.climb(Attempt::new(asks), |answer| done(climb, answer, beside))?;
     let again = |climb: &Climb<'_>, attempt| {
         let done = climb.climb(attempt, |answer| done::<()>(climb, answer, None));
         Some(done.ok()?.0)
     };
     let (best, is_another) = best_of_draws(climb, first, again);
-    let made = match beside.filter(|_| is_another) {
-        Some(beside) => Some(beside(&best.filled)),
-        None => made,
-    };
-    Ok((best, made))
-}
-
-/// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where
-/// one in a hundred fails, these weigh as much as all others.
-const FAILING: usize = 100;
-
-/// Where one in so many elements fails, it is the shape, and no coarsening helps: a thin layer drawn with needles takes a minute to improve, and
-/// another one for nothing. Impellers have one in thirty.
-const HOPELESS: usize = 10;
-
-/// The mesher's answer coarsened within the bound that it was given, where coarser elements could not all be mended and this is better. Improvement is
-/// chaotic where shapes leave it little room, and the better one of two has fewer bad outcomes: of 12 placements of an impeller, 1.70 % of
-/// the elements are past the radius-edge bound in the mean, and 1.90 % at most; 1.78 and 2.06 % without. Faces that other templates
-/// share are settled before anything is mended, so that templates with such faces have one way only.
-fn bounded(climb: &Climb<'_>, answer: &Answer, filled: &Filled) -> Option<Filled> {
-    let weight = |filled: &Filled| {
-        let failing = filled.improved.map_or(0, |done| done.past + done.low);
-        (failing, filled.template.tets.len() + FAILING * failing)
-    };
-    let (failing, most) = weight(filled);
-    let is_hopeless = HOPELESS * failing > filled.template.tets.len();
-    if failing == 0 || is_hopeless || filled.removed == 0 || !filled.shared.is_empty() {
-        return None;
-    }
-    let [ratio, _] = EASING;
-    let (mut other, origin) = fill(climb, answer, Leaves::Within(ratio)).ok()?;
-    finish(climb, &answer.plc, &mut other, origin).ok()?;
-    (weight(&other).1 < most).then_some(other)
-}
-
-/// Makes a filled template of the mesher's answer.
-fn done<B: Send>(
-    climb: &Climb<'_>,
-    answer: Answer,
-    beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
-) -> Result<(Done, Option<B>), Error> {
-    let say = |text: &str| {
-        climb
-            .log
-            .detail(&format!("template {}: {text}", climb.piece.index))
-    };
-    let (mut filled, origin) = fill(climb, &answer, Leaves::Mendable)?;
-    climb.log.progress(&Progress {
-        template: climb.piece.index,
-        step: "improving elements",
-        points: filled.template.vertices.len() as f64,
-        tetrahedra: filled.template.tets.len() as f64,
-    });
-    let made = match beside {
-        Some(beside) => {
-            let surface = filled.shared_surface();
-            let (made, finished) = rayon::join(
-                || beside(&surface),
-                || finish(climb, &answer.plc, &mut filled, origin),
-            );
-            finished?;
-            Some(made)
-        }
-        None => {
-            finish(climb, &answer.plc, &mut filled, origin)?;
-            None
-        }
-    };
-    if let Some(better) = bounded(climb, &answer, &filled) {
-        say("coarser elements could not be mended, so that fewer vertices were taken out");
-        filled = better;
-    }
-    if let Some(done) = filled.improved {
-        say(&format!(
-            "{} tetrahedra to be improved, {} remain; {} vertices moved, {} added, {} edges and faces replaced",
-            done.bad, done.left, done.moved, done.inserted, done.flipped,
-        ));
-    }
-    if filled.removed > 0 {
-        say(&format!(
-            "{} vertices of the mesher's were taken out that the elements do not need",
-            filled.removed
-        ));
-    }
-    say(&format!(
-        "{} tetrahedra, {} vertices; checked in {:.3} s",
-        filled.template.tets.len(),
-        filled.template.vertices.len(),
-        answer.meshed.elapsed().as_secs_f64(),
-    ));
-    if filled.dropped > 0 {
-        say(&format!(
-            "{} tetrahedra in voids were left out",
-            filled.dropped
-        ));
-    }
-    let done = Done {
-        filled,
-        switches: answer.mesh.told().to_owned(),
-        failed: answer.failed,
-        is_uneven: answer.plc.relief.is_there(),
-        advice: answer.advice,
-    };
-    Ok((done, made))
+    Ok((best, made.filter(|_| !is_another)))
 }

@@ -50,9 +50,9 @@ impl Room {
         Self(FAR * self.0)
     }
 
-    /// Far more than another mesh of the same surface has.
-    pub fn beside(vertices: usize) -> Self {
-        Self(FAR * vertices as f64)
+    /// So many times as many as another mesh of the same surface has, or far more.
+    pub fn beside(vertices: usize, times: f64) -> Self {
+        Self(times.min(FAR) * vertices as f64)
     }
 
     /// For a mesh that is taken as it is.
