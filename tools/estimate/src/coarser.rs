@@ -4,14 +4,6 @@ use crate::wedge::Wedge;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// What is asked of edges.
-pub struct Asked {
-    /// The angle by which edges turn along a curve, radians.
-    pub turn: f64,
-    /// Of each triangle, the length of edges at it, model units.
-    pub length: Vec<f64>,
-}
-
 /// An edge of a wedge.
 pub struct Edge {
     /// Its vertices.

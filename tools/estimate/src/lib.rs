@@ -20,10 +20,9 @@ mod way;
 mod ways;
 mod wedge;
 
-pub use coarser::Asked;
 pub use elements::{Estimate, Terms};
 pub use model::{Accepted, CostModel};
 pub use needles::needles;
 pub use way::{Cut, Way};
 pub use ways::{Bounds, Hubs, Ways};
-pub use wedge::{Wedge, edge_of_volume};
+pub use wedge::{Asked, Wedge, edge_of_volume};

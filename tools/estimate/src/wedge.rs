@@ -1,6 +1,5 @@
 //! A wedge as the estimate sees it: its surface, and which part of that the cuts have made.
 
-use crate::coarser::Asked;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Isometry, Template};
@@ -23,6 +22,14 @@ pub struct Wedge<'a> {
     pub asked: Option<Asked>,
     /// The image of a vertex on the partner of its cut face.
     pub partner: FxHashMap<u32, u32>,
+}
+
+/// What is asked of edges.
+pub struct Asked {
+    /// The angle by which edges turn along a curve, radians.
+    pub turn: f64,
+    /// Of each triangle, the length of edges at it, model units.
+    pub length: Vec<f64>,
 }
 
 impl<'a> Wedge<'a> {

@@ -9,6 +9,7 @@
 mod ahead;
 mod cavity;
 mod coarsen;
+mod flats;
 mod flip;
 mod freedom;
 mod improve;
@@ -24,5 +25,6 @@ mod surface;
 mod tests;
 
 pub use coarsen::{Coarse, Face, Leaves, coarsen};
-pub use freedom::{Flats, Freedoms};
+pub use flats::Flats;
+pub use freedom::Freedoms;
 pub use improve::{Improved, Wish, improve};

@@ -6,7 +6,7 @@
 //! topological improvement of tetrahedral meshes", 2002). Where there is material on the other side, the ring is closed there.
 //! Where there is none, a vertex may be put into triangles of a facet, which it divides.
 
-use crate::freedom::Flats;
+use crate::flats::Flats;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Gluing, OUTSIDE, Template};

@@ -1,8 +1,9 @@
-//! How far two surfaces are apart.
+//! How far two surfaces are apart, and what the document says of that.
 
+use geom::tolerance::ROUNDING;
 use geom::tree::Tree;
 use glam::DVec3;
-use tmesh::Template;
+use tmesh::{Document, Template};
 
 /// The largest distance between the surfaces of two templates, model units: both ways, at the corners of triangles, the middles of
 /// their edges and their own. n log n.
@@ -25,4 +26,14 @@ fn one_way(from: &Template, to: &Template) -> f64 {
     });
     let distances = points.filter_map(|p| Some(tree.nearest(p, f64::INFINITY)?.distance));
     distances.fold(0.0, f64::max)
+}
+
+/// Writes into the document how much farther, in model units, its surface is from the input's.
+pub fn note_moved(document: &mut Document, by: f64) {
+    if let Some(radius) = document.symmetry.as_ref().map(|found| found.radius)
+        && by > ROUNDING * radius
+    {
+        let earlier = document.wishes.moved.unwrap_or(0.0);
+        document.wishes.moved = Some(earlier + by / radius);
+    }
 }

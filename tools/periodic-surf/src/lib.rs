@@ -17,11 +17,12 @@ mod status;
 mod surface;
 
 pub use apart::apart;
+pub use apart::note_moved;
 pub use cli::Cli;
 pub use coarse::{Left, coarsened};
 pub use error::{SurfaceError, failure};
 pub use memory::MemoryArgs;
-pub use prepare::{Report, note_moved, prepare, settle_faces};
+pub use prepare::{Report, prepare, settle_faces};
 pub use shape::follow_shape;
 pub use status::watched;
 pub use surface::{Made, Other, impose, make};

@@ -1,10 +1,9 @@
 //! The whole document: what stands for a curved surface is remeshed, every template with a seam gets a new surface, and what follows it the shared face.
 
 use crate::SurfaceError;
-use crate::apart::apart;
+use crate::apart::{apart, note_moved};
 use crate::shape::follow_shape;
 use crate::surface::{Other, impose, make};
-use geom::tolerance::ROUNDING;
 use mesher::{Climb, Deadline, LADDER, Log, Params, Piece, Sizes, TetGen};
 use tmesh::{Document, Template};
 
@@ -124,16 +123,6 @@ pub fn settle_faces(
         document.wishes.keep_surface = Some(true);
     }
     Ok((document, report))
-}
-
-/// Writes into the document how much farther, in model units, its surface is from the input's.
-pub fn note_moved(document: &mut Document, by: f64) {
-    if let Some(radius) = document.symmetry.as_ref().map(|found| found.radius)
-        && by > ROUNDING * radius
-    {
-        let earlier = document.wishes.moved.unwrap_or(0.0);
-        document.wishes.moved = Some(earlier + by / radius);
-    }
 }
 
 fn has_seam(template: &Template, own: usize) -> bool {

@@ -1,7 +1,6 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
-use crate::apart::apart;
-use crate::prepare::note_moved;
+use crate::apart::{apart, note_moved};
 use crate::remeshed::{Remeshing, Smoothed, remeshed};
 use crate::surface::{same_body, same_size};
 use geom::tolerance::Tolerance;

@@ -12,6 +12,7 @@
 //! (Vlachos et al., 2001), but have the height of an arc above their chords: circles, cylinders and spheres are met.
 
 mod bent;
+mod bows;
 mod curves;
 mod drawing;
 mod faces;

@@ -1,7 +1,9 @@
 //! Gmsh: both versions are read alike, and written each for itself.
 
+mod file;
 mod node_data;
 mod read;
+mod scan;
 mod write;
 mod write2;
 

@@ -1,6 +1,6 @@
 //! Numbers at the nodes of a Gmsh mesh.
 
-use super::read::Reader;
+use super::scan::Scanner;
 use crate::ReadError;
 use crate::parsed::{PointArray, PointMesh};
 use crate::text::plain;
@@ -24,71 +24,68 @@ pub struct View {
 /// any number of such views for every one of its nodes.
 const LEAST: usize = 8;
 
-impl Reader<'_> {
-    /// Numbers at nodes: texts, the first of them a name; real numbers, the first of them a time; integers: a step, the number of
-    /// components, the number of nodes, perhaps a partition; then a line for each node.
-    pub(super) fn node_data(&mut self) -> Result<(), ReadError> {
-        let texts = self.tokens.count("the number of texts")?;
-        let mut name = String::new();
-        for i in 0..texts {
-            self.end_line();
-            let line = self.tokens.rest_of_line();
-            if line.is_empty() && self.tokens.left() == 0 {
-                return Err(self.tokens.error("a text expected, but the file ends here"));
-            }
-            if i == 0 {
-                let text = String::from_utf8_lossy(line);
-                name = plain(text.trim_matches('"'));
-            }
+/// Numbers at nodes: texts, the first of them a name; real numbers, the first of them a time; integers: a step, the number of
+/// components, the number of nodes, perhaps a partition; then a line for each node.
+///
+/// # Errors
+/// Bytes that do not follow the format.
+pub fn node_data(scan: &mut Scanner<'_>) -> Result<View, ReadError> {
+    let texts = scan.tokens.count("the number of texts")?;
+    let mut name = String::new();
+    for i in 0..texts {
+        scan.end_line();
+        let line = scan.tokens.rest_of_line();
+        if line.is_empty() && scan.tokens.left() == 0 {
+            return Err(scan.error("a text expected, but the file ends here"));
         }
-        for _ in 0..self.tokens.count("the number of real numbers")? {
-            self.tokens.number()?;
+        if i == 0 {
+            let text = String::from_utf8_lossy(line);
+            name = plain(text.trim_matches('"'));
         }
-        let integers = self.tokens.count("the number of integers")?;
-        let mut known = [0, 1, 0];
-        for i in 0..integers {
-            let value = self.tokens.integer("an integer of a view")?;
-            if let Some(known) = known.get_mut(i) {
-                *known = value;
-            }
-        }
-        let [step, components, count] = known;
-        let (Ok(components), Ok(count)) = (usize::try_from(components), u64::try_from(count))
-        else {
-            return Err(self
-                .tokens
-                .error(format!("{components} numbers at {count} nodes")));
-        };
-        self.end_line();
-        let each = 1 + components as u64;
-        self.fits(count, "the number of nodes", 2 * each, 8 * each - 4)?;
-        let mut view = View {
-            name,
-            step,
-            components,
-            nodes: Vec::with_capacity(count as usize),
-            values: Vec::with_capacity(count as usize * components),
-        };
-        for _ in 0..count {
-            let node = self.int("the number of a node")?;
-            view.nodes.push(u64::try_from(node).unwrap_or(u64::MAX));
-            for _ in 0..components {
-                let value = match self.binary {
-                    true => {
-                        let bytes = self.raw::<8>("a number at a node")?;
-                        match self.big {
-                            true => f64::from_be_bytes(bytes),
-                            false => f64::from_le_bytes(bytes),
-                        }
-                    }
-                    false => self.tokens.number()?,
-                };
-                view.values.push(value);
-            }
-        }
-        self.file.views.get_or_insert_default().push(view);
-        Ok(())
     }
+    for _ in 0..scan.tokens.count("the number of real numbers")? {
+        scan.tokens.number()?;
+    }
+    let integers = scan.tokens.count("the number of integers")?;
+    let mut known = [0, 1, 0];
+    for i in 0..integers {
+        let value = scan.tokens.integer("an integer of a view")?;
+        if let Some(known) = known.get_mut(i) {
+            *known = value;
+        }
+    }
+    let [step, components, count] = known;
+    let (Ok(components), Ok(count)) = (usize::try_from(components), u64::try_from(count)) else {
+        return Err(scan.error(format!("{components} numbers at {count} nodes")));
+    };
+    scan.end_line();
+    let each = 1 + components as u64;
+    scan.fits(count, "the number of nodes", 2 * each, 8 * each - 4)?;
+    let mut view = View {
+        name,
+        step,
+        components,
+        nodes: Vec::with_capacity(count as usize),
+        values: Vec::with_capacity(count as usize * components),
+    };
+    for _ in 0..count {
+        let node = scan.int("the number of a node")?;
+        view.nodes.push(u64::try_from(node).unwrap_or(u64::MAX));
+        for _ in 0..components {
+            let value = match scan.binary {
+                true => {
+                    let bytes = scan.raw::<8>("a number at a node")?;
+                    match scan.big {
+                        true => f64::from_be_bytes(bytes),
+                        false => f64::from_le_bytes(bytes),
+                    }
+                }
+                false => scan.tokens.number()?,
+            };
+            view.values.push(value);
+        }
+    }
+    Ok(view)
 }
 
 /// Gives a mesh the numbers of views at its points; `index` has the point of each node, unless nodes are numbered 1, 2, 3, ... Of the
