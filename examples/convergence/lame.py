@@ -4,7 +4,7 @@
     python3 examples/convergence/lame.py --bin target/release/
 
 needs CalculiX (`ccx`, package calculix-ccx on Debian) and the generator of bodies (`cargo build --release -p body`). The
-bodies are drawn with 16, 32, ... facets around and meshed with edges half as long each time; one sector between mirror
+bodies are drawn with 16, 32, ... facets around, which are kept, and meshed with edges half as long each time; one sector between mirror
 planes is solved, the cylinder's in plane strain, and the table has the root of the mean squared error of the radial
 displacement over all nodes, relative to that of the bore.
 """
@@ -158,7 +158,7 @@ def main():
                 drawn, mesh = os.path.join(folder, 'drawn'), os.path.join(folder, 'mesh.tmesh')
                 draw(facets, drawn, arguments)
                 pipe = (f'{arguments.bin}symdetect -q {drawn}'
-                        f' | {arguments.bin}wedgecut -q {cut} --edge-length {edge}'
+                        f' | {arguments.bin}wedgecut -q {cut} --edge-length {edge} --deviation 0'
                         f' | {arguments.bin}tetwedge -q -o {mesh}')
                 subprocess.run(pipe, shell=True, check=True)
                 for kind, options in KINDS.items():

@@ -6,7 +6,7 @@ use super::relocate::relocate;
 use super::rows::Rows;
 use super::split::split;
 use super::uncap::uncap;
-use super::worth::{DETAIL, GOOD, LONG, SHORT};
+use super::worth::{DETAIL, FINE, GOOD, LONG, SHORT};
 use crate::input::{Rules, Surface};
 use crate::mesh::{Images, Mesh, NONE};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
@@ -265,12 +265,12 @@ fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
     active
 }
 
-/// Whether each patch is drawn with facets that are detail beside the edges wanted.
+/// Whether each patch is drawn with facets that are finer than the edges wanted.
 fn fine(mesh: &Mesh<'_>) -> Vec<bool> {
     let mut fine = vec![false; mesh.planes.len()];
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let patch = mesh.patch[t] as usize;
-        let is_fine = |v: u32| mesh.width[v as usize] < DETAIL * mesh.size[v as usize];
+        let is_fine = |v: u32| mesh.width[v as usize] < FINE * mesh.size[v as usize];
         fine[patch] |= mesh.planes[patch].is_none() && mesh.triangles[t].into_iter().all(is_fine);
     }
     fine

@@ -13,3 +13,6 @@ pub const GAIN: f64 = 1e-3;
 /// Edges shorter than this, relative to the length wanted, go even where a patch is not remeshed: what a cut leaves of
 /// a facet.
 pub const DETAIL: f64 = 0.25;
+/// Facets narrower than this, relative to the length wanted, are finer than asked for: two of them side by side are no wider than an
+/// edge may be.
+pub const FINE: f64 = 0.5;
