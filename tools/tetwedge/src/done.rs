@@ -18,6 +18,9 @@ pub struct Done {
     pub is_uneven: bool,
 }
 
+/// What is made of a filled template while it is improved, of what it shares with others, unless that may change.
+pub type Beside<'a, B> = &'a (dyn Fn(&Filled) -> Option<B> + Sync);
+
 /// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where
 /// one in a hundred fails, these weigh as much as all others.
 const FAILING: usize = 100;
@@ -46,15 +49,14 @@ fn bounded(climb: &Climb<'_>, answer: &Answer, filled: &Filled) -> Option<Filled
     (weight(&other).1 < most).then_some(other)
 }
 
-/// Makes a filled template of the mesher's answer; and what `beside` makes of what it shares with
-/// others.
+/// Makes a filled template of the mesher's answer, and what there is to be made beside it.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn done<B: Send>(
     climb: &Climb<'_>,
     answer: Answer,
-    beside: Option<&(dyn Fn(&Filled) -> Option<B> + Sync)>,
+    beside: Option<Beside<'_, B>>,
 ) -> Result<(Done, Option<B>), Error> {
     let say = |text: &str| {
         climb

@@ -1,6 +1,6 @@
 //! One template: how it is meshed.
 
-use crate::done::{Done, done};
+use crate::done::{Beside, Done, done};
 use crate::draws::{best_of_draws, draws};
 use crate::fill::Filled;
 use mesher::{
@@ -54,12 +54,10 @@ pub fn template<B: Send>(
         false => Asks::AsWished,
     };
     let beside = beside.filter(|_| rayon::current_num_threads() > 1);
-    let beside = beside.map(|beside| {
+    let unless_drawn = beside.map(|beside| {
         move |filled: &Filled| (draws(filled.template.tets.len()) == 0).then(|| beside(filled))
     });
-    let beside = beside
-        .as_ref()
-        .map(|b| b as &(dyn Fn(&Filled) -> Option<B> + Sync));
+    let beside = unless_drawn.as_ref().map(|made| made as Beside<'_, B>);
     let (first, made) = climb.climb(Attempt::new(asks), |answer| done(climb, answer, beside))?;
     let again = |climb: &Climb<'_>, attempt| {
         let done = climb.climb(attempt, |answer| done::<()>(climb, answer, None));
