@@ -103,7 +103,7 @@ pub enum Error {
 }
 
 /// What to try when it is not known what is wrong.
-pub(crate) const ADVICE: &str = "clean or simplify the surface, cut it at another --order, --start-angle or --seam of wedgecut, or change the element parameters";
+pub(crate) const ADVICE: &str = "clean or simplify the surface, cut it with another --order, --start-angle, --seam or --deviation of wedgecut, or change the element parameters";
 
 /// Who can do something about an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use mesher::Fault;
 use thiserror::Error;
 
 /// What the user can do instead.
-const ADVICE: &str = "leave periodic-surf out, and tetwedge keeps the surface as it was cut, or cut at another --order, --hub or --start-angle of wedgecut";
+const ADVICE: &str = "leave periodic-surf out, and tetwedge keeps the surface as it was cut, or cut with another --order, --hub, --start-angle or --deviation of wedgecut";
 
 /// Why a wedge's surface could not be made. Places are canonical coordinates.
 #[derive(Debug, Error)]
