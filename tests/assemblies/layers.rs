@@ -48,3 +48,16 @@ fn a_solid_thinner_than_facets_explain_is_not_lost_to_its_neighbours() {
         assert!((volume / known - 1.0).abs() < 1e-9, "{volume} {known}");
     }
 }
+
+/// Where coarse facets would explain a gap of an eighth of the radius, closing it made solids overlap that are apart.
+#[test]
+fn solids_are_not_joined_where_that_makes_them_overlap() {
+    let solid = bodies::random_solid::solid(9_901_334);
+    let found = run("symdetect", &[], &encode(&solid.body, solid.encoding));
+    assert!(!found.stderr.contains("overlap"), "{}", found.stderr);
+    let document = read(&found.success());
+    for (index, region) in document.regions.iter().enumerate() {
+        let (volume, known) = (region.volume.expect("a volume"), solid.body.volume(index));
+        assert!((volume / known - 1.0).abs() < 1e-9, "{volume} {known}");
+    }
+}

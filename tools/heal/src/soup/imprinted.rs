@@ -30,7 +30,8 @@ pub struct Imprinted {
 }
 
 /// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
-/// more elsewhere, or where nothing would be left of a solid that is thinner than facets explain, faces are divided where they cross; not
+/// more elsewhere, where nothing would be left of a solid that is thinner than facets explain, or where solids claim more of each other's
+/// space once they are joined than before, so that what looked like a contact is none, faces are divided where they cross; not
 /// where the gap was asked for. What meets of different faces may be `known`.
 ///
 /// # Errors
@@ -50,12 +51,20 @@ pub fn imprinted(
     };
     let again = complex.clone();
     let first = attempt((surface, complex), tolerance, contacts, &crossing);
-    let is_enough = |made: &Imprinted| contacts.gap.is_some() || made.has_all();
+    let is_enough =
+        |made: &Imprinted| contacts.gap.is_some() || made.has_all() && made.claimed() == 0.0;
     if first.as_ref().is_ok_and(is_enough) {
         return first;
     }
-    // What is lost in both is lost to other solids.
-    attempt((surface, again), tolerance, flat, &crossing).or_else(|why| first.or(Err(why)))
+    match (first, attempt((surface, again), tolerance, flat, &crossing)) {
+        (Ok(first), Ok(second)) => {
+            let is_better = first.has_all() && first.claimed() <= second.claimed();
+            // What is lost in both is lost to other solids.
+            Ok(if is_better { first } else { second })
+        }
+        (Err(_), second) => second,
+        (first, Err(_)) => first,
+    }
 }
 
 impl Imprinted {
@@ -64,6 +73,12 @@ impl Imprinted {
         let sides = self.labels.front.iter().chain(&self.labels.back);
         let there: FxHashSet<u32> = sides.copied().filter(|&s| s != NONE).collect();
         there.len() == self.surface.solids.len()
+    }
+
+    /// The volume that solids claim of each other, model units cubed, but for those that lie inside of others.
+    fn claimed(&self) -> f64 {
+        let claims = self.joined.overlaps.iter().filter(|c| !c.nested);
+        claims.map(|c| c.volume).sum()
     }
 }
 
