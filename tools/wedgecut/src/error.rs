@@ -115,6 +115,15 @@ pub enum CutError {
         /// Where.
         near: DVec3,
     },
+    /// A piece of the body that touches nothing else lies between a seam that is no plane and its chords.
+    #[error(
+        "a piece of the body lies beyond the seam, between its points, near ({:.6}, {:.6}, {:.6})",
+        .near.x, .near.y, .near.z
+    )]
+    BeyondSeam {
+        /// Where.
+        near: DVec3,
+    },
     /// Faces that have points of a seam cross, though sections are clean.
     #[error(
         "faces cross at the seam near ({:.6}, {:.6}, {:.6}), whose points were moved by up to {moved:.3e} to make its \
@@ -208,6 +217,7 @@ impl CutError {
             | Self::SectionsDiffer { .. }
             | Self::SectionsJoinedDifferently { .. }
             | Self::SeamCrosses { .. }
+            | Self::BeyondSeam { .. }
             | Self::MovedFacesCross { .. }
             | Self::NotClosed { .. }
             | Self::VolumeDiffers { .. }

@@ -2,18 +2,22 @@
 
 use crate::error::CutError;
 use crate::graph::Graph;
+use geom::cells::Cells;
 use geom::contacts::contacts;
+use geom::edges::Edges;
+use glam::DVec3;
 use tmesh::{Frame, Template};
 
 /// Bends straightened templates back; faces that are images of others are made so anew, to the bit.
 ///
 /// # Errors
-/// [`CutError::SeamCrosses`]: the faces made by the cut cross the surface of the body, or each other.
+/// [`CutError::SeamCrosses`]: the faces made by the cut cross the surface of the body, or each other;
+/// [`CutError::BeyondSeam`]: a piece of it is on their other side.
 pub fn restore(templates: &mut [Template], graph: &Graph, frame: &Frame) -> Result<(), CutError> {
     for (index, template) in templates.iter_mut().enumerate() {
         for p in &mut template.vertices {
             // Adding zero folds negative zeros.
-            *p = graph.bend(*p) + glam::DVec3::ZERO;
+            *p = graph.bend(*p) + DVec3::ZERO;
         }
         for gluing in &template.gluings {
             if !gluing.is_seam(index) {
@@ -58,10 +62,31 @@ fn check(templates: &[Template], index: usize, frame: &Frame) -> Result<(), CutE
             false
         },
     );
-    match first {
-        Some(point) => Err(CutError::SeamCrosses {
+    if let Some(point) = first {
+        return Err(CutError::SeamCrosses {
+            near: frame.to_world(point),
+        });
+    }
+    match misplaced(template, &triangles) {
+        Some(point) => Err(CutError::BeyondSeam {
             near: frame.to_world(point),
         }),
         None => Ok(()),
     }
+}
+
+/// A point of a piece of the surface that lies in a cell of another region than it says, which is where it was before the
+/// seam was bent: one that is wholly between the seam and its chords crosses neither. n log n.
+fn misplaced(template: &Template, triangles: &[[u32; 3]]) -> Option<DVec3> {
+    let cells = Cells::new(&template.vertices, triangles, &Edges::new(triangles));
+    let mut regions: Vec<Option<u32>> = vec![None; cells.count()];
+    let mut is_of_cell =
+        |cell: u32, region: u32| *regions[cell as usize].get_or_insert(region) == region;
+    let wrong = (template.triangles.iter().enumerate()).find(|(i, t)| {
+        !(is_of_cell(cells.front(*i), t.front) && is_of_cell(cells.back(*i), t.back))
+    });
+    wrong.map(|(_, t)| {
+        let corners = t.vertices.map(|v| template.vertices[v as usize]);
+        corners.into_iter().sum::<DVec3>() / 3.0
+    })
 }
