@@ -6,7 +6,7 @@ use mesher::{Asks, Attempt, Climb, Description, EASING, Log, Order, Params, Room
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
-/// The draws of a template have about so many elements together, so that they take a few hundredths of a second. How good a mesh of
+/// The draws of a template have about so many elements together, so that they mostly take less than a tenth of a second. How good a mesh of
 /// few elements is, is a matter of luck: its smallest angle is that of one element, and its first percentile, too, up to a hundred.
 const DRAWN: usize = 1600;
 
