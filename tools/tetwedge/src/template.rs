@@ -55,7 +55,9 @@ pub fn template<B: Send>(
     };
     let beside = beside.filter(|_| rayon::current_num_threads() > 1);
     let unless_drawn = beside.map(|beside| {
-        move |filled: &Filled| (draws(filled.template.tets.len()) == 0).then(|| beside(filled))
+        move |filled: &Filled| {
+            (draws(climb, filled.template.tets.len()) == 0).then(|| beside(filled))
+        }
     });
     let beside = unless_drawn.as_ref().map(|made| made as Beside<'_, B>);
     let (first, made) = climb.climb(Attempt::new(asks), |answer| done(climb, answer, beside))?;
