@@ -106,6 +106,14 @@ pub fn label_mended(
             let known = known.filter(|_| !several);
             match imprinted(apart, &tolerance, contacts, known) {
                 Ok(imprinted) if imprinted.is_slight && told.is_ok() => (surface, told?),
+                // What is drawn is a body as it is, and what looked like a contact is none.
+                Ok(imprinted)
+                    if told.as_ref().is_ok_and(|told| {
+                        !told.crosses && imprinted.labels.interfaces() <= told.interfaces()
+                    }) =>
+                {
+                    (surface, told?)
+                }
                 Ok(imprinted) => {
                     joined = Some(imprinted.joined);
                     (imprinted.surface, imprinted.labels)

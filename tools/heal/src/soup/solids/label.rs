@@ -39,6 +39,14 @@ pub struct Labels {
     pub met: Option<Met>,
 }
 
+impl Labels {
+    /// Number of triangles between two solids.
+    pub fn interfaces(&self) -> usize {
+        let sides = self.front.iter().zip(&self.back);
+        sides.filter(|(a, b)| **a != NONE && **b != NONE).count()
+    }
+}
+
 /// Finds the solid on either side of each triangle. What lies in one plane within a distance is taken for one face, which
 /// does not meet itself.
 ///
