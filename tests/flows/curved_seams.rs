@@ -306,3 +306,16 @@ fn planes_are_the_default() {
         .map(|options| read(&run("wedgecut", options, &found).success()));
     assert_eq!(plane.templates, default.templates);
 }
+
+/// An inclusion wholly between a curved seam and its chords crosses neither, and would be outside of the wedge: another angle is taken, and
+/// said why.
+#[test]
+fn pieces_beyond_a_curved_seam_are_seen() {
+    let solid = bodies::random_solid::solid(9_902_529);
+    let input = support::encode(&solid.body, solid.encoding);
+    let found = run("symdetect", &["-q"], &input).success();
+    let cut = run("wedgecut", &["-v", "--seam", "auto"], &found);
+    let said = "a piece of the body lies beyond the seam, between its points, near (";
+    assert!(cut.stderr.contains(said), "{}", cut.stderr);
+    cut.success();
+}

@@ -10,16 +10,21 @@ use std::collections::{BTreeMap, BTreeSet};
 /// What the file says, with points numbered from 0.
 #[derive(Default)]
 pub struct File {
+    /// Positions, file units.
     pub points: Vec<DVec3>,
     /// Index of each node, unless nodes are numbered 1, 2, 3, ...
     pub index: Option<FxHashMap<u64, u32>>,
+    /// Corners of each triangle, and the group that it is in.
     pub triangles: Vec<([u32; 3], Group)>,
+    /// Corners of each tetrahedron, and the group that it is in.
     pub tets: Vec<([u32; 4], Group)>,
+    /// Name of each physical group, by dimension and number.
     pub names: BTreeMap<(i64, i64), String>,
     /// Physical group of each entity, by dimension and number; of version 4.1.
     pub physical: FxHashMap<(i64, i64), i64>,
     /// Surfaces around each volume; of version 4.1.
     pub volumes: Vec<(i64, Vec<i64>)>,
+    /// Number of elements of higher order.
     pub curved: usize,
     /// What a comment says, if anything.
     pub title: String,
@@ -32,7 +37,9 @@ pub struct File {
 /// Physical group, or 0, and entity of an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Group {
+    /// Number of the physical group; 0 where there is none.
     pub physical: i64,
+    /// Number of the entity.
     pub entity: i64,
 }
 
@@ -61,6 +68,9 @@ impl File {
     }
 
     /// The mesh, or the surface where there are no tetrahedra.
+    ///
+    /// # Errors
+    /// What no mesh or surface can be made of.
     pub fn build(self, precision: f64) -> Result<Parsed, ReadError> {
         if self.tets.is_empty() {
             Ok(Parsed::Shells(self.surface(precision)))
