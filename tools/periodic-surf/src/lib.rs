@@ -9,6 +9,7 @@ mod apart;
 mod cli;
 mod coarse;
 mod error;
+mod joined;
 mod memory;
 mod prepare;
 mod remeshed;

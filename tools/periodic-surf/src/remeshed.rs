@@ -1,24 +1,21 @@
-//! The surface of a template, remeshed within the deviation.
+//! The surfaces of templates, remeshed within the deviation.
 
+use crate::joined::{AXIS, Joined, Part};
 use glam::DVec3;
-use mesher::{Faces, Piece};
-use remesh::{Link, Remeshed, Rules, Sizes, Surface, Told, remesh};
+use remesh::{Remeshed, Rules, Sizes, Told, remesh};
 use rustc_hash::FxHashMap;
-use tmesh::{Document, FixedSet, Gluing, Template, Triangle};
-
-/// The bit of the axis; mirror walls have those below.
-const AXIS: u32 = u32::BITS - 1;
+use tmesh::{Document, Gluing, Template, Triangle};
 
 /// What a template became.
 pub struct Smoothed {
+    /// Its index in the document.
+    pub index: usize,
     /// The template.
     pub template: Template,
     /// New vertex of each vertex, `u32::MAX` for those that are gone.
     pub vertices: Vec<u32>,
     /// New triangle of each triangle that stayed, `u32::MAX` for others.
     pub triangles: Vec<u32>,
-    /// What was done.
-    pub told: Told,
 }
 
 /// How far a surface may move, and what is asked of it.
@@ -37,50 +34,27 @@ pub struct Remeshing<'a> {
     pub sizes: &'a mesher::Sizes,
 }
 
-/// Remeshes the surface of a template; vertices stay on mirror walls, faces glued to each other stay images of each other, and
-/// those glued to another template stay as they are.
+/// Remeshes the surfaces of templates that are glued to each other, and tells what was done; vertices stay on mirror walls, faces
+/// glued to each other stay images of each other, and those glued to other templates stay as they are.
 /// `None` where there is nothing to do.
-pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) -> Option<Smoothed> {
-    let template = &document.templates[index];
-    let faces = Faces::new(Piece::of(document, index));
-    let mut labels: FxHashMap<(u32, u32, u32, u32), u32> = FxHashMap::default();
-    let mut kinds: Vec<Triangle> = Vec::new();
-    let mut keys: Vec<u32> = Vec::new();
-    let triangles = template.triangles.iter().zip(&faces.of_triangle);
-    let label = |(t, &face): (&Triangle, &u32)| {
-        *labels
-            .entry((t.marker, t.front, t.back, face))
-            .or_insert_with(|| {
-                kinds.push(*t);
-                keys.push(face);
-                kinds.len() as u32 - 1
-            })
-    };
-    let surface = Surface {
-        labels: triangles.map(label).collect(),
-        points: template.vertices.clone(),
-        triangles: template.triangles.iter().map(|t| t.vertices).collect(),
-    };
-    let bound = bound(template, index)?;
-    let held = held(document, index);
-    let links = links(template, index, &keys);
-    let sets: Vec<FixedSet> = template
-        .gluings
-        .iter()
-        .map(|g| FixedSet::of(g.step))
-        .collect();
-    let onto = |bit: u32, p: DVec3| match bit {
-        AXIS => FixedSet::Axis.nearest(p),
-        bit => sets[bit as usize].nearest(p),
-    };
+pub fn remeshed(
+    document: &Document,
+    group: &[usize],
+    remeshing: &Remeshing<'_>,
+) -> Option<(Vec<Smoothed>, Told)> {
+    let joined = Joined::new(document, group)?;
+    let links = joined.links();
+    let kinds = joined.kinds.iter();
     let lengths: Vec<f64> = kinds
-        .iter()
-        .map(|t| length(document, remeshing.sizes, t))
+        .map(|kind| length(document, remeshing.sizes, &kind.like))
         .collect();
-    let graded = remeshing.sizes.local[index]
-        .as_ref()
-        .map(|local| &local.graded);
+    let spaces: Vec<u32> = joined.kinds.iter().map(|kind| kind.part).collect();
+    let graded = group.iter().find_map(|&i| {
+        let local = remeshing.sizes.local[i].as_ref();
+        local.map(|local| &local.graded)
+    });
     let local = graded.map(|graded| |p: DVec3| graded.at(p));
+    let onto = |bit: u32, p: DVec3| joined.onto(bit, p);
     let segments = document.wishes.segments_per_turn;
     let sizes = Sizes {
         turn: document.wishes.turn(),
@@ -92,9 +66,10 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) ->
         growth: document.wishes.gradation() - 1.0,
     };
     let rules = Rules {
-        held: &held,
-        bound: &bound,
+        held: &joined.held,
+        bound: &joined.bound,
         links: &links,
+        spaces: &spaces,
         onto: &onto,
         deviation: remeshing.deviation,
         nearer: remeshing.nearer,
@@ -106,28 +81,140 @@ pub fn remeshed(document: &Document, index: usize, remeshing: &Remeshing<'_>) ->
         exact: remeshing.exact,
         sizes,
     };
-    let done = remesh(&surface, &rules)?;
-    let triangle = |(corners, label): (&[u32; 3], &u32)| Triangle {
-        vertices: *corners,
-        ..kinds[*label as usize]
-    };
+    let done = remesh(&joined.surface, &rules)?;
+    let numbers = Numbers::new(&joined, &done);
+    let all = joined.parts.iter().enumerate();
+    let smoothed: Option<Vec<Smoothed>> = all
+        .map(|(p, part)| smoothed(&joined, (p, part), (&done, &numbers)))
+        .collect();
+    Some((smoothed?, done.told))
+}
+
+/// Numbers of the vertices and triangles of a remeshed surface in their templates.
+struct Numbers {
+    /// Of each vertex.
+    vertices: Vec<u32>,
+    /// Of each triangle.
+    triangles: Vec<u32>,
+    /// The part of each vertex.
+    part: Vec<u32>,
+}
+
+impl Numbers {
+    fn new(joined: &Joined<'_>, done: &Remeshed) -> Self {
+        let made = &done.surface;
+        let part_of = |label: &u32| joined.kinds[*label as usize].part;
+        let mut part = vec![0; made.points.len()];
+        for (corners, label) in made.triangles.iter().zip(&made.labels) {
+            let of = part_of(label);
+            corners.iter().for_each(|&v| part[v as usize] = of);
+        }
+        let count = |parts: &mut dyn Iterator<Item = u32>| -> Vec<u32> {
+            let mut next = vec![0; joined.parts.len()];
+            let numbers = parts.map(|p| {
+                next[p as usize] += 1;
+                next[p as usize] - 1
+            });
+            numbers.collect()
+        };
+        Self {
+            vertices: count(&mut part.iter().copied()),
+            triangles: count(&mut made.labels.iter().map(part_of)),
+            part,
+        }
+    }
+
+    /// The numbers in their templates of two vertices.
+    fn pair(&self, pair: [u32; 2]) -> [u32; 2] {
+        pair.map(|v| self.vertices[v as usize])
+    }
+}
+
+/// What a part became. `None` if two faces are not divided alike.
+fn smoothed(
+    joined: &Joined<'_>,
+    (p, part): (usize, &Part<'_>),
+    (done, numbers): (&Remeshed, &Numbers),
+) -> Option<Smoothed> {
     let made = &done.surface;
+    let is_here = |v: &u32| numbers.part[*v as usize] as usize == p;
+    let points = (0..made.points.len() as u32).filter(is_here);
+    let triangles = made.triangles.iter().zip(&made.labels);
+    let kinds = triangles.map(|(corners, label)| (corners, &joined.kinds[*label as usize]));
+    let triangles = kinds.filter(|(_, kind)| kind.part as usize == p);
+    let triangle = |(corners, kind): (&[u32; 3], &crate::joined::Kind)| Triangle {
+        vertices: corners.map(|v| numbers.vertices[v as usize]),
+        ..kind.like
+    };
+    let new = |old: &[u32], number: &[u32]| -> Vec<u32> {
+        let new = old.iter().map(|&n| number.get(n as usize));
+        new.map(|n| n.copied().unwrap_or(u32::MAX)).collect()
+    };
+    let [vertices, faces] = joined.range(part);
+    let vertices = new(&done.vertices[vertices], &numbers.vertices);
+    let faces = new(&done.triangles[faces], &numbers.triangles);
+    let bound_to = |bit: u32| {
+        let bound = move |v: &u32| done.bound[*v as usize] & 1 << bit != 0;
+        let all = (0..made.points.len() as u32).filter(is_here).filter(bound);
+        all.map(|v| numbers.vertices[v as usize])
+    };
+    let mut gluings = part.template.gluings.clone();
+    for (i, gluing) in gluings.iter_mut().enumerate() {
+        if gluing.is_mirror(part.index) {
+            let all = (0..).zip(&made.labels);
+            let of_wall = all.filter(|(_, label)| joined.is_on(**label, p, i));
+            let bit = joined.mirror(part, i);
+            gluing.vertex_pairs = bound_to(bit).map(|v: u32| [v, v]).collect();
+            gluing.triangle_pairs = of_wall
+                .map(|(t, _): (usize, _)| [numbers.triangles[t]; 2])
+                .collect();
+            continue;
+        }
+        let known = joined.glued.iter();
+        let known = known.zip(&done.links);
+        let mut known = known.filter(|(glued, _)| glued.parts[0] == p && glued.gluing == i);
+        match known.next() {
+            Some((glued, pairs)) => {
+                let faces = glued.labels.each_ref().map(|labels| {
+                    let all = (0..).zip(&made.labels);
+                    let of_face = all.filter(|(_, label)| labels.contains(label));
+                    of_face.map(|(t, _): (u32, _)| t).collect::<Vec<u32>>()
+                });
+                let triangles = alike(&made.triangles, pairs, faces)?;
+                let triangles = triangles
+                    .iter()
+                    .map(|pair| pair.map(|t| numbers.triangles[t as usize]));
+                // The first of each pair is the one there.
+                *gluing = Gluing::seam(
+                    &gluing.name,
+                    gluing.other,
+                    gluing.step,
+                    pairs.iter().map(|&pair| numbers.pair(pair)),
+                    triangles,
+                );
+            }
+            None => {
+                for pair in &mut gluing.vertex_pairs {
+                    pair[0] = vertices[pair[0] as usize];
+                }
+                for pair in &mut gluing.triangle_pairs {
+                    pair[0] = faces[pair[0] as usize];
+                }
+                gluing.sort();
+            }
+        }
+    }
     Some(Smoothed {
+        index: part.index,
         template: Template {
-            vertices: made.points.clone(),
-            triangles: made
-                .triangles
-                .iter()
-                .zip(&made.labels)
-                .map(triangle)
-                .collect(),
+            vertices: points.map(|v| made.points[v as usize]).collect(),
+            triangles: triangles.map(triangle).collect(),
             tets: Vec::new(),
-            gluings: glued(template, index, &done, &keys)?,
-            axis: bound_to(&done, AXIS).collect(),
+            gluings,
+            axis: bound_to(AXIS).collect(),
         },
-        vertices: done.vertices,
-        triangles: done.triangles,
-        told: done.told,
+        vertices,
+        triangles: faces,
     })
 }
 
@@ -139,73 +226,6 @@ fn length(document: &Document, sizes: &mesher::Sizes, t: &Triangle) -> f64 {
     };
     let lengths = [t.front, t.back].into_iter().filter_map(of);
     lengths.fold(f64::INFINITY, f64::min)
-}
-
-/// The faces of a template that are glued to each other; `keys` has the face of each label.
-fn links(template: &Template, index: usize, keys: &[u32]) -> Vec<Link> {
-    let seams = template.gluings.iter().enumerate();
-    let seams = seams.filter(|(_, gluing)| gluing.is_seam(index));
-    seams
-        .map(|(i, gluing)| {
-            let step = gluing.step;
-            let faces = [false, true].map(|second| mesher::face_key(i, second));
-            let is_there = |key: &u32| faces.contains(key);
-            Link {
-                pairs: gluing.vertex_pairs.iter().map(|&[a, b]| [b, a]).collect(),
-                labels: (0..)
-                    .zip(keys)
-                    .filter(|(_, key)| is_there(key))
-                    .map(|(l, _)| l)
-                    .collect(),
-                image: Box::new(move |p| step.apply(p)),
-            }
-        })
-        .collect()
-}
-
-/// The gluings of a remeshed template; `keys` has the face of each label. `None` if two faces are not divided alike.
-fn glued(template: &Template, index: usize, done: &Remeshed, keys: &[u32]) -> Option<Vec<Gluing>> {
-    let new = |v: u32| done.vertices[v as usize];
-    let made = &done.surface;
-    let mut linked = done.links.iter();
-    let mut gluings = template.gluings.clone();
-    for (i, gluing) in gluings.iter_mut().enumerate() {
-        if gluing.is_mirror(index) {
-            let key = mesher::face_key(i, false);
-            let of_wall = (0..)
-                .zip(&made.labels)
-                .filter(|(_, l)| keys[**l as usize] == key);
-            gluing.vertex_pairs = bound_to(done, i as u32).map(|v: u32| [v, v]).collect();
-            gluing.triangle_pairs = of_wall.map(|(t, _): (u32, _)| [t, t]).collect();
-            continue;
-        }
-        if gluing.is_seam(index) {
-            let pairs = linked.next()?;
-            let faces = [false, true].map(|second| {
-                let key = mesher::face_key(i, second);
-                let all = (0..).zip(&made.labels);
-                let of_face = all.filter(move |(_, l)| keys[**l as usize] == key);
-                of_face.map(|(t, _): (u32, _)| t).collect::<Vec<u32>>()
-            });
-            let triangles = alike(&made.triangles, pairs, faces)?;
-            *gluing = Gluing::seam(
-                &gluing.name,
-                gluing.other,
-                gluing.step,
-                pairs.clone(),
-                triangles,
-            );
-            continue;
-        }
-        for pair in &mut gluing.vertex_pairs {
-            pair[0] = new(pair[0]);
-        }
-        for pair in &mut gluing.triangle_pairs {
-            pair[0] = done.triangles[pair[0] as usize];
-        }
-        gluing.sort();
-    }
-    Some(gluings)
 }
 
 /// Triangles of a face with those of the other one whose corners are the images of theirs, if all have one.
@@ -229,52 +249,4 @@ fn alike(
         })
         .collect();
     found.filter(|found| found.len() == count)
-}
-
-/// Vertices on the plane or line of a bit.
-fn bound_to(done: &Remeshed, bit: u32) -> impl Iterator<Item = u32> + '_ {
-    let all = (0..).zip(&done.bound);
-    all.filter(move |(_, bound)| *bound & 1 << bit != 0)
-        .map(|(v, _)| v)
-}
-
-/// Mirror walls of each vertex, and the axis. `None` where there are more walls than bits.
-fn bound(template: &Template, index: usize) -> Option<Vec<u32>> {
-    let mut bound = vec![0; template.vertices.len()];
-    for (i, gluing) in (0..).zip(&template.gluings) {
-        if gluing.is_mirror(index) {
-            if i >= AXIS {
-                return None;
-            }
-            gluing
-                .vertices_here()
-                .for_each(|v| bound[v as usize] |= 1 << i);
-        }
-    }
-    template
-        .axis
-        .iter()
-        .for_each(|&v| bound[v as usize] |= 1 << AXIS);
-    Some(bound)
-}
-
-/// Vertices of faces that are glued to other templates, whoever lists them.
-fn held(document: &Document, index: usize) -> Vec<bool> {
-    let template = &document.templates[index];
-    let mut held = vec![false; template.vertices.len()];
-    for gluing in &template.gluings {
-        if gluing.other_than(index).is_some() {
-            gluing.vertices_here().for_each(|v| held[v as usize] = true);
-        }
-    }
-    for (o, other) in document.templates.iter().enumerate() {
-        for gluing in &other.gluings {
-            if gluing.other_than(o) == Some(index) {
-                gluing
-                    .vertices_there()
-                    .for_each(|v| held[v as usize] = true);
-            }
-        }
-    }
-    held
 }

@@ -1,11 +1,13 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
 use crate::apart::{apart, note_moved};
+use crate::joined::groups;
 use crate::remeshed::{Remeshing, Smoothed, remeshed};
 use crate::surface::{same_body, same_size};
 use geom::tolerance::Tolerance;
 use kit::tolerance;
 use mesher::{Error, Log, Params, Progress, Sizes, thickness};
+use remesh::Told;
 use tmesh::{Deviation, Document};
 
 /// What a deviation is multiplied by where it changes volumes by too much. A choice: what a deviation changes of them is at most
@@ -49,33 +51,30 @@ pub fn follow_shape(
     });
     let is_auto = document.wishes.deviation() == Deviation::Auto;
     let mut farthest = 0.0_f64;
-    for index in 0..document.templates.len() {
+    for group in groups(document, sizes.local.iter().any(Option::is_some)) {
         log.progress(&Progress {
-            template: index,
+            template: group[0],
             step: "remeshing the surface",
             points: 0.0,
             tetrahedra: 0.0,
         });
         for attempt in by_length.iter().chain(&within) {
-            let before = &document.templates[index];
-            match attempt.remeshed(document, index, (&sizes, tolerance.flat())) {
+            match attempt.remeshed(document, &group, (&sizes, tolerance.flat())) {
                 None => {}
                 Some(Err(what)) => log.detail(&format!(
-                    "template {index}: not remeshed within {:.1e}, {what}",
+                    "{}: not remeshed within {:.1e}, {what}",
+                    named(&group),
                     attempt.deviation
                 )),
-                Some(Ok(smoothed)) => {
+                Some(Ok((all, told))) => {
+                    let before = |smoothed: &Smoothed| &document.templates[smoothed.index];
                     // Otherwise the input's own drift says how far it may be off.
                     if attempt.drift.is_none() && is_auto {
-                        farthest = farthest.max(apart(before, &smoothed.template));
+                        let moved = all.iter().map(|s| apart(before(s), &s.template));
+                        farthest = moved.fold(farthest, f64::max);
                     }
-                    facts.push(fact(
-                        index,
-                        &smoothed,
-                        before.triangles.len(),
-                        attempt.deviation,
-                    ));
-                    take(document, index, smoothed);
+                    facts.push(fact(document, &all, told, attempt.deviation));
+                    all.into_iter().for_each(|s| take(document, &group, s));
                     break;
                 }
             }
@@ -106,15 +105,15 @@ struct Attempt {
 }
 
 impl Attempt {
-    /// A template's surface, or what is wrong with it; `None` where there is nothing to do.
+    /// The surfaces of a group of templates and what was done, or what is wrong with them; `None` where there is nothing to do.
     fn remeshed(
         &self,
         document: &Document,
-        index: usize,
+        group: &[usize],
         (sizes, flat): (&Sizes, f64),
-    ) -> Option<Result<Smoothed, String>> {
+    ) -> Option<Result<(Vec<Smoothed>, Told), String>> {
         let nearer = match self.deviation > self.noise {
-            true => walls(document, index),
+            true => group.iter().flat_map(|&i| walls(document, i)).collect(),
             false => Vec::new(),
         };
         let remeshing = Remeshing {
@@ -125,14 +124,15 @@ impl Attempt {
             exact: self.exact,
             sizes,
         };
-        let smoothed = remeshed(document, index, &remeshing)?;
-        let before = &document.templates[index];
-        let kept = same_body(before, &smoothed.template, (self.deviation, 0.0)).and_then(|()| {
+        let (all, told) = remeshed(document, group, &remeshing)?;
+        let kept = all.iter().try_for_each(|smoothed| {
+            let before = &document.templates[smoothed.index];
+            same_body(before, &smoothed.template, (self.deviation, 0.0))?;
             self.drift.map_or(Ok(()), |drift| {
-                same_size((before, index), &smoothed.template, drift)
+                same_size((before, smoothed.index), &smoothed.template, drift)
             })
         });
-        Some(kept.map(|()| smoothed))
+        Some(kept.map(|()| (all, told)))
     }
 }
 
@@ -188,12 +188,16 @@ fn walls(document: &Document, index: usize) -> Vec<f64> {
     walls
 }
 
-fn fact(index: usize, smoothed: &Smoothed, before: usize, deviation: f64) -> String {
-    let told = smoothed.told;
+fn fact(document: &Document, all: &[Smoothed], told: Told, deviation: f64) -> String {
+    let group: Vec<usize> = all.iter().map(|s| s.index).collect();
+    let before = group.iter().map(|&i| document.templates[i].triangles.len());
+    let after = all.iter().map(|s| s.template.triangles.len());
     format!(
-        "template {index}: surface remeshed within {deviation:.1e}, {} triangles for {before} ({} edges collapsed, {} split, \
-         {} flipped, {} vertices moved)",
-        smoothed.template.triangles.len(),
+        "{}: surface remeshed within {deviation:.1e}, {} triangles for {} ({} edges collapsed, {} split, {} flipped, {} \
+         vertices moved)",
+        named(&group),
+        after.sum::<usize>(),
+        before.sum::<usize>(),
         told.collapsed,
         told.split,
         told.flipped,
@@ -201,10 +205,21 @@ fn fact(index: usize, smoothed: &Smoothed, before: usize, deviation: f64) -> Str
     )
 }
 
-/// Puts a template in its place, and renumbers what other templates have of it.
-fn take(document: &mut Document, index: usize, smoothed: Smoothed) {
+/// The templates of a group, in words.
+fn named(group: &[usize]) -> String {
+    let numbers: Vec<String> = group.iter().map(usize::to_string).collect();
+    match &numbers[..] {
+        [one] => format!("template {one}"),
+        all => format!("templates {}", all.join(" and ")),
+    }
+}
+
+/// Puts a template in its place, and renumbers what templates that are not in its group have of it.
+fn take(document: &mut Document, group: &[usize], smoothed: Smoothed) {
+    let index = smoothed.index;
     document.templates[index] = smoothed.template;
-    for (other, template) in document.templates.iter_mut().enumerate() {
+    let others = document.templates.iter_mut().enumerate();
+    for (other, template) in others.filter(|(other, _)| !group.contains(other)) {
         for gluing in &mut template.gluings {
             if gluing.other_than(other) == Some(index) {
                 for pair in &mut gluing.vertex_pairs {

@@ -20,6 +20,9 @@ impl Surface {
     }
 }
 
+/// Links that there may be at most.
+pub const MOST_LINKS: usize = u64::BITS as usize;
+
 /// Two faces of a surface of which one is the image of the other, vertex by vertex: what is done to one is done to both.
 pub struct Link {
     /// Each vertex with its image.
@@ -41,6 +44,8 @@ pub struct Rules<'a> {
     pub onto: &'a (dyn Fn(u32, DVec3) -> DVec3 + Sync),
     /// Faces that stay images of each other.
     pub links: &'a [Link],
+    /// Of each label, the space that its triangles are in: those in different ones never meet. Empty for one of all.
+    pub spaces: &'a [u32],
     /// How far the surface may move at most, model units.
     pub deviation: f64,
     /// Of each vertex, how far the surface may move there if that is less, but not less than what may be noise; empty for no less
@@ -118,6 +123,11 @@ impl Rules<'_> {
     pub fn deviation_at(&self, v: usize) -> f64 {
         let nearer = self.nearer.get(v).map(|nearer| nearer.max(self.noise));
         nearer.map_or(self.deviation, |nearer| nearer.min(self.deviation))
+    }
+
+    /// The space that triangles of a label are in.
+    pub fn space(&self, label: u32) -> u32 {
+        self.spaces.get(label as usize).copied().unwrap_or(0)
     }
 
     /// The point on all planes and lines of these bits, if one projection gets there: on a single one.

@@ -13,6 +13,6 @@ mod passes;
 mod shape;
 mod smooth;
 
-pub use input::{Link, Rules, Sizes, Surface};
+pub use input::{Link, MOST_LINKS, Rules, Sizes, Surface};
 pub use passes::{Remeshed, Told, remesh};
 pub use smooth::{Drawing, Reading, Redrawn, Sheets, SmoothShape};

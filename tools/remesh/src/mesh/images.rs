@@ -13,9 +13,6 @@ pub struct Images {
 }
 
 impl Images {
-    /// Links whose faces can be told apart.
-    pub const MOST: usize = u64::BITS as usize;
-
     /// As they are given.
     pub fn new(surface: &Surface, links: &[Link], patches: &Patches) -> Self {
         let map =

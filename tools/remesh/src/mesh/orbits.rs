@@ -27,7 +27,8 @@ impl Mesh<'_> {
     }
 
     /// An edge that is to be collapsed into its second end with all of its images, itself first. `None` if the first end has
-    /// an image where the edge has none, or something is its own image or beside it.
+    /// an image where the edge has none, or something is its own image or beside it, but for images that are collapsed into the same
+    /// vertex.
     pub fn collapsing(&self, edge: [u32; 2]) -> Option<Vec<[u32; 2]>> {
         let mut orbit = vec![edge];
         let mut next = 0;
@@ -49,11 +50,18 @@ impl Mesh<'_> {
         }
         let apart = |[a, b]: [u32; 2], [c, d]: [u32; 2]| {
             let near = self.neighbours(a);
-            a != c
-                && a != d
-                && b != c
-                && b != d
-                && [c, d].iter().all(|v| near.binary_search(v).is_err())
+            let is_near = |v: u32| near.binary_search(&v).is_ok();
+            if a == c || a == d || b == c || is_near(c) {
+                return false;
+            }
+            if b != d {
+                return !is_near(d);
+            }
+            // Two that are collapsed into one vertex have no neighbours in common but those of all three.
+            let of_b = self.neighbours(b);
+            let common = self.neighbours(c).into_iter().filter(|&v| is_near(v));
+            let mut others = common.filter(|&v| v != b);
+            others.all(|v| of_b.binary_search(&v).is_ok())
         };
         let all = || orbit.iter().enumerate();
         let is_apart = all().all(|(i, &x)| all().all(|(j, &y)| i == j || apart(x, y)));

@@ -67,6 +67,7 @@ fn rules<'a>(
         held,
         bound,
         links,
+        spaces: &[],
         onto: &nowhere,
         deviation,
         nearer: &[],

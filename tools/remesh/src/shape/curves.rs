@@ -227,6 +227,7 @@ mod tests {
             held: &held,
             bound: &bound,
             links: &[],
+            spaces: &[],
             onto: &|_, p| p,
             deviation: 0.1,
             nearer: &[],

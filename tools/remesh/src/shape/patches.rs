@@ -7,6 +7,7 @@ use geom::flat::{FOLD_COSINE, Flatness, Flats, Plane};
 use geom::measure::{double_area_vector, triangle_area};
 use geom::sets::DisjointSets;
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 
 /// The patches of a surface.
 pub struct Patches {
@@ -214,13 +215,72 @@ impl Patches {
         for (t, &facet) in (0..).zip(&self.facet) {
             beside[facet as usize].triangles += self.images_in_plane(surface, rules, t);
         }
+        let same = self.beyond_links(surface, rules, &mut beside);
         // A single triangle is one of the facets of whatever goes on smoothly beside it.
         let is_face = |(beside, off): (&Beside, &f64)| match beside.triangles {
             1 => beside.smooth == 0.0,
             _ if *off > rules.flat => beside.smooth <= ALIKE * beside.border,
             _ => beside.like <= ALIKE * beside.border,
         };
-        beside.iter().zip(off).map(is_face).collect()
+        let one: Vec<bool> = beside.iter().zip(off).map(is_face).collect();
+        same.into_iter().map(|first| one[first as usize]).collect()
+    }
+
+    /// Takes facets that go on beyond a face that is glued to another one, as facets do that were cut there, for one with what
+    /// goes on there: how the part of it on one side lies says less than how all of it does. Of each facet, the one that has what is
+    /// beside all of them.
+    fn beyond_links(
+        &self,
+        surface: &Surface,
+        rules: &Rules<'_>,
+        beside: &mut [Beside],
+    ) -> Vec<u32> {
+        let mut sets = DisjointSets::new(beside.len());
+        for link in rules.links {
+            let image: FxHashMap<u32, u32> = link.pairs.iter().map(|&[v, w]| (v, w)).collect();
+            let on_link = |ends: &[u32; 2]| ends.map(|v| image.get(&v).copied());
+            let turned = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+            let images = self.edges.ends.iter().enumerate().filter_map(|(e, ends)| {
+                let [Some(a), Some(b)] = on_link(ends) else {
+                    return None;
+                };
+                Some((turned([a, b]), e))
+            });
+            let from: FxHashMap<[u32; 2], usize> = images.collect();
+            let free = |e: usize| {
+                let around = self.edges.around(e).iter().map(|u| u.triangle);
+                let label = |t: &u32| surface.labels[*t as usize];
+                around.filter(move |t| !link.labels.contains(&label(t)))
+            };
+            for (there, ends) in self.edges.ends.iter().enumerate() {
+                let Some(&here) = from.get(&turned(*ends)) else {
+                    continue;
+                };
+                for (t, u) in free(here).flat_map(|t| free(there).map(move |u| (t, u))) {
+                    let plane = Plane::of(surface.corners(u));
+                    if plane.off(surface.corners(t).map(|p| (link.image)(p))) > rules.flat {
+                        continue;
+                    }
+                    let [a, b] = ends.map(|v| surface.points[v as usize]);
+                    for t in [t, u] {
+                        beside[self.facet[t as usize] as usize].border -= a.distance(b);
+                    }
+                    sets.join(self.facet[t as usize], self.facet[u as usize]);
+                }
+            }
+        }
+        let first: Vec<u32> = (0..beside.len() as u32).map(|f| sets.find(f)).collect();
+        for (f, &first) in first.iter().enumerate() {
+            if f != first as usize {
+                let other = std::mem::take(&mut beside[f]);
+                let all = &mut beside[first as usize];
+                all.triangles += other.triangles;
+                all.border += other.border;
+                all.smooth += other.smooth;
+                all.like += other.like;
+            }
+        }
+        first
     }
 
     /// Beyond how many of the planes and lines that its sides are on the image of a triangle is in its plane, and of one facet with it.
@@ -285,6 +345,7 @@ mod tests {
             held: &vec![false; surface.points.len()],
             bound,
             links: &[],
+            spaces: &[],
             onto: &onto,
             deviation: 1e-3,
             nearer: &[],
