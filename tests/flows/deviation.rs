@@ -502,8 +502,7 @@ fn fine_drawings_are_cut_as_coarse_ones_where_edges_are_asked_for() {
     assert!(kept > free, "{kept} {free}");
 }
 
-/// The wall of a hub stays as it is cut, and the surface beside it has as many triangles as the file: no hub where edges are to get a length,
-/// if it can be done without.
+/// No hub where edges are to get a length, if it can be done without.
 #[test]
 fn edges_of_a_length_need_a_wedge_without_a_hub() {
     let body = bodies::random_solid::solid(31).body;

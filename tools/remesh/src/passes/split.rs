@@ -1,14 +1,10 @@
 //! Splitting edges that are too long.
 
+use super::worth::BESIDE;
 use crate::mesh::{Change, Mesh, Orbit};
 use crate::shape::Near;
 use geom::measure::double_area_vector;
 use glam::DVec3;
-
-/// How near to a fold that stays an edge is split, relative to the length wanted: splitting needles goes on until they are as wide as
-/// long where they are up to 64 times as long. Nearer to it than that, a needle stays one whatever is done, and its vertices only ask the
-/// mesher for elements as small as the needle is narrow there.
-const BESIDE: f64 = 1.0 / 64.0;
 
 /// Splits an edge near its middle, and its image as well, if that keeps to the rules.
 pub fn split(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {

@@ -1,29 +1,74 @@
 //! Taking out needles between features.
 
-use super::worth::DETAIL;
+use super::worth::{BESIDE, DETAIL};
 use crate::mesh::{Change, Mesh};
 use geom::measure::double_area_vector;
 use glam::DVec3;
 
-/// Takes out a triangle that is detail, a vertex beside the middle of a feature edge: the edge is led by way of the vertex. Not
-/// where faces would meet at less than the triangle's own corners, as on both sides of something thin.
+/// Takes out a triangle that is detail, a vertex beside the middle of a feature edge: the edge is led by way of the vertex, or the vertex
+/// is moved onto the edge. Not where faces would meet at less than the triangle's own corners, as on both sides of something thin.
 pub fn uncap(mesh: &mut Mesh<'_>, t: u32) -> bool {
-    let Some(change) = change(mesh, t) else {
+    let Some(cap) = cap(mesh, t) else {
         return false;
     };
-    let Some(fitted) = mesh.fit(&change) else {
-        return false;
-    };
-    mesh.apply(&change, fitted);
-    for &(ends, _) in &change.chords {
-        ends.iter().for_each(|&v| mesh.fixed[v as usize] = true);
+    let is_done = [false, true]
+        .into_iter()
+        .any(|moves| take(mesh, t, &cap, moves));
+    if is_done {
+        let [a, b, c] = cap.corners;
+        [a, b, c]
+            .iter()
+            .for_each(|&v| mesh.fixed[v as usize] = true);
     }
-    true
+    is_done
 }
 
-/// Of a triangle that is there, the ends of its longest side, the other corner, and how high that is above the side, if it
-/// is above the inside of it.
-fn cap(mesh: &Mesh<'_>, t: u32) -> Option<([u32; 3], f64)> {
+/// A triangle beside the middle of a feature edge.
+struct Cap {
+    /// The ends of the edge, and the vertex beside it.
+    corners: [u32; 3],
+    /// How far that is from the edge.
+    height: f64,
+    /// The curve that the edge is of.
+    curve: u32,
+}
+
+/// Takes out a triangle. `moves`: with its vertex moved onto the edge.
+fn take(mesh: &mut Mesh<'_>, t: u32, cap: &Cap, moves: bool) -> bool {
+    let [a, b, c] = cap.corners;
+    let old = mesh.points[c as usize];
+    if moves {
+        // What is wider is divided until it is as wide as long.
+        let is_narrow = cap.height < BESIDE * mesh.size[c as usize];
+        let is_free = !mesh.held[c as usize] && !mesh.images.has(c);
+        let [x, y, z] = cap.corners.map(|v| mesh.bound[v as usize]);
+        let [p, q] = [a, b].map(|v| mesh.points[v as usize]);
+        let along = q - p;
+        let on_edge = p + along * ((old - p).dot(along) / along.length_squared());
+        match mesh.rules.put(z, on_edge) {
+            Some(place) if is_narrow && is_free && z == x & y => mesh.points[c as usize] = place,
+            _ => return false,
+        }
+    }
+    let change = change(mesh, t, cap, moves.then_some(old));
+    let fitted = change.and_then(|change| Some((mesh.fit(&change)?, change)));
+    match fitted {
+        Some((fitted, change)) => {
+            mesh.apply(&change, fitted);
+            true
+        }
+        None => {
+            mesh.points[c as usize] = old;
+            false
+        }
+    }
+}
+
+/// A triangle of which the corner opposite to the longest side, a feature, is above the inside of it, and near it.
+fn cap(mesh: &Mesh<'_>, t: u32) -> Option<Cap> {
+    if !mesh.joins || !mesh.is_there(t) {
+        return None;
+    }
     let corners = mesh.triangles[t as usize];
     let turned = (0..3).map(|i| [0, 1, 2].map(|k| corners[(i + k) % 3]));
     let length = |&[a, b, _]: &[u32; 3]| mesh.length([a, b]);
@@ -35,32 +80,31 @@ fn cap(mesh: &Mesh<'_>, t: u32) -> Option<([u32; 3], f64)> {
     let is_inside = reach
         .into_iter()
         .all(|r| r > std::f64::consts::SQRT_2 * height);
-    is_inside.then_some(([a, b, c], height))
-}
-
-fn change(mesh: &Mesh<'_>, t: u32) -> Option<Change> {
-    if !mesh.joins || !mesh.is_there(t) {
-        return None;
-    }
-    let ([a, b, c], height) = cap(mesh, t)?;
-    let curve = mesh.curve(a, b)?;
     let size = mesh.size[c as usize];
-    if height > mesh.rules.deviation || height > DETAIL * size {
-        return None;
-    }
+    let is_detail = height <= mesh.rules.deviation && height <= DETAIL * size;
+    let curve = mesh.curve(a, b)?;
     let [x, y, z] = [a, b, c].map(|v| mesh.bound[v as usize]);
     let stays = mesh.held[a as usize] && mesh.held[b as usize];
     let is_image = [a, b].iter().all(|&v| mesh.images.has(v));
-    if stays || is_image || x & y & z != x & y {
-        return None;
-    }
-    let gone = mesh.at_edge(a, b);
+    let may_go = is_inside && is_detail && !stays && !is_image && x & y & z == x & y;
+    may_go.then_some(Cap {
+        corners: [a, b, c],
+        height,
+        curve,
+    })
+}
+
+/// What taking out a triangle does, whose vertex was at a place, if it is moved.
+fn change(mesh: &Mesh<'_>, t: u32, cap: &Cap, moved: Option<DVec3>) -> Option<Change> {
+    let [a, b, c] = cap.corners;
     let mut change = Change {
         joins: true,
         chords_gone: vec![[a.min(b), a.max(b)]],
+        gone: mesh.at_edge(a, b),
+        moved: moved.map(|place| (c, place)),
         ..Change::default()
     };
-    for &u in gone.iter().filter(|&&u| u != t) {
+    for &u in change.gone.iter().filter(|&&u| u != t) {
         let corners = mesh.triangles[u as usize];
         let apex = corners.into_iter().find(|&v| v != a && v != b)?;
         if apex == c || mesh.neighbours(c).binary_search(&apex).is_ok() {
@@ -77,10 +121,27 @@ fn change(mesh: &Mesh<'_>, t: u32) -> Option<Change> {
         if there.is_some() {
             change.chords_gone.push(key);
         }
-        change.chords.push((key, there.unwrap_or(curve)));
+        change.chords.push((key, there.unwrap_or(cap.curve)));
     }
-    let corner = height / mesh.length([a, c]).max(mesh.length([b, c]));
-    change.gone = gone;
+    if moved.is_some() {
+        // All around it is as new.
+        let around = mesh.around(c).iter().filter(|&&u| u != t);
+        for &u in around {
+            change.gone.push(u);
+            let kept = (mesh.triangles[u as usize], mesh.patch[u as usize]);
+            change.new.push(kept);
+        }
+        for (w, curve) in mesh
+            .along(c)
+            .into_iter()
+            .filter(|(w, _)| ![a, b].contains(w))
+        {
+            let key = [w.min(c), w.max(c)];
+            change.chords_gone.push(key);
+            change.chords.push((key, curve));
+        }
+    }
+    let corner = cap.height / mesh.length([a, c]).max(mesh.length([b, c]));
     opens(mesh, &change, [a, b, c], corner).then_some(change)
 }
 

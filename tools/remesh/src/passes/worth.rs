@@ -16,3 +16,7 @@ pub const DETAIL: f64 = 0.25;
 /// Facets narrower than this, relative to the length wanted, are finer than asked for: two of them side by side are no wider than an
 /// edge may be.
 pub const FINE: f64 = 0.5;
+/// How near to a fold that stays an edge is split, relative to the length wanted: splitting needles goes on until they are as wide as
+/// long where they are up to 64 times as long. Nearer to it than that, a needle stays one whatever is done, and its vertices only ask the
+/// mesher for elements as small as the needle is narrow there.
+pub const BESIDE: f64 = 1.0 / 64.0;

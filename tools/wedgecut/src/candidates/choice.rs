@@ -90,7 +90,8 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     let ranked = |kinds: Vec<Group>| ranked_with(kinds, hubs);
     let usual: Vec<Group> = orders.iter().flat_map(|&n| kinds_of(n)).collect();
     let mut ranking = ranked(usual.clone())?;
-    // The wall of a hub stays as it is cut, and does not get the length of edges that is asked for.
+    // A hub divides what would get edges of a length: of 43 parts from CAD kernels at a tenth and a twentieth of the diagonal, the two that
+    // have a hub without this get 1.5 to 1.9 times the elements.
     let has_hub_of_ours = body.params.hub == Hub::Auto && ranking.ways[0].hub.is_some();
     if has_hub_of_ours && body.takes_lengths() {
         let without = ranked_with(usual, Hubs::None);
