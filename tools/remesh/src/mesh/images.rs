@@ -10,6 +10,8 @@ pub struct Images {
     pub maps: Vec<[FxHashMap<u32, u32>; 2]>,
     /// Of each patch, the links in a face of which it lies, a bit each.
     pub faces: Vec<u64>,
+    /// Of each link, whether both of its faces lie in one plane, as the two halves of a face that a half turn exchanges.
+    pub level: Vec<bool>,
 }
 
 impl Images {
@@ -23,7 +25,18 @@ impl Images {
                 faces[patch as usize] |= u64::from(link.labels.contains(label)) << i;
             }
         }
+        let level = |(i, link): (usize, &Link)| {
+            let patches = faces.iter().zip(&patches.planes).zip(&patches.off);
+            let mut of_link = patches.filter(|((faces, _), _)| *faces & 1 << i != 0);
+            let Some(((_, Some(plane)), off)) = of_link.next() else {
+                return false;
+            };
+            let mut all = link.pairs.iter().flatten();
+            all.all(|&v| plane.off([surface.points[v as usize]; 3]) <= *off)
+        };
+        let level = links.iter().enumerate().map(level).collect();
         Self {
+            level,
             maps: links
                 .iter()
                 .map(|link| [map(link, [0, 1]), map(link, [1, 0])])
@@ -42,13 +55,15 @@ impl Images {
         self.maps.iter().any(|map| map[0].get(&v) == Some(&v))
     }
 
-    /// Whether a triangle of a patch lies in a face of a link that the patch is no part of.
+    /// Whether a triangle of a patch lies in a face of a link that the patch is no part of, or in both.
     pub fn lies_in_face(&self, corners: [u32; 3], patch: u32) -> bool {
         let links = self.maps.iter().enumerate();
         let mut others = links.filter(|(i, _)| self.faces[patch as usize] & 1 << i == 0);
-        others.any(|(_, map)| {
-            map.iter()
-                .any(|side| corners.iter().all(|v| side.contains_key(v)))
+        others.any(|(i, map)| {
+            let on = |side: usize| corners.map(|v| map[side].contains_key(&v));
+            let [low, high] = [on(0), on(1)];
+            let both = || (0..3).all(|k| low[k] || high[k]);
+            low == [true; 3] || high == [true; 3] || self.level[i] && both()
         })
     }
 
@@ -82,6 +97,7 @@ mod tests {
         let mut images = Images {
             maps: vec![Default::default()],
             faces: vec![0, 1],
+            level: vec![false],
         };
         for v in 0..3 {
             images.add(0, [v, v + 3]);
@@ -90,5 +106,8 @@ mod tests {
         // The face itself, and triangles that reach out of it.
         assert!(!images.lies_in_face([0, 1, 2], 1));
         assert!(!images.lies_in_face([0, 1, 6], 0) && !images.lies_in_face([0, 1, 3], 0));
+        // The halves of one face.
+        images.level = vec![true];
+        assert!(images.lies_in_face([0, 1, 3], 0) && !images.lies_in_face([0, 1, 6], 0));
     }
 }

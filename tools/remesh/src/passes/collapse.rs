@@ -12,7 +12,8 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool 
         return false;
     };
     let changes: Option<Vec<Change>> = orbit.iter().map(|&edge| change(mesh, edge)).collect();
-    let Some(change) = changes.map(Change::all) else {
+    let change = changes.map(Change::all);
+    let Some(change) = change.filter(|change| !has_twins(change)) else {
         return false;
     };
     let before = change.gone.iter().map(|&t| {
@@ -47,6 +48,18 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool 
         mesh.fixed[to as usize] |= change.joins;
     }
     true
+}
+
+/// Whether two of the new triangles have the same corners: images of each other that are collapsed into the same vertex.
+fn has_twins(change: &Change) -> bool {
+    let sorted = |n: &([u32; 3], u32)| {
+        let mut corners = n.0;
+        corners.sort_unstable();
+        corners
+    };
+    let mut all: Vec<[u32; 3]> = change.new.iter().map(sorted).collect();
+    all.sort_unstable();
+    all.windows(2).any(|w| w[0] == w[1])
 }
 
 /// Quality of a triangle, from 0 to 1. Where curves are joined, needles in flat faces count, too.
