@@ -51,6 +51,7 @@ fn take(mesh: &mut Mesh<'_>, t: u32, cap: &Cap, moves: bool) -> bool {
         }
     }
     let change = change(mesh, t, cap, moves.then_some(old));
+    let change = change.filter(|change| !moves || !narrows(mesh, change));
     let fitted = change.and_then(|change| Some((mesh.fit(&change)?, change)));
     match fitted {
         Some((fitted, change)) => {
@@ -62,6 +63,25 @@ fn take(mesh: &mut Mesh<'_>, t: u32, cap: &Cap, moves: bool) -> bool {
             false
         }
     }
+}
+
+/// Whether a triangle of what is curved gets narrower than all that there were: then needles beside the one that goes would be taken
+/// for ever narrower ones.
+fn narrows(mesh: &Mesh<'_>, change: &Change) -> bool {
+    let is_curved = |patch: u32| mesh.planes[patch as usize].is_none();
+    let height = |corners: [u32; 3], at: &dyn Fn(u32) -> DVec3| {
+        let [a, b, c] = corners.map(at);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        double_area_vector(a, b, c).length() / longest
+    };
+    let is = |v: u32| mesh.points[v as usize];
+    let was = |v: u32| mesh.before(change, v);
+    let new = change.new.iter().filter(|n| is_curved(n.1));
+    let gone = change.gone.iter().map(|&t| t as usize);
+    let gone = gone.filter(|&t| is_curved(mesh.patch[t]));
+    let after = new.map(|n| height(n.0, &is)).fold(f64::INFINITY, f64::min);
+    let before = gone.map(|t| height(mesh.triangles[t], &was));
+    after < before.fold(f64::INFINITY, f64::min)
 }
 
 /// A triangle of which the corner opposite to the longest side, a feature, is above the inside of it, and near it.
