@@ -611,3 +611,53 @@ fn a_fine_drawing_gets_about_as_many_triangles_as_a_coarse_one() {
         assert!(2 * fine <= 3 * coarse, "{fine} for {coarse}");
     }
 }
+
+/// A cylinder with flat ends, beside whose upper edge there is a vertex below the middle of every side, and as far outside: the triangle
+/// there leans by half a right angle and has features on both sides.
+fn caps_beside_a_flat_end(around: u32, below: f64) -> Surface {
+    let at = |i: u32, z: f64| {
+        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(around);
+        DVec3::new(angle.cos(), angle.sin(), z)
+    };
+    let points = (0..around).flat_map(|i| {
+        let middle = 0.5 * (at(i, 1.0) + at(i + 1, 1.0));
+        let outward = DVec3::new(middle.x, middle.y, 0.0).normalize();
+        let middle = middle + (outward - DVec3::Z) * below;
+        [at(i, -1.0), at(i, 1.0), middle]
+    });
+    let mut surface = Surface {
+        points: points.chain([-DVec3::Z, DVec3::Z]).collect(),
+        ..Surface::default()
+    };
+    let ends = [3 * around, 3 * around + 1];
+    for i in 0..around {
+        let [low, high, middle] = [3 * i, 3 * i + 1, 3 * i + 2];
+        let [next, above] = [low, high].map(|v| (v + 3) % (3 * around));
+        surface.triangles.extend([
+            [low, next, middle],
+            [low, middle, high],
+            [next, above, middle],
+            [high, middle, above],
+            [ends[0], next, low],
+            [ends[1], high, above],
+        ]);
+    }
+    surface.labels = vec![0; surface.triangles.len()];
+    surface
+}
+
+#[test]
+fn needles_beside_the_edge_of_a_flat_face_go_without_bending_it() {
+    let surface = caps_beside_a_flat_end(24, 1e-5);
+    let free = vec![false; surface.points.len()];
+    let made = done(&surface, 1e-3, &free).expect("needles").surface;
+    let lowest = made.triangles.iter().map(|t| {
+        let [a, b, c] = t.map(|v| made.points[v as usize]);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        (b - a).cross(c - a).length() / longest
+    });
+    let lowest = lowest.fold(f64::INFINITY, f64::min);
+    assert!(lowest > 1e-3, "{lowest:e}");
+    let on_top = made.points.iter().filter(|p| p.z > 0.999);
+    assert!(on_top.clone().count() > 24 && on_top.clone().all(|p| p.z == 1.0));
+}
