@@ -7,7 +7,7 @@ use geom::flat::{FOLD_COSINE, Flatness, Flats, Plane};
 use geom::measure::{double_area_vector, triangle_area};
 use geom::sets::DisjointSets;
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The patches of a surface.
 pub struct Patches {
@@ -236,6 +236,7 @@ impl Patches {
         beside: &mut [Beside],
     ) -> Vec<u32> {
         let mut sets = DisjointSets::new(beside.len());
+        let mut inner: FxHashSet<(usize, u32)> = FxHashSet::default();
         for link in rules.links {
             let image: FxHashMap<u32, u32> = link.pairs.iter().map(|&[v, w]| (v, w)).collect();
             let on_link = |ends: &[u32; 2]| ends.map(|v| image.get(&v).copied());
@@ -261,9 +262,13 @@ impl Patches {
                     if plane.off(surface.corners(t).map(|p| (link.image)(p))) > rules.flat {
                         continue;
                     }
+                    // No border of either any more; one face may be glued to several.
                     let [a, b] = ends.map(|v| surface.points[v as usize]);
-                    for t in [t, u] {
-                        beside[self.facet[t as usize] as usize].border -= a.distance(b);
+                    for side in [(here, t), (there, u)] {
+                        if inner.insert(side) {
+                            let facet = self.facet[side.1 as usize] as usize;
+                            beside[facet].border -= a.distance(b);
+                        }
                     }
                     sets.join(self.facet[t as usize], self.facet[u as usize]);
                 }
