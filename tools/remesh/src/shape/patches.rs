@@ -237,11 +237,19 @@ impl Patches {
     ) -> Vec<u32> {
         let mut sets = DisjointSets::new(beside.len());
         let mut inner: FxHashSet<(usize, u32)> = FxHashSet::default();
+        // Of all edges, only those on glued faces are looked at for each of the links.
+        let pairs = rules.links.iter().flat_map(|link| &link.pairs);
+        let glued: FxHashSet<u32> = pairs.flatten().copied().collect();
+        let ends = self.edges.ends.iter().enumerate();
+        let on_faces: Vec<(usize, [u32; 2])> = ends
+            .filter(|(_, ends)| ends.iter().all(|v| glued.contains(v)))
+            .map(|(edge, ends)| (edge, *ends))
+            .collect();
         for link in rules.links {
             let image: FxHashMap<u32, u32> = link.pairs.iter().map(|&[v, w]| (v, w)).collect();
-            let on_link = |ends: &[u32; 2]| ends.map(|v| image.get(&v).copied());
+            let on_link = |ends: [u32; 2]| ends.map(|v| image.get(&v).copied());
             let turned = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-            let images = self.edges.ends.iter().enumerate().filter_map(|(e, ends)| {
+            let images = on_faces.iter().filter_map(|&(e, ends)| {
                 let [Some(a), Some(b)] = on_link(ends) else {
                     return None;
                 };
@@ -253,8 +261,8 @@ impl Patches {
                 let label = |t: &u32| surface.labels[*t as usize];
                 around.filter(move |t| !link.labels.contains(&label(t)))
             };
-            for (there, ends) in self.edges.ends.iter().enumerate() {
-                let Some(&here) = from.get(&turned(*ends)) else {
+            for &(there, ends) in &on_faces {
+                let Some(&here) = from.get(&turned(ends)) else {
                     continue;
                 };
                 for (t, u) in free(here).flat_map(|t| free(there).map(move |u| (t, u))) {
