@@ -177,8 +177,9 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
         false => (ROUNDS, 1),
     };
     for round in 0..rounds {
-        // Where features were joined, there are needles in other patches.
-        let found = if mesh.joined > 0 && !is_sized {
+        // What is done in a patch moves curves that others share, and facets there, such as strips along a cylinder, get
+        // diagonals that nothing hides any more.
+        let found = if !told.is_nothing() && !is_sized {
             sharp(&mesh)
         } else {
             Vec::new()
