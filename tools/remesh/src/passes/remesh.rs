@@ -231,8 +231,14 @@ fn corners_of_facets(mesh: &Mesh<'_>) -> FxHashMap<(u32, u32), f64> {
 }
 
 /// What narrow facets cost: elements as wide as they are, along all of their borders. The sum over all facets of the square
-/// of the perimeter over the area, which for a strip is four times its length over its width.
+/// of the perimeter over the area, which for a strip is four times its length over its width, and over all their corners
+/// of two over the angle, as often elements fit along both sides of a corner while its width doubles: facets may be narrow
+/// only where they end.
 fn slenderness(mesh: &Mesh<'_>) -> f64 {
+    let corners = corners_of_facets(mesh);
+    // As sharp as rounding may leave a corner.
+    let angles = corners.into_values().map(|a| a.to_radians().max(f64::EPSILON));
+    let in_corners: f64 = angles.map(|angle| 2.0 / angle).sum();
     let facets = mesh.facets();
     let mut measures = vec![(0.0, 0.0); mesh.triangles.len()];
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
@@ -254,9 +260,8 @@ fn slenderness(mesh: &Mesh<'_>) -> f64 {
             .for_each(|&f| measures[f as usize].0 += mesh.length([a, b]));
     }
     let there = measures.into_iter().filter(|m| m.1 > 0.0);
-    there
-        .map(|(perimeter, area)| perimeter * perimeter / area)
-        .sum()
+    let along_sides = there.map(|(perimeter, area)| perimeter * perimeter / area);
+    in_corners + along_sides.sum::<f64>()
 }
 
 /// Whether each patch is to be remeshed: whether it has facets with sharp corners, or is drawn with facets that are detail
