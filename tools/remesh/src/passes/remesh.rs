@@ -234,10 +234,12 @@ fn corners_of_facets(mesh: &Mesh<'_>) -> FxHashMap<(u32, u32), f64> {
 /// of the perimeter over the area, which for a strip is four times its length over its width, and over all their corners
 /// of two over the angle, as often elements fit along both sides of a corner while its width doubles: facets may be narrow
 /// only where they end.
-fn slenderness(mesh: &Mesh<'_>) -> f64 {
+pub(super) fn slenderness(mesh: &Mesh<'_>) -> f64 {
     let corners = corners_of_facets(mesh);
     // As sharp as rounding may leave a corner.
-    let angles = corners.into_values().map(|a| a.to_radians().max(f64::EPSILON));
+    let angles = corners
+        .into_values()
+        .map(|a| a.to_radians().max(f64::EPSILON));
     let in_corners: f64 = angles.map(|angle| 2.0 / angle).sum();
     let facets = mesh.facets();
     let mut measures = vec![(0.0, 0.0); mesh.triangles.len()];

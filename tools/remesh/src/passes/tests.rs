@@ -1,5 +1,6 @@
 //! Surfaces that are remeshed, without any document.
 
+use super::remesh::slenderness;
 use super::split::split;
 use crate::mesh::Mesh;
 use crate::shape::{Allowance, Curves, Envelope, Patches};
@@ -660,4 +661,90 @@ fn needles_beside_the_edge_of_a_flat_face_go_without_bending_it() {
     assert!(lowest > 1e-3, "{lowest:e}");
     let on_top = made.points.iter().filter(|p| p.z > 0.999);
     assert!(on_top.clone().count() > 24 && on_top.clone().all(|p| p.z == 1.0));
+}
+
+/// A cylinder of so many strips, four times as high as wide, with a flat end and a cone as high as wide on the other one.
+fn pencil(around: u32) -> Surface {
+    let at = |i: u32, z: f64| {
+        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(around);
+        DVec3::new(angle.cos(), angle.sin(), z)
+    };
+    let rims = (0..around).flat_map(|i| [at(i, 0.0), at(i, 8.0)]);
+    let mut surface = Surface {
+        points: rims.chain([DVec3::ZERO, 9.0 * DVec3::Z]).collect(),
+        ..Surface::default()
+    };
+    let [end, tip] = [2 * around, 2 * around + 1];
+    for i in 0..around {
+        let [low, high] = [2 * i, 2 * i + 1];
+        let [next, above] = [low, high].map(|v| (v + 2) % (2 * around));
+        surface.triangles.extend([
+            [low, next, high],
+            [high, next, above],
+            [end, next, low],
+            [tip, high, above],
+        ]);
+    }
+    surface.labels = vec![0; surface.triangles.len()];
+    surface
+}
+
+#[test]
+fn strips_beside_what_is_remeshed_are_remeshed_where_they_do_not_stay_flat() {
+    // The cone has needles; once the rim has other vertices, so has the cylinder, which is drawn coarsely enough.
+    let surface = pencil(22);
+    let free = vec![false; surface.points.len()];
+    let made = done(&surface, 0.1, &free).expect("needles").surface;
+    assert!(is_closed(&made));
+    let on_side = |t: &&[u32; 3]| {
+        let [low, high] = t
+            .iter()
+            .map(|&v| made.points[v as usize].z)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
+                [low.min(z), high.max(z)]
+            });
+        low < 7.9 && high > 0.1
+    };
+    let side = Surface {
+        points: made.points.clone(),
+        triangles: made.triangles.iter().filter(on_side).copied().collect(),
+        labels: Vec::new(),
+    };
+    let angle = smallest_angle(&side);
+    assert!(angle > 15.0, "{angle}");
+}
+
+#[test]
+fn a_facet_that_is_narrow_only_at_its_end_costs_more_than_a_strip() {
+    let cost = |points: Vec<DVec3>, triangles: Vec<[u32; 3]>| {
+        let surface = Surface {
+            labels: vec![0; triangles.len()],
+            points,
+            triangles,
+        };
+        let held = vec![false; surface.points.len()];
+        let bound = vec![0; surface.points.len()];
+        let rules = rules(1e-3, (&held, &[]), (&bound, &[]));
+        let patches = Patches::new(&surface, &rules);
+        let curves = Curves::new(&surface, &rules, &patches);
+        let allowance = Allowance::new(&surface, &rules, &patches, &curves);
+        let envelope = Envelope::new(&surface, &patches, &curves, &allowance);
+        slenderness(&Mesh::new(
+            &surface,
+            rules,
+            (&patches, &curves),
+            (&envelope, &allowance),
+        ))
+    };
+    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    // As large, and as long around.
+    let strip = cost(
+        vec![at(0.0, 0.0), at(10.0, 0.0), at(10.0, 0.02), at(0.0, 0.02)],
+        vec![[0, 1, 2], [0, 2, 3]],
+    );
+    let wedge = cost(
+        vec![at(0.0, 0.0), at(10.0, 0.0), at(10.0, 0.04)],
+        vec![[0, 1, 2]],
+    );
+    assert!(wedge > 1.2 * strip, "{wedge} {strip}");
 }

@@ -1,7 +1,8 @@
 //! What is beside facets: whether they are some of many that stand for something curved.
 
 use geom::edges::{EdgeUse, Edges};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
+use rustc_hash::FxHashMap;
 
 /// A degree, in radians: what is bent by less may be the same face, however wide.
 const SHALLOW: f64 = std::f64::consts::PI / 180.0;
@@ -33,13 +34,55 @@ pub struct Beside {
     pub border: f64,
     /// Length of the part beside which the surface goes on smoothly.
     pub smooth: f64,
-    /// Length of the part of it beside which it goes on with a facet of half its width at least, across the edge, or is bent
-    /// by less than a degree and does not rise far.
+    /// Length of the part of it beside which it goes on with a facet of half its width at least, across the edge; or turns
+    /// there as much as something does that bends as beyond that facet, for the width of both rather than for that facet's, but
+    /// not more than four times that, as a triangle may be half as wide on average, and turn at one of its sides only; or is bent by less than a degree and does not rise far.
     pub like: f64,
     /// The first of the facets beyond that part.
     pub first: Option<u32>,
     /// Whether there are others.
     pub more: bool,
+}
+
+/// A smooth edge between two facets.
+struct Fold {
+    facets: [u32; 2],
+    /// How wide they are across the edge.
+    widths: [f64; 2],
+    /// Angle between them, radians.
+    turn: f64,
+    length: f64,
+    /// Its unit direction.
+    along: DVec3,
+}
+
+/// How facets turn at folds, and how wide they are there, by the direction of the fold, times length.
+#[derive(Clone, Copy, Default)]
+struct Bend {
+    turned: DMat3,
+    across: DMat3,
+}
+
+impl Bend {
+    fn add(&mut self, fold: &Fold) {
+        let outer = DMat3::from_cols(
+            fold.along * fold.along.x,
+            fold.along * fold.along.y,
+            fold.along * fold.along.z,
+        );
+        let mean = 0.5 * (fold.widths[0] + fold.widths[1]);
+        self.turned += outer * (fold.turn * fold.length);
+        self.across += outer * (mean * fold.length);
+    }
+
+    /// Curvature across a direction at all folds but some.
+    fn curvature(&self, but: &Self, along: DVec3) -> Option<f64> {
+        let part = |all: DMat3, but: DMat3| along.dot((all - but) * along);
+        let [turned, across] = [part(self.turned, but.turned), part(self.across, but.across)];
+        let in_all = along.dot(self.across * along);
+        // What is left may be rounding.
+        (across > f64::EPSILON.sqrt() * in_all).then_some(turned / across)
+    }
 }
 
 impl Facets<'_> {
@@ -55,6 +98,48 @@ impl Facets<'_> {
             members[facet as usize].extend(self.triangles[t]);
             beside[facet as usize].triangles += 1;
         }
+        let folds = self.folds(&members, mate, &mut beside);
+        // What each facet does at its folds, in all and at those with each of the others beside it.
+        let mut bends = vec![Bend::default(); count];
+        let mut between: FxHashMap<[u32; 2], Bend> = FxHashMap::default();
+        for fold in &folds {
+            let [f, g] = fold.facets;
+            between.entry([f.min(g), f.max(g)]).or_default().add(fold);
+            bends[f as usize].add(fold);
+            bends[g as usize].add(fold);
+        }
+        for fold in &folds {
+            let &Fold { length, turn, .. } = fold;
+            for [here, there] in [[0, 1], [1, 0]] {
+                let [f, g] = [here, there].map(|i| fold.facets[i]);
+                let [w, x] = [here, there].map(|i| fold.widths[i]);
+                // How what is beyond bends where it is beside others.
+                let with = &between[&[f.min(g), f.max(g)]];
+                let curvature = bends[g as usize].curvature(with, fold.along);
+                let goes_on = curvature.is_some_and(|curvature| {
+                    let turns = curvature * (0.5 * x + 0.25 * w)..=curvature * 2.0 * (x + w);
+                    turns.contains(&turn)
+                });
+                let facet = &mut beside[f as usize];
+                facet.smooth += length;
+                if w <= 2.0 * x || goes_on || turn <= SHALLOW && 0.25 * turn * w <= self.rise {
+                    facet.like += length;
+                    facet.more |= facet.first.is_some_and(|first| first != g);
+                    facet.first.get_or_insert(g);
+                }
+            }
+        }
+        beside
+    }
+
+    /// The folds between facets of so many members, and how long their borders are.
+    fn folds(
+        &self,
+        members: &[Vec<u32>],
+        mate: impl Fn(usize, &EdgeUse) -> Option<EdgeUse>,
+        beside: &mut [Beside],
+    ) -> Vec<Fold> {
+        let mut folds = Vec::new();
         for edge in 0..self.edges.len() {
             let [a, b] = self.edges.ends[edge].map(|v| self.points[v as usize]);
             let length = a.distance(b);
@@ -75,24 +160,19 @@ impl Facets<'_> {
                 if f == g || (v.triangle, v.corner) < (u.triangle, u.corner) {
                     continue;
                 }
-                let (w, x) = (width(f), width(g));
                 let [m, n] = [u, &v].map(|u| self.normals[u.triangle as usize]);
-                let turn = libm::atan2(m.cross(n).length(), m.dot(n).abs());
-                let is_like = |w: f64, x: f64| {
-                    w <= 2.0 * x || turn <= SHALLOW && 0.25 * turn * w <= self.rise
-                };
-                for (facet, beyond, like_it) in [(f, g, is_like(w, x)), (g, f, is_like(x, w))] {
-                    let facet = &mut beside[facet as usize];
-                    facet.border += length;
-                    facet.smooth += length;
-                    if like_it {
-                        facet.like += length;
-                        facet.more |= facet.first.is_some_and(|first| first != beyond);
-                        facet.first.get_or_insert(beyond);
-                    }
+                for f in [f, g] {
+                    beside[f as usize].border += length;
                 }
+                folds.push(Fold {
+                    facets: [f, g],
+                    widths: [width(f), width(g)],
+                    turn: libm::atan2(m.cross(n).length(), m.dot(n).abs()),
+                    length,
+                    along,
+                });
             }
         }
-        beside
+        folds
     }
 }

@@ -379,6 +379,39 @@ mod tests {
         [flat, patches.planes.len() - flat]
     }
 
+    /// Strips that turn in turn by such angles, degrees, each as wide as an arc of radius 1 over some angle of its own.
+    fn strips(all: &[(f64, f64)]) -> Surface {
+        let mut surface = Surface::default();
+        let (mut place, mut angle) = (DVec3::ZERO, 0.0_f64);
+        for i in 0..=all.len() {
+            surface.points.push(place);
+            surface.points.push(place + 5.0 * DVec3::Z);
+            if let Some(&(turn, width)) = all.get(i) {
+                angle += turn.to_radians();
+                let width = 2.0 * libm::sin(0.5 * width.to_radians());
+                place += width * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0);
+            }
+        }
+        for i in 0..all.len() as u32 {
+            let [a, b, c, d] = [0, 2, 3, 1].map(|k| 2 * i + k);
+            surface.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+        surface.labels = vec![0; surface.triangles.len()];
+        surface
+    }
+
+    #[test]
+    fn wide_strips_of_an_arc_are_no_faces_but_those_between_arcs_are() {
+        // Twelve and four degrees of one circle by turns.
+        let uneven = [(8.0, 12.0), (8.0, 4.0)].repeat(5);
+        assert_eq!(faces(&strips(&uneven), 0.0), [0, 1]);
+        // A face as wide as twelve degrees between roundings of four: the circle goes on only up to its sides.
+        let rounding = [(4.0, 4.0)].repeat(6);
+        let face = [(2.0, 12.0), (2.0, 4.0)];
+        let between = [&rounding[..], &face, &rounding].concat();
+        assert_eq!(faces(&strips(&between), 0.0), [1, 2]);
+    }
+
     /// Two rows of facets of an arc that meet at a strip so wide, or two flat faces in place of the arcs.
     fn blade(width: f64, is_curved: bool) -> Surface {
         let mut surface = Surface::default();
