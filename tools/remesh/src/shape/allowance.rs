@@ -205,7 +205,8 @@ fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool])
     bends
 }
 
-fn outer(a: DVec3) -> DMat3 {
+/// The matrix of the products of a vector's components.
+pub(super) fn outer(a: DVec3) -> DMat3 {
     DMat3::from_cols(a * a.x, a * a.y, a * a.z)
 }
 

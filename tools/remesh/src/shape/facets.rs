@@ -1,5 +1,6 @@
 //! What is beside facets: whether they are some of many that stand for something curved.
 
+use super::allowance::outer;
 use geom::edges::{EdgeUse, Edges};
 use glam::{DMat3, DVec3};
 use rustc_hash::FxHashMap;
@@ -65,11 +66,7 @@ struct Bend {
 
 impl Bend {
     fn add(&mut self, fold: &Fold) {
-        let outer = DMat3::from_cols(
-            fold.along * fold.along.x,
-            fold.along * fold.along.y,
-            fold.along * fold.along.z,
-        );
+        let outer = outer(fold.along);
         let mean = 0.5 * (fold.widths[0] + fold.widths[1]);
         self.turned += outer * (fold.turn * fold.length);
         self.across += outer * (mean * fold.length);
