@@ -215,8 +215,7 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
 }
 
 /// Corners of facets, by facet and vertex, with their angles in degrees.
-fn corners_of_facets(mesh: &Mesh<'_>) -> FxHashMap<(u32, u32), f64> {
-    let facets = mesh.facets();
+fn corners_of_facets(mesh: &Mesh<'_>, facets: &[u32]) -> FxHashMap<(u32, u32), f64> {
     let mut angles: FxHashMap<(u32, u32), f64> = FxHashMap::default();
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let corners = mesh.triangles[t];
@@ -235,13 +234,13 @@ fn corners_of_facets(mesh: &Mesh<'_>) -> FxHashMap<(u32, u32), f64> {
 /// of two over the angle, as often elements fit along both sides of a corner while its width doubles: facets may be narrow
 /// only where they end.
 pub(super) fn slenderness(mesh: &Mesh<'_>) -> f64 {
-    let corners = corners_of_facets(mesh);
+    let facets = mesh.facets();
+    let corners = corners_of_facets(mesh, &facets);
     // As sharp as rounding may leave a corner.
     let angles = corners
         .into_values()
         .map(|a| a.to_radians().max(f64::EPSILON));
     let in_corners: f64 = angles.map(|angle| 2.0 / angle).sum();
-    let facets = mesh.facets();
     let mut measures = vec![(0.0, 0.0); mesh.triangles.len()];
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let [a, b, c] = mesh.triangles[t].map(|v| mesh.points[v as usize]);
@@ -270,7 +269,7 @@ pub(super) fn slenderness(mesh: &Mesh<'_>) -> f64 {
 /// beside the edges wanted, such as strips along a cylinder, between which elements would have to be as narrow.
 fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
     let facets = mesh.facets();
-    let angles = corners_of_facets(mesh);
+    let angles = corners_of_facets(mesh, &facets);
     let mut active = fine(mesh);
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let patch = mesh.patch[t] as usize;

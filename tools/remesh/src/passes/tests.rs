@@ -663,7 +663,7 @@ fn needles_beside_the_edge_of_a_flat_face_go_without_bending_it() {
     assert!(on_top.clone().count() > 24 && on_top.clone().all(|p| p.z == 1.0));
 }
 
-/// A cylinder of so many strips, four times as high as wide, with a flat end and a cone as high as wide on the other one.
+/// A cylinder of so many strips, four times as high as wide, with a flat end and a cone half as high as wide on the other one.
 fn pencil(around: u32) -> Surface {
     let at = |i: u32, z: f64| {
         let angle = std::f64::consts::TAU * f64::from(i) / f64::from(around);

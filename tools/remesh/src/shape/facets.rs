@@ -35,9 +35,8 @@ pub struct Beside {
     pub border: f64,
     /// Length of the part beside which the surface goes on smoothly.
     pub smooth: f64,
-    /// Length of the part of it beside which it goes on with a facet of half its width at least, across the edge; or turns
-    /// there as much as something does that bends as beyond that facet, for the width of both rather than for that facet's, but
-    /// not more than four times that, as a triangle may be half as wide on average, and turn at one of its sides only; or is bent by less than a degree and does not rise far.
+    /// Length of the part of it beside which it goes on with a facet of half its width at least, across the edge, or turns as
+    /// one curve does for the width of both, or is bent by less than a degree and does not rise far.
     pub like: f64,
     /// The first of the facets beyond that part.
     pub first: Option<u32>,
@@ -82,6 +81,16 @@ impl Bend {
     }
 }
 
+/// Whether a facet of some width is one of those of a curve, as what is beside it is, which has a width and, beyond, a
+/// curvature. The fold between them then turns as far as the curve over half of either width. Beside a flat face, it turns
+/// over half of the other facet's width only: half way between decides. And it turns no more than four times as far as it
+/// should, as the widths of triangles are up to twice their mean, and one of two sides may have all of the turn.
+fn is_one_curve(turn: f64, [width, beside]: [f64; 2], curvature: f64) -> bool {
+    let flat = 0.5 * curvature * beside;
+    let curved = 0.5 * curvature * (width + beside);
+    (0.5 * (flat + curved)..=4.0 * curved).contains(&turn)
+}
+
 impl Facets<'_> {
     /// What is beside each of so many facets; `mate` has the triangle that goes on smoothly beyond an edge.
     pub fn beside(
@@ -110,16 +119,14 @@ impl Facets<'_> {
             for [here, there] in [[0, 1], [1, 0]] {
                 let [f, g] = [here, there].map(|i| fold.facets[i]);
                 let [w, x] = [here, there].map(|i| fold.widths[i]);
-                // How what is beyond bends where it is beside others.
-                let with = &between[&[f.min(g), f.max(g)]];
-                let curvature = bends[g as usize].curvature(with, fold.along);
-                let goes_on = curvature.is_some_and(|curvature| {
-                    let turns = curvature * (0.5 * x + 0.25 * w)..=curvature * 2.0 * (x + w);
-                    turns.contains(&turn)
-                });
+                let goes_on = || {
+                    let with = &between[&[f.min(g), f.max(g)]];
+                    let beyond = bends[g as usize].curvature(with, fold.along);
+                    beyond.is_some_and(|beyond| is_one_curve(turn, [w, x], beyond))
+                };
                 let facet = &mut beside[f as usize];
                 facet.smooth += length;
-                if w <= 2.0 * x || goes_on || turn <= SHALLOW && 0.25 * turn * w <= self.rise {
+                if w <= 2.0 * x || goes_on() || turn <= SHALLOW && 0.25 * turn * w <= self.rise {
                     facet.like += length;
                     facet.more |= facet.first.is_some_and(|first| first != g);
                     facet.first.get_or_insert(g);
