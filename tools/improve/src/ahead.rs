@@ -34,8 +34,13 @@ pub struct Count {
 /// When nothing was found for a tetrahedron, by its number: nothing will be before something changes at its corners.
 pub type Failed = Vec<Option<u32>>;
 
-/// Makes tetrahedra better, those that are still there with the same quality when it is their turn.
-pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], failed: &mut Failed) -> Count {
+/// Makes tetrahedra better, those that are still there with the same quality when it is their turn, until there is a reason to stop.
+pub fn work(
+    mesh: &mut Mesh<'_>,
+    freedoms: &Freedoms,
+    bad: &[Bad],
+    (failed, stop): (&mut Failed, &dyn Fn() -> bool),
+) -> Count {
     let mut count = Count::default();
     let ahead = rayon::current_num_threads() > 1;
     // Of so many tetrahedra looked at together, the same few have corners in common with what is changed before them,
@@ -52,6 +57,9 @@ pub fn work(mesh: &mut Mesh<'_>, freedoms: &Freedoms, bad: &[Bad], failed: &mut 
         for (&(quality, tet), step) in some.iter().zip(found) {
             if !is_there(mesh, quality, tet) || is_hopeless(mesh, freedoms, tet, failed) {
                 continue;
+            }
+            if stop() {
+                return count;
             }
             count.looked_at += 1;
             let (step, time) = match step {

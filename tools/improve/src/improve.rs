@@ -33,6 +33,8 @@ pub struct Wish<'a> {
     pub max_volume: &'a FxHashMap<u32, f64>,
     /// A power of two that brings coordinates near one.
     pub scale: f64,
+    /// Whether to stop, with the mesh as it is then.
+    pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
 /// What was done.
@@ -54,6 +56,8 @@ pub struct Improved {
     pub flipped: usize,
     /// New vertices.
     pub inserted: usize,
+    /// Whether it was stopped before nothing was left to do.
+    pub stopped: bool,
 }
 
 /// Improves the tetrahedra of a template. Walls and numbers of vertices and triangles stay; inside of flat facets and seams,
@@ -191,13 +195,19 @@ impl Work<'_> {
         }
     }
 
+    /// Whether to stop; once it is so, it stays so.
+    fn is_stopped(&mut self) -> bool {
+        self.done.stopped |= (self.wish.stop)();
+        self.done.stopped
+    }
+
     /// Works towards the mesh's goal.
     fn pursue(&mut self) {
         self.looked_at = 0;
         self.rounds();
         let first = self.add_vertices();
         let mut added = first;
-        while added > 0 && FEWER * added >= first {
+        while added > 0 && FEWER * added >= first && !self.done.stopped {
             self.rounds();
             added = self.add_vertices();
         }
@@ -207,10 +217,11 @@ impl Work<'_> {
     /// all rounds together look at no more tetrahedra than there are, so that the work stays linear where the shape is to
     /// blame for many of them.
     fn rounds(&mut self) {
-        loop {
+        while !self.is_stopped() {
             let bad = self.bad();
             let others = &mut self.tried.others;
-            let count = ahead::work(&mut self.mesh, &self.freedoms, &bad, others);
+            let stop = self.wish.stop;
+            let count = ahead::work(&mut self.mesh, &self.freedoms, &bad, (others, stop));
             self.done.moved += count.moved;
             self.done.flipped += count.flipped;
             self.looked_at += count.looked_at;
@@ -230,6 +241,9 @@ impl Work<'_> {
         bad.truncate(SEARCHES * self.mesh.len().isqrt());
         let before = self.done.inserted;
         for (quality, tet) in bad {
+            if self.is_stopped() {
+                break;
+            }
             let mesh = &mut self.mesh;
             if !ahead::is_there(mesh, quality, tet) {
                 continue;

@@ -10,6 +10,7 @@ use geom::measure::tet_volume;
 use geom::tet::{FACES, TetMeasures};
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use tmesh::{Gluing, Isometry, OUTSIDE, Template, Tet, Triangle};
 
 /// Does what is found to replace a tetrahedron, if anything.
@@ -330,6 +331,7 @@ fn vertices_come_on_mirror_planes() {
         min_dihedral: 42.0,
         max_volume: &FxHashMap::default(),
         scale: 1.0,
+        stop: &|| false,
     };
     let kept = freedoms(&template, &of_triangle, &[DVec3::ZERO; 8]);
     let (done, parents) = improve(&mut same, &kept, &wish);
@@ -425,6 +427,7 @@ fn vertices_come_on_edges_of_the_surface() {
         min_dihedral: 10.0,
         max_volume: &FxHashMap::default(),
         scale: 1.0,
+        stop: &|| false,
     };
     let before = sector();
     let (of_triangle, normals) = facets(&before);
@@ -633,6 +636,7 @@ fn partners_on_a_seam_move_as_one() {
             min_dihedral: 10.0,
             max_volume: &FxHashMap::default(),
             scale: 1.0,
+            stop: &|| false,
         },
     );
     assert!(done.moved > 0 && done.bad > 0, "{done:?}");
@@ -703,10 +707,9 @@ fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     pool.build().unwrap().install(work)
 }
 
-#[test]
-fn threads_make_no_difference() {
+/// Cubes that are shaken, and what keeps their sides.
+fn kept_cubes() -> (Template, Freedoms) {
     let cubes = shaken_cubes(26);
-    // The sides of the cube stay.
     let fixed: Vec<u32> = (0..cubes.vertices.len() as u32)
         .filter(|&v| {
             let p = cubes.vertices[v as usize];
@@ -724,12 +727,19 @@ fn threads_make_no_difference() {
             straight: 0.0,
         },
     );
+    (cubes, freedoms)
+}
+
+#[test]
+fn threads_make_no_difference() {
+    let (cubes, freedoms) = kept_cubes();
     let wish = Wish {
         angle: 40.0,
         radius_edge: 1.2,
         min_dihedral: 25.0,
         max_volume: &FxHashMap::default(),
         scale: 1.0,
+        stop: &|| false,
     };
     let mut one = cubes.clone();
     let (done, _) = on_threads(1, || improve(&mut one, &freedoms, &wish));
@@ -744,4 +754,36 @@ fn threads_make_no_difference() {
         assert_eq!(again, done);
         assert!(several.vertices == one.vertices && several.tets == one.tets);
     }
+}
+
+#[test]
+fn improvement_stops_when_it_is_told_to() {
+    let (cubes, freedoms) = kept_cubes();
+    let run = |stop: &(dyn Fn() -> bool + Sync)| {
+        let wish = Wish {
+            angle: 40.0,
+            radius_edge: 1.2,
+            min_dihedral: 25.0,
+            max_volume: &FxHashMap::default(),
+            scale: 1.0,
+            stop,
+        };
+        let mut made = cubes.clone();
+        let (done, _) = improve(&mut made, &freedoms, &wish);
+        let corners = (made.tets.iter()).map(|t| t.vertices.map(|v| made.vertices[v as usize]));
+        let whole: f64 = corners.map(|[a, b, c, d]| tet_volume(a, b, c, d)).sum();
+        assert!((whole - 26_f64.powi(3)).abs() < 1e-6);
+        (done, made)
+    };
+    let (whole, _) = run(&|| false);
+    assert!(!whole.stopped, "{whole:?}");
+    let (none, same) = run(&|| true);
+    assert!(none.stopped && none.left == none.bad, "{none:?}");
+    assert_eq!(none.moved + none.flipped + none.inserted, 0);
+    assert_eq!(same.vertices, cubes.vertices);
+    // In the middle of the first round.
+    let asked = AtomicUsize::new(0);
+    let (some, _) = run(&|| asked.fetch_add(1, Ordering::Relaxed) > 2000);
+    assert!(some.stopped && some.moved > 0, "{some:?}");
+    assert!(whole.left < some.left, "{some:?}");
 }

@@ -40,13 +40,28 @@ fn bounded(climb: &Climb<'_>, answer: &Answer, filled: &Filled) -> Option<Filled
     };
     let (failing, most) = weight(filled);
     let is_hopeless = HOPELESS * failing > filled.template.tets.len();
-    if failing == 0 || is_hopeless || filled.removed == 0 || !filled.shared.is_empty() {
+    if failing == 0
+        || is_hopeless
+        || climb.deadline.is_over()
+        || filled.removed == 0
+        || !filled.shared.is_empty()
+    {
         return None;
     }
     let [ratio, _] = EASING;
     let (mut other, origin) = fill(climb, answer, Leaves::Within(ratio)).ok()?;
     finish(climb, &answer.plc, &mut other, origin).ok()?;
     (weight(&other).1 < most).then_some(other)
+}
+
+/// That there was no time to improve all elements.
+fn cut_short(climb: &Climb<'_>, filled: &Filled) -> Option<String> {
+    let whole = climb.deadline.whole()?.as_secs_f64();
+    let done = filled.improved.filter(|done| done.stopped)?;
+    Some(format!(
+        "template {}: improvement was stopped after {whole} s, the time limit; of {} tetrahedra to be improved, {} remain; raise --timeout",
+        climb.piece.index, done.bad, done.left,
+    ))
 }
 
 /// Makes a filled template of the mesher's answer, and what there is to be made beside it.
@@ -113,12 +128,13 @@ pub fn done<B: Send>(
             filled.dropped
         ));
     }
+    let stopped = cut_short(climb, &filled);
     let done = Done {
         filled,
         switches: answer.mesh.told().to_owned(),
         failed: answer.failed,
         is_uneven: answer.plc.relief.is_there(),
-        advice: answer.advice,
+        advice: answer.advice.or(stopped),
     };
     Ok((done, made))
 }

@@ -1,3 +1,4 @@
+use crate::done::done;
 use crate::fill::{fill, finish};
 use crate::{Meshed, tetrahedralize};
 use bodies::wedges::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
@@ -10,6 +11,7 @@ use mesher::{
     Sizes, TetGen,
 };
 use periodic_surf::failure;
+use std::time::Duration;
 use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
 
 /// Fills a document as these wishes ask, its surface as it is.
@@ -487,6 +489,26 @@ fn hopeless_requests_end() {
     );
     let error = mesh(prism(4), &sized(1e-30)).unwrap_err();
     assert!(matches!(error, Error::TooMany { .. }), "{error}");
+}
+
+#[test]
+fn a_time_limit_ends_improvement_with_a_mesh() {
+    let document = coated_ring(7, 5e-3);
+    described(&document, Description::PLAIN, |climb, answer| {
+        let late = Climb {
+            deadline: Deadline::start(Some(Duration::from_nanos(1))),
+            ..*climb
+        };
+        let (done, _) = done::<()>(&late, answer, None).unwrap();
+        let told = done.advice.unwrap();
+        assert!(
+            told.contains("--timeout") && told.contains("remain"),
+            "{told}"
+        );
+        let mut made = document.clone();
+        made.templates[0] = done.filled.template;
+        check(&document, &made);
+    });
 }
 
 #[test]

@@ -88,6 +88,7 @@ fn refine(
         min_dihedral: params.min_dihedral,
         max_volume: &regions.filter_map(|(r, v)| Some((r.id, (*v)?))).collect(),
         scale: plc.scale,
+        stop: &|| climb.deadline.is_over(),
     };
     Some(improve(&mut filled.template, &freedoms, &wish))
 }
