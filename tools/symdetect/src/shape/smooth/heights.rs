@@ -15,6 +15,8 @@ pub struct Heights {
     pub side: [f32; 3],
     /// Both where edges are smooth that may be sharp.
     pub bent: [[f32; 3]; 2],
+    /// Both by the vertices around, however they are joined.
+    pub fitted: [[f32; 3]; 2],
     /// Height there of the other diagonal of the quadrilateral that the triangle makes with the one beyond.
     pub flipped: [f32; 3],
     /// What two estimates of the heights differ by where the corners are far away.
@@ -62,7 +64,8 @@ impl Heights {
     pub fn range(&self, b: [f64; 3]) -> [f64; 2] {
         let mut range = [0.0_f64; 2];
         let flipped = (0..3).map(|c| bubble_of(self.flipped[c], b, c));
-        for height in flipped.chain([self.shape(b), patch(self.bent, b)]) {
+        let patches = [self.shape(b), patch(self.bent, b), patch(self.fitted, b)];
+        for height in flipped.chain(patches) {
             range = [range[0].min(height), range[1].max(height)];
         }
         range
@@ -79,6 +82,9 @@ impl Heights {
     /// Adds what another reading of the edges says.
     pub fn add(&mut self, other: &Self) {
         self.bent = [other.corner, other.side];
+        if other.fitted != [[0.0; 3]; 2] {
+            self.fitted = other.fitted;
+        }
         // Either diagonal of an edge that may be sharp: of a smooth one, both readings say the same.
         self.flipped = other.flipped;
         self.slack = self.slack.max(other.slack);
@@ -89,12 +95,23 @@ impl Heights {
         }
     }
 
+    /// Adds what the vertices around tell of the curvature.
+    fn add_fitted(&mut self, other: &Self, corners: [DVec3; 3], curvature: DMat3) {
+        self.fitted = [other.corner, other.side];
+        for (c, border) in self.border.iter_mut().enumerate() {
+            let along = (corners[(c + 1) % 3] - corners[c]).normalize_or_zero();
+            let bends = along.dot(curvature * along).abs();
+            border.curvature = border.curvature.max(bends as f32);
+        }
+    }
+
     /// The most that the triangle hides.
     pub fn most(&self) -> f64 {
         let largest = |x: [f32; 3]| x.iter().fold(0.0_f32, |m, h| m.max(h.abs()));
         let above = |[corner, side]: [[f32; 3]; 2]| largest(corner) + largest(side);
+        let fitted = above(self.fitted);
         let above = above([self.corner, self.side]).max(above(self.bent));
-        let above = above.max(largest(self.flipped)) + 2.0 * self.slack;
+        let above = above.max(fitted).max(largest(self.flipped)) + 2.0 * self.slack;
         let at_borders = self.border.iter().map(Border::sagitta);
         at_borders.fold(above, f32::max).into()
     }
@@ -160,6 +177,15 @@ pub fn patches(facets: &Facets<'_>, curvature: &[DMat3]) -> Vec<Heights> {
         }
     };
     facets.flats.of.iter().enumerate().map(heights).collect()
+}
+
+/// Lets the shape be where patches with these curvatures have it, too.
+pub fn add_fitted(facets: &Facets<'_>, curvature: &[DMat3], heights: &mut [Heights]) {
+    let other = patches(facets, curvature);
+    for (t, (heights, other)) in heights.iter_mut().zip(&other).enumerate() {
+        let curvature = curvature[facets.flats.of[t] as usize];
+        heights.add_fitted(other, facets.corners(t), curvature);
+    }
 }
 
 /// A quadratic function in the plane of a facet.

@@ -19,6 +19,7 @@ mod corners;
 mod curvature;
 mod curves;
 mod facets;
+mod fit;
 mod heights;
 mod reading;
 mod sharp;

@@ -3,7 +3,8 @@
 use crate::shape::smooth::curvature::curvature;
 use crate::shape::smooth::curves::follow;
 use crate::shape::smooth::facets::{BENT, Facets, Fold};
-use crate::shape::smooth::heights::{Heights, flip, patches};
+use crate::shape::smooth::fit::fitted;
+use crate::shape::smooth::heights::{Heights, add_fitted, flip, patches};
 use crate::shape::smooth::slack::slack;
 use crate::shape::table::Table;
 use geom::smooth::SMOOTH_COSINE;
@@ -56,6 +57,11 @@ impl<'a> Reading<'a> {
         flip(facets, &self.is_smooth, &mut heights);
         let known = (&self.folds[..], &curvature[..], self.least);
         slack(facets, around, known, &mut heights);
+        add_fitted(
+            facets,
+            &fitted(facets, &self.folds, &curvature),
+            &mut heights,
+        );
         heights
     }
 
