@@ -61,6 +61,10 @@ pub fn cut(mut document: Document, params: &Params) -> Result<(Document, Report)
     let moved = (document.symmetry.as_ref()).and_then(|s| replaced(s, found.cut.moved));
     let mut notes = found.cut.notes;
     notes.extend(found.notes);
+    // What has no thickness is no longer there to be compared with.
+    if let Some(source) = &mut document.source {
+        source.boundary_area = (source.boundary_area - found.cut.closed).max(0.0);
+    }
     document.frame = found.cut.place.frame;
     document.templates = found.cut.templates;
     document.instances = found.cut.copies.instances;

@@ -1,6 +1,7 @@
 //! Wedges of made bodies: volume, walls, seams, regions.
 
 use crate::{CutError, Domain, Params, Report};
+use geom::measure::area_of_region;
 use glam::{DMat3, DVec3};
 use tmesh::{
     Axis, Document, Group, Kind, Marker, OUTSIDE, Region, Source, Symmetry, Template, Triangle,
@@ -494,6 +495,50 @@ fn edges_too_short_to_mesh_are_collapsed() {
         "{:?}",
         report.notes
     );
+}
+
+#[test]
+fn sheets_without_thickness_are_no_boundary_any_more() {
+    // A core, and a thin sheet around it.
+    let mut body = Body::regular(8, &[1.0, 0.7, 0.7 - 4e-6, 0.5]).document((8, true), None, 1.0);
+    for t in &mut body.templates[0].triangles {
+        for side in [&mut t.front, &mut t.back] {
+            *side = match *side {
+                2 | 4 => 4,
+                _ => OUTSIDE,
+            };
+        }
+    }
+    body.templates[0].triangles.retain(|t| t.front != t.back);
+    body.regions.retain(|r| r.id == 4);
+    let (vertices, faces) = (&body.templates[0].vertices, body.templates[0].faces());
+    let whole = area_of_region(vertices, faces.clone(), OUTSIDE);
+    let of_core = |v: &u32| vertices[*v as usize].truncate().length() < 0.6;
+    let core = faces.filter(|(ids, _)| ids.iter().all(of_core));
+    let core = area_of_region(vertices, core, OUTSIDE);
+    assert!(core < 0.5 * whole, "{core}, {whole}");
+    let source = Source {
+        boundary_area: whole,
+        ..body.source.clone().unwrap()
+    };
+    let coarse = Params {
+        clean: 1e-5,
+        ..DEFAULT
+    };
+    for (params, left) in [(&coarse, core), (&DEFAULT, whole)] {
+        let body = Document {
+            source: Some(source.clone()),
+            ..body.clone()
+        };
+        let (closed, report) = cut(body, params).unwrap();
+        let after = closed.source.unwrap().boundary_area;
+        assert!((after - left).abs() < 1e-4, "{after}, {left}");
+        let told = report
+            .notes
+            .iter()
+            .any(|n| n.contains("of the boundary's area"));
+        assert_eq!(told, left < whole, "{:?}", report.notes);
+    }
 }
 
 #[test]

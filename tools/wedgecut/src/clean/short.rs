@@ -2,15 +2,19 @@
 //! passes a vertex closely, and as CAD exports have them.
 
 use crate::surface::{Surface, join_coincident};
+use geom::measure::area_of_region;
 use geom::sets::DisjointSets;
+use tmesh::OUTSIDE;
 
 /// What was collapsed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Collapsed {
     /// Points joined to another one.
     pub points: usize,
     /// Faces that had no area left.
     pub faces: usize,
+    /// Area of the body's boundary on both sides of what had no thickness left, model units squared.
+    pub boundary: f64,
 }
 
 /// Joins the ends of edges shorter than `length` (model units), shortest first. A point on a cut
@@ -78,7 +82,14 @@ pub fn collapse_short_edges(surface: &mut Surface, length: f64) -> Collapsed {
         keep
     });
     surface.patches = kept;
+    let boundary = area_of_boundary(surface);
     join_coincident(&mut surface.faces, &mut surface.patches);
+    collapsed.boundary = boundary - area_of_boundary(surface);
     collapsed.faces = before - surface.faces.len();
     collapsed
+}
+
+fn area_of_boundary(surface: &Surface) -> f64 {
+    let faces = (surface.faces.iter()).map(|f| (f.vertices, [f.front, f.back]));
+    area_of_region(&surface.points, faces, OUTSIDE)
 }

@@ -33,6 +33,8 @@ pub struct Cut {
     pub wedges: usize,
     /// Largest distance that a point of a seam was moved to make one side the image of the other, model units.
     pub moved: f64,
+    /// Area of the body's boundary that was taken out as it enclosed no thickness, model units squared.
+    pub closed: f64,
     /// What was done, in sentences.
     pub notes: Vec<String>,
 }
@@ -89,7 +91,11 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         }),
         None => error,
     };
-    let (mut templates, moved) = cutter.cut(surface, &mut notes).map_err(bent)?;
+    let Pieces {
+        mut templates,
+        moved,
+        closed,
+    } = cutter.cut(surface, &mut notes).map_err(bent)?;
     if let Some(graph) = &place.graph {
         restore(&mut templates, graph, &place.frame)?;
     }
@@ -115,6 +121,7 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         copies,
         wedges,
         moved,
+        closed: closed * wedges as f64,
         notes,
     })
 }
@@ -147,6 +154,15 @@ fn kind_of(cell: &Cell) -> &'static str {
         (_, 0, _) => "mirror",
         _ => "mirror and half-turn",
     }
+}
+
+/// Templates that were cut.
+struct Pieces {
+    templates: Vec<Template>,
+    /// Largest distance that a point of a seam was moved, model units.
+    moved: f64,
+    /// Area of the boundary of one wedge that was taken out, model units squared.
+    closed: f64,
 }
 
 /// What is needed to cut the templates.
@@ -206,20 +222,20 @@ impl Cutter<'_> {
         }
     }
 
-    /// The templates, and the largest distance that a point of a seam was moved.
-    fn cut(
-        &self,
-        body: Template,
-        notes: &mut Vec<String>,
-    ) -> Result<(Vec<Template>, f64), CutError> {
+    fn cut(&self, body: Template, notes: &mut Vec<String>) -> Result<Pieces, CutError> {
         let (cell, tolerance) = (self.cell, self.tolerance);
         let is_whole = cell.faces.is_empty();
         let faced = (!is_whole).then_some(cell);
         let mut surface = Surface::new(body.vertices, body.triangles, faced, tolerance.flat());
         clip(&mut surface, cell);
-        self.clean(&mut surface, notes);
+        let closed = self.clean(&mut surface, notes);
+        let pieces = |templates, moved| Pieces {
+            templates,
+            moved,
+            closed,
+        };
         if is_whole {
-            return Ok((vec![whole(&surface, self.frame)?], 0.0));
+            return Ok(pieces(vec![whole(&surface, self.frame)?], 0.0));
         }
         divide_at_hub(&mut surface, cell);
         surface.add_corners(cell);
@@ -253,7 +269,7 @@ impl Cutter<'_> {
         };
         let wedge = assemble(&surface, cell, parts, self.frame)?;
         if hub.is_none() {
-            return Ok((vec![wedge.template], moved));
+            return Ok(pieces(vec![wedge.template], moved));
         }
         let caps = self.caps(&inner, true)?;
         let inner = Inner {
@@ -267,18 +283,25 @@ impl Cutter<'_> {
             regions: self.regions,
         };
         let united = unite(&inner, &wedge, self.frame)?;
-        Ok((vec![wedge.template, united], moved))
+        Ok(pieces(vec![wedge.template, united], moved))
     }
 
-    /// Collapses detail.
-    fn clean(&self, surface: &mut Surface, notes: &mut Vec<String>) {
+    /// Collapses detail; the area of the body's boundary that went with it.
+    fn clean(&self, surface: &mut Surface, notes: &mut Vec<String>) -> f64 {
         let detail = self.tolerance.detail();
+        let mut closed = 0.0;
         if detail > 0.0 {
             let collapsed = collapse_short_edges(surface, detail);
             notes.push(format!(
                 "edges below {detail:.1e} collapsed: {} points and {} faces fewer",
                 collapsed.points, collapsed.faces
             ));
+            closed = collapsed.boundary;
+            if closed > 0.0 {
+                notes.push(format!(
+                    "{closed:.3e} of the boundary's area enclosed nothing thicker than that and is gone"
+                ));
+            }
         }
         // Edges longer than what is moved along the surface are no detail: they are those of narrow facets.
         let near = match (self.tolerance.detail_at_planes(), self.tolerance.slide()) {
@@ -291,6 +314,7 @@ impl Cutter<'_> {
                 "{joined} points within {near:.1e} of others on a cut plane joined to them"
             ));
         }
+        closed
     }
 
     /// Makes the parts of each join that is no mirror wall images of each other.
