@@ -11,6 +11,7 @@ mod coarse;
 mod error;
 mod joined;
 mod memory;
+mod needles;
 mod prepare;
 mod remeshed;
 mod shape;

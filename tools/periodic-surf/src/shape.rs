@@ -2,6 +2,7 @@
 
 use crate::apart::{apart, note_moved};
 use crate::joined::groups;
+use crate::needles::Needle;
 use crate::remeshed::{Remeshing, Smoothed, remeshed};
 use crate::surface::{same_body, same_size};
 use geom::tolerance::Tolerance;
@@ -34,12 +35,15 @@ pub fn follow_shape(
     let radius = tolerance.extent().radius;
     let deviation = radius * document.deviation(tolerance.equal() / radius);
     let exact = deviation <= tolerance.equal();
-    if !params.quality || exact && !document.moves_for_lengths() {
+    let needles = (exact && params.quality)
+        .then(|| for_needles(document, &tolerance))
+        .flatten();
+    if !params.quality || exact && needles.is_none() && !document.moves_for_lengths() {
         return Ok(facts);
     }
     let sizes = Sizes::new(document)?;
     let within = match exact {
-        true => Vec::new(),
+        true => needles.into_iter().collect(),
         false => attempts(document, &tolerance, deviation),
     };
     let noise = deviation.max(tolerance.equal());
@@ -157,6 +161,26 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
         }
         _ => vec![attempt(deviation, None)],
     }
+}
+
+/// What is tried where the input has its symmetry exactly, but needles that no mesh of good elements can have: its copies were
+/// copied, and say nothing of how well it was drawn. As far as without a symmetry, then.
+fn for_needles(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
+    let found = document.symmetry.as_ref()?;
+    let deviation = found.tolerance * tolerance.extent().radius;
+    let needle = Needle {
+        narrow: deviation,
+        feature: libm::cos(document.wishes.feature_angle().to_radians()),
+        flat: tolerance.flat(),
+    };
+    let mut templates = document.templates.iter();
+    let is_wanted = document.wishes.deviation() == Deviation::Auto;
+    (is_wanted && templates.any(|t| needle.is_in(t))).then(|| Attempt {
+        deviation,
+        noise: tolerance.equal(),
+        drift: None,
+        exact: false,
+    })
 }
 
 /// How far surfaces may move for the sake of a length of edges, model units, where nobody says how far: a chord of that length on

@@ -4,12 +4,15 @@ use crate::error::Error;
 use crate::group::Found;
 use crate::params::Params;
 use crate::report::Detection;
-use crate::rotation::{Drawn, Query, Rotation};
-use crate::shape::Shape;
+use crate::rotation::{Drawn, Limits, Query, Rotation};
+use crate::shape::{Shape, Told};
 use crate::threads;
 use glam::DVec3;
 use heal::Joined;
 use tmesh::{Document, Template};
+
+/// Hears of progress.
+type Log<'a> = &'a mut dyn FnMut(&str);
 
 /// Finds the symmetry of a body's surface. `log` hears of progress.
 ///
@@ -88,51 +91,46 @@ fn of_template(
         shape.interfaces.classes.len(),
         shape.samples.mixed.len()
     ));
-    answer(Query::new(&shape, params), log)
+    answer(&mut shape, params, log)
 }
 
 /// The group of the drawing, or that of the shape behind its facets where that is more and meant; without one, what
 /// comes nearest.
-fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, Error> {
+fn answer(shape: &mut Shape, params: &Params, log: Log<'_>) -> Result<Detection, Error> {
+    let mut query = Query::new(shape, params);
     query.limits.facets = false;
-    let mut outcome = search(&query, log);
+    let drawing = search(&query, log);
+    let mut outcome = drawing.clone();
     let is_round = outcome.found.as_ref().is_some_and(|f| f.axisymmetric);
     let hidden = query.params.facets && query.facets_hide_something();
     if hidden && !is_round {
         log("the shape behind the facets is looked at");
-        query.limits.facets = true;
-        query.drawn = (outcome.found.as_ref())
-            .filter(|f| f.group.order > 1)
-            .map(|f| Drawn {
-                axis: f.frame.rotation.z_axis,
-                group: f.group,
-            });
-        let mut behind = search(&query, log);
-        // A mirror plane of the drawing comes before none and before a single operation behind it, but before no more.
-        let is_more = |f: &Found| f.group.size() > 2 && query.is_meant(f);
-        if outcome.found.is_none() && !behind.found.as_ref().is_some_and(is_more) {
-            query.limits.facets = false;
-            outcome.look_for_mirror(&query);
-            query.limits.facets = true;
-        }
-        behind.look_for_mirror(&query);
-        let is_behind =
-            (behind.found.as_ref()).map(|found| query.is_behind(found, outcome.found.as_ref()));
-        match is_behind {
-            Some(true) => outcome = behind,
-            None if outcome.found.is_none() => outcome = behind,
-            _ => {
-                query.limits.facets = false;
-                if let (Some(drawn), Some(found)) = (&mut outcome.found, &behind.found) {
-                    drawn.axisymmetric = found.axisymmetric
-                        && found.group.order == drawn.group.order
-                        && query.is_meant(found);
-                }
-            }
-        }
+        query.look_behind(&mut outcome, log);
     } else {
         outcome.look_for_mirror(&query);
     }
+    let Query {
+        mut limits,
+        mut drawn,
+        ..
+    } = query;
+    if hidden && !is_round {
+        shape.told = Told::ByVertices;
+        // Where folds tell as much, they tell best where it is.
+        let more = (shape.smooth().wider() > limits.tolerance).then(|| {
+            log("and what vertices tell of it");
+            told_by_vertices(drawing, Query::new(shape, params), log)
+        });
+        match more.filter(|more| more.0.size() > outcome.size()) {
+            Some(more) => (outcome, limits, drawn) = more,
+            None => shape.told = Told::ByFolds,
+        }
+    }
+    let mut query = Query {
+        limits,
+        drawn,
+        ..Query::new(shape, params)
+    };
     let facets = std::mem::replace(&mut query.limits.facets, hidden);
     let nearly = query.nearly(&outcome.directions, outcome.found.as_ref());
     query.limits.facets = facets;
@@ -155,7 +153,54 @@ fn answer(mut query: Query<'_>, log: &mut dyn FnMut(&str)) -> Result<Detection, 
     }
 }
 
+/// What the places of vertices tell beside the drawing, and what it was found with.
+fn told_by_vertices(
+    mut outcome: Outcome,
+    mut query: Query<'_>,
+    log: Log<'_>,
+) -> (Outcome, Limits, Option<Drawn>) {
+    query.look_behind(&mut outcome, log);
+    (outcome, query.limits, query.drawn)
+}
+
+impl Query<'_> {
+    /// Puts the group of the shape behind the facets in the place of another one, or of none, where it is more and meant.
+    fn look_behind(&mut self, outcome: &mut Outcome, log: Log<'_>) {
+        self.limits.facets = true;
+        self.drawn = (outcome.found.as_ref())
+            .filter(|f| f.group.order > 1)
+            .map(|f| Drawn {
+                axis: f.frame.rotation.z_axis,
+                group: f.group,
+            });
+        let mut behind = search(self, log);
+        // A mirror plane of the drawing comes before none and before a single operation behind it, but before no more.
+        let is_more = |f: &Found| f.group.size() > 2 && self.is_meant(f);
+        if outcome.found.is_none() && !behind.found.as_ref().is_some_and(is_more) {
+            self.limits.facets = false;
+            outcome.look_for_mirror(self);
+            self.limits.facets = true;
+        }
+        behind.look_for_mirror(self);
+        let is_behind =
+            (behind.found.as_ref()).map(|found| self.is_behind(found, outcome.found.as_ref()));
+        match is_behind {
+            Some(true) => *outcome = behind,
+            None if outcome.found.is_none() => *outcome = behind,
+            _ => {
+                self.limits.facets = false;
+                if let (Some(drawn), Some(found)) = (&mut outcome.found, &behind.found) {
+                    drawn.axisymmetric = found.axisymmetric
+                        && found.group.order == drawn.group.order
+                        && self.is_meant(found);
+                }
+            }
+        }
+    }
+}
+
 /// What a search came to.
+#[derive(Clone)]
 struct Outcome {
     directions: Vec<DVec3>,
     rotations: Vec<Rotation>,
@@ -163,6 +208,11 @@ struct Outcome {
 }
 
 impl Outcome {
+    /// How many operations the group found has.
+    fn size(&self) -> u32 {
+        self.found.as_ref().map_or(1, |f| f.group.size())
+    }
+
     /// A mirror plane, if there is no rotation and none is asked for.
     fn look_for_mirror(&mut self, query: &Query<'_>) {
         if self.found.is_none() && query.params.order.is_none_or(|n| n <= 1) {
@@ -172,7 +222,7 @@ impl Outcome {
 }
 
 /// The rotation of the highest order with all that holds beside it.
-fn search(query: &Query<'_>, log: &mut dyn FnMut(&str)) -> Outcome {
+fn search(query: &Query<'_>, log: Log<'_>) -> Outcome {
     let (directions, rotations) = match query.params.order {
         Some(1) => (query.directions(log), Vec::new()),
         _ => query.rotations(log),

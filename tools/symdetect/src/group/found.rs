@@ -5,6 +5,7 @@ use crate::verify::{Deviation, Verified};
 use tmesh::{Frame, Group};
 
 /// A frame, the group in it, and how well it holds.
+#[derive(Clone)]
 pub struct Found {
     /// The canonical frame of the group.
     pub frame: Frame,

@@ -12,7 +12,7 @@ mod scan;
 
 pub use axes::FIRST_DIRECTIONS;
 pub use find::{Rotation, golden, powers};
-pub use limits::{LOOSE_RANGE, OUTLIERS};
+pub use limits::{LOOSE_RANGE, Limits, OUTLIERS};
 pub use query::{Drawn, Query};
 pub use refine::{Canonical, Fit, explain, refine, settle};
 pub use scan::TELLING_TURNS;

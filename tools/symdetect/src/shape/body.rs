@@ -7,7 +7,7 @@ use crate::shape::moments::Moments;
 use crate::shape::motion::Target;
 use crate::shape::regions::Permutation;
 use crate::shape::samples::Samples;
-use crate::shape::smooth::SmoothSurface;
+use crate::shape::smooth::{SmoothSurface, Told};
 use crate::shape::trees::{Part, Trees};
 use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
@@ -40,16 +40,20 @@ pub struct Shape {
     pub samples: Samples,
     /// Whether operations may exchange regions of one shape.
     pub may_exchange: bool,
+    /// What tells of the shape behind the facets.
+    pub told: Told,
     drawn: Trees,
     critical: OnceLock<Vec<DVec3>>,
-    behind: OnceLock<Behind>,
+    /// By what tells of it.
+    behind: [Behind; 2],
     faces: OnceLock<Option<Faces>>,
 }
 
 /// The shape behind the facets, and trees that find what it may be on.
+#[derive(Default)]
 struct Behind {
-    smooth: SmoothSurface,
-    trees: Trees,
+    smooth: OnceLock<SmoothSurface>,
+    trees: OnceLock<Trees>,
 }
 
 /// Triangles up to which flat faces are looked for. Finding them takes some 0.3 microseconds a triangle and a test of
@@ -93,9 +97,10 @@ impl Shape {
             moments: placed.moments,
             samples,
             may_exchange: true,
+            told: Told::ByFolds,
             drawn,
             critical: OnceLock::new(),
-            behind: OnceLock::new(),
+            behind: Default::default(),
             faces: OnceLock::new(),
             vertices,
             triangles,
@@ -189,9 +194,12 @@ impl Shape {
 
     /// The facets that the image of a triangle may be on, and how far from them it may be.
     fn part_behind(&self, triangle: u32, target: &Target, limit: f64) -> Option<(&Part, f64)> {
-        let behind = self.behind();
-        let part = behind.trees.part(&self.interfaces, triangle, target)?;
-        Some((part, limit + behind.smooth.most(triangle)))
+        let smooth = self.smooth();
+        let trees = self.behind[self.told as usize]
+            .trees
+            .get_or_init(|| Trees::new(&self.interfaces, |t| self.corners(t), |t| smooth.most(t)));
+        let part = trees.part(&self.interfaces, triangle, target)?;
+        Some((part, limit + smooth.most(triangle)))
     }
 
     /// Whether a triangle faces where the image of another one does, whose normal then is given: where there is material on
@@ -210,17 +218,12 @@ impl Shape {
             .get_or_init(|| DirectionalMoment::new(self.signed_triangles()).critical_directions())
     }
 
-    fn behind(&self) -> &Behind {
-        self.behind.get_or_init(|| {
-            let smooth = SmoothSurface::new(&self.vertices, &self.triangles, &self.normals);
-            let trees = Trees::new(&self.interfaces, |t| self.corners(t), |t| smooth.most(t));
-            Behind { smooth, trees }
-        })
-    }
-
     /// The smooth shape that the facets stand for.
     pub fn smooth(&self) -> &SmoothSurface {
-        &self.behind().smooth
+        self.behind[self.told as usize].smooth.get_or_init(|| {
+            let surface = (&self.vertices[..], &self.triangles[..]);
+            SmoothSurface::new(surface, &self.normals, self.told)
+        })
     }
 
     /// Corners of a triangle.

@@ -20,3 +20,4 @@ pub use motion::{Motion, NO_CLASS, Target};
 pub use random::Random;
 pub use regions::Permutation;
 pub use samples::Sample;
+pub use smooth::Told;

@@ -154,6 +154,7 @@ impl SharpEdges<'_> {
                     along: along.map(|at| at as f32),
                     length: chord.length as f32,
                     curvature: curvature.length() as f32,
+                    fitted: 0.0,
                 };
             }
         }

@@ -7,8 +7,18 @@
 use crate::shape::smooth::curvature::outer;
 use crate::shape::smooth::facets::{Facets, Fold};
 use crate::shape::table::Table;
+use crate::threads;
 use crate::tolerance::{SINGLE, VANISHING};
 use glam::{DMat3, DVec3};
+
+/// What tells of the shape behind facets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// How they turn at their edges.
+    ByFolds,
+    /// The places of the vertices around them, too: the shape may be as either tells it.
+    ByVertices,
+}
 
 /// Vertices that a quadratic function is fitted to at least, where there are as many: twice as many as it has coefficients.
 const ENOUGH: usize = 2 * COEFFICIENTS;
@@ -16,7 +26,7 @@ const ENOUGH: usize = 2 * COEFFICIENTS;
 /// Of a quadratic function of two variables.
 const COEFFICIENTS: usize = 6;
 
-/// Facets around one that are looked at at most: three rings of triangles have 36.
+/// Facets around one that are looked at at most: three rings of triangles have 36. What has more corners is a flat face and no facet.
 const AROUND: usize = 36;
 
 /// How far the vertices around a facet must reach along its plane, over its size: its own and those close to it tell nothing of how it bends, but how a
@@ -42,9 +52,8 @@ pub fn fitted(facets: &Facets<'_>, folds: &[Fold], known: &[DMat3]) -> Vec<DMat3
         let around = Around::new(facets, &beside, (flat as u32, normals[flat]))?;
         around.curvature()
     };
-    (0..known.len())
-        .map(|flat| fit(flat).unwrap_or(known[flat]))
-        .collect()
+    let flats: Vec<usize> = (0..known.len()).collect();
+    threads::map(&flats, |&flat| fit(flat).unwrap_or(known[flat]))
 }
 
 /// The vertices around a flat.
@@ -63,6 +72,10 @@ impl Around {
     /// As far as smooth edges lead from there, ring by ring, until they are [`ENOUGH`] and reach [`BEYOND`] it; `None` if they never do.
     fn new(facets: &Facets<'_>, beside: &Table, (flat, normal): (u32, DVec3)) -> Option<Self> {
         let at = |v: &u32| facets.vertices[*v as usize];
+        let is_facet = |flat: u32| facets.flats.corners(flat).len() <= AROUND;
+        if !is_facet(flat) {
+            return None;
+        }
         let mut vertices = facets.flats.corners(flat).to_vec();
         let middle = vertices.iter().map(at).sum::<DVec3>() / vertices.len() as f64;
         let far = |vertices: &[u32]| {
@@ -81,7 +94,7 @@ impl Around {
             let end = flats.len();
             for i in ring {
                 for &other in beside.of(flats[i]).iter().take(AROUND) {
-                    if !flats.contains(&other) {
+                    if !flats.contains(&other) && is_facet(other) {
                         flats.push(other);
                         vertices.extend(facets.flats.corners(other));
                     }

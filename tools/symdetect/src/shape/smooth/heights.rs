@@ -34,12 +34,14 @@ pub struct Border {
     pub length: f32,
     /// Curvature of the curve.
     pub curvature: f32,
+    /// What vertices add to what edges tell of it.
+    pub fitted: f32,
 }
 
 impl Border {
     /// Height of the curve over the middle of the chord.
     pub fn sagitta(&self) -> f32 {
-        0.125 * self.length * self.length * self.curvature
+        0.125 * self.length * self.length * (self.curvature + self.fitted)
     }
 
     /// How far a curve of curvature one may be from the chord at a part of this piece of it. A circle rises above it
@@ -101,8 +103,26 @@ impl Heights {
         for (c, border) in self.border.iter_mut().enumerate() {
             let along = (corners[(c + 1) % 3] - corners[c]).normalize_or_zero();
             let bends = along.dot(curvature * along).abs();
-            border.curvature = border.curvature.max(bends as f32);
+            border.fitted = (bends as f32 - border.curvature).max(0.0);
         }
+    }
+
+    /// How far what vertices tell is beyond what folds do, in the middles of the sides and at the corners.
+    pub fn wider(&self) -> f64 {
+        let beyond = |fitted: f32, all: [f32; 3]| {
+            let [low, high] = [f32::min, f32::max].map(|f| all.into_iter().fold(0.0, f));
+            (fitted - high).max(low - fitted).max(0.0)
+        };
+        let of = |c: usize| {
+            let [corner, side] = self.bent;
+            let sides = [self.side[c], side[c], self.flipped[c]];
+            let corners = [self.corner[c], corner[c], 0.0];
+            beyond(self.fitted[1][c], sides) + beyond(self.fitted[0][c], corners)
+        };
+        let border = |b: &Border| 0.125 * b.length * b.length * b.fitted;
+        let borders = self.border.iter().map(border);
+        let all = [0, 1, 2].map(of).into_iter().chain(borders);
+        all.fold(0.0, f32::max).into()
     }
 
     /// The most that the triangle hides.

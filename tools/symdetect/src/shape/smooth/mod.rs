@@ -26,4 +26,5 @@ mod sharp;
 mod slack;
 mod surface;
 
+pub use fit::Told;
 pub use surface::SmoothSurface;

@@ -3,7 +3,7 @@
 use crate::shape::smooth::curvature::curvature;
 use crate::shape::smooth::curves::follow;
 use crate::shape::smooth::facets::{BENT, Facets, Fold};
-use crate::shape::smooth::fit::fitted;
+use crate::shape::smooth::fit::{Told, fitted};
 use crate::shape::smooth::heights::{Heights, add_fitted, flip, patches};
 use crate::shape::smooth::slack::slack;
 use crate::shape::table::Table;
@@ -49,7 +49,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Heights of the shape above the triangles, from those around each vertex.
-    pub fn heights(&self, around: &Table) -> Vec<Heights> {
+    pub fn heights(&self, around: &Table, told: Told) -> Vec<Heights> {
         let facets = self.facets;
         let curvature = curvature(facets, &self.folds);
         let mut heights = patches(facets, &curvature);
@@ -57,11 +57,10 @@ impl<'a> Reading<'a> {
         flip(facets, &self.is_smooth, &mut heights);
         let known = (&self.folds[..], &curvature[..], self.least);
         slack(facets, around, known, &mut heights);
-        add_fitted(
-            facets,
-            &fitted(facets, &self.folds, &curvature),
-            &mut heights,
-        );
+        if told == Told::ByVertices {
+            let fitted = fitted(facets, &self.folds, &curvature);
+            add_fitted(facets, &fitted, &mut heights);
+        }
         heights
     }
 

@@ -2,6 +2,7 @@
 
 use crate::shape::smooth::corners::Corners;
 use crate::shape::smooth::facets::Facets;
+use crate::shape::smooth::fit::Told;
 use crate::shape::smooth::heights::{Heights, barycentric};
 use crate::shape::smooth::reading::Reading;
 use crate::shape::smooth::sharp::SharpEdges;
@@ -18,6 +19,8 @@ pub struct SmoothSurface {
     corners: Corners,
     largest: f64,
     mean: f64,
+    /// How far above or below what folds tell the shape may be by what vertices tell.
+    wider: f64,
 }
 
 /// Sharp edges near a place, chords of curves.
@@ -59,16 +62,20 @@ impl Height {
 
 impl SmoothSurface {
     /// Of a surface with these unit normals. n log n.
-    pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]], normals: &[DVec3]) -> Self {
+    pub fn new(
+        (vertices, triangles): (&[DVec3], &[[u32; 3]]),
+        normals: &[DVec3],
+        told: Told,
+    ) -> Self {
         let facets = Facets::new(vertices, triangles, normals);
         let corners = triangles.iter().enumerate();
         let pairs = corners.flat_map(|(t, corners)| corners.iter().map(move |&v| (v, t as u32)));
         let around = Table::new(vertices.len(), pairs.clone());
         let reading = Reading::sharp(&facets);
         let bent = reading.bent();
-        let mut heights = reading.heights(&around);
+        let mut heights = reading.heights(&around, told);
         if let Some(bent) = &bent {
-            let other = bent.heights(&around);
+            let other = bent.heights(&around, told);
             heights.iter_mut().zip(&other).for_each(|(h, o)| h.add(o));
         }
         let reading = bent.unwrap_or(reading);
@@ -81,6 +88,7 @@ impl SmoothSurface {
         let areas: Vec<f64> = (0..triangles.len()).map(area).collect();
         let hidden = heights.iter().zip(&areas).map(|(h, a)| a * h.most());
         Self {
+            wider: heights.iter().map(Heights::wider).fold(0.0, f64::max),
             mean: hidden.sum::<f64>() / areas.iter().sum::<f64>(),
             largest: heights.iter().map(Heights::most).fold(0.0, f64::max),
             sharp: SharpEdges::new(&facets, reading.sharp_edges()),
@@ -93,6 +101,11 @@ impl SmoothSurface {
     /// The most that any facet hides.
     pub fn largest(&self) -> f64 {
         self.largest
+    }
+
+    /// How far above or below what folds tell the shape may be by what vertices tell.
+    pub fn wider(&self) -> f64 {
+        self.wider
     }
 
     /// The mean over the surface of the most that its facets hide.
@@ -145,7 +158,10 @@ impl SmoothSurface {
                 let part = (point - start).dot(along) / along.length_squared();
                 let part = part.clamp(0.0, 1.0);
                 let border = heights.border[c];
-                let (bow, curvature) = (border.bow(part), f64::from(border.curvature));
+                let (bow, curvature) = (
+                    border.bow(part),
+                    f64::from(border.curvature + border.fitted),
+                );
                 let reach = distance.max(bow * curvature);
                 if point.distance_squared(start + part * along) <= reach * reach {
                     near.bow = near.bow.max(bow);
