@@ -173,9 +173,9 @@ fn for_needles(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
         feature: libm::cos(document.wishes.feature_angle().to_radians()),
         flat: tolerance.flat(),
     };
-    let mut templates = document.templates.iter();
+    let mut templates = 0..document.templates.len();
     let is_wanted = document.wishes.deviation() == Deviation::Auto;
-    (is_wanted && templates.any(|t| needle.is_in(t))).then(|| Attempt {
+    (is_wanted && templates.any(|t| needle.is_in(document, t))).then(|| Attempt {
         deviation,
         noise: tolerance.equal(),
         drift: None,
