@@ -349,13 +349,21 @@ pub(crate) fn tidy(body: &mut Body) {
     body.materials = kept.iter().map(|&m| body.materials[m].clone()).collect();
 }
 
+/// The largest noise, and the largest over the radius about the axis: a fifth of the tolerance, as images differ by twice as much in
+/// each of three directions.
+const LARGEST_NOISE: f64 = 2e-4;
+
 /// How far vertices are displaced at random, before the body is scaled.
 pub(crate) fn noise(body: &Body, features: &mut Vec<String>, dice: &mut Dice) -> f64 {
     if !dice.chance(0.15) {
         return 0.0;
     }
+    // The tolerance of a symmetry is relative to the radius about its axis, which is small of a long body.
+    let radii = body.vertices.iter().map(|p| p.truncate().length());
+    let radius = radii.fold(0.0, f64::max);
     let noise = dice
-        .log_between(1e-8, 2e-4)
+        .log_between(1e-8, LARGEST_NOISE)
+        .min(LARGEST_NOISE * radius)
         .min(0.02 * tessellation::least_height(body));
     features.push(format!("noise {noise:.1e}"));
     noise
