@@ -41,6 +41,8 @@ pub struct Attempt {
     pub stop: bool,
     /// Layers too thin for the bounds.
     pub layers: Option<Layers>,
+    /// Whether the mesher may add no points to the surface.
+    pub keeps_surface: bool,
 }
 
 impl Attempt {
@@ -52,6 +54,7 @@ impl Attempt {
             room: None,
             stop: false,
             layers: None,
+            keeps_surface: false,
         }
     }
 
@@ -69,6 +72,11 @@ impl Attempt {
             Change::Stop => Self { stop: true, ..self },
             Change::Describe(description) => Self {
                 description,
+                ..self
+            },
+            Change::KeepSurface => Self {
+                description: Description::PLAIN,
+                keeps_surface: true,
                 ..self
             },
         }
@@ -110,7 +118,7 @@ impl Attempt {
     pub fn task(&self, params: &Params, preserve: bool) -> Task {
         Task {
             bounds: params.quality.then(|| self.bounds(params)),
-            preserve,
+            preserve: preserve || self.keeps_surface,
             most_points: self.room.map(Room::most),
             rounds_from: self.description.rounds_from,
             switches: params.switches.clone(),
@@ -128,11 +136,17 @@ impl Attempt {
             Some(layers) => layers.to_string(),
             None => "refinement did not come to an end at sharp angles of the surface".to_owned(),
         };
-        (self.asks == Asks::Loosened).then(|| {
+        let loosened = (self.asks == Asks::Loosened).then(|| {
             format!(
                 "{why}: radius-edge bound eased to {radius_edge}, that of the smallest dihedral angle left out{stopped}",
             )
-        })
+        });
+        let kept = self.keeps_surface.then(|| {
+            "TetGen fails where it adds points to the surface, so that it added none: elements there are as large as its triangles"
+                .to_owned()
+        });
+        let all: Vec<String> = kept.into_iter().chain(loosened).collect();
+        (!all.is_empty()).then(|| all.join("; "))
     }
 }
 

@@ -26,6 +26,8 @@ pub enum Change {
     Stop,
     /// Describes the surface in another way.
     Describe(Description),
+    /// Lets the mesher add no points to the surface.
+    KeepSurface,
 }
 
 /// An attempt, given how the one before ended.
@@ -63,7 +65,9 @@ const fn describe(order: Order, stir: Option<f64>, rounds_from: Option<u32>) -> 
 ///   random rounds, and the order given, break up an order that depends on the places alone (TetGen's walk fails for seven
 ///   points that it sorts, and for 3 in 30 orders of them); walls as they are, and no facet but exactly
 ///   coplanar triangles, are for surfaces on which flattening or merging is what fails.
-pub const LADDER: [Rung; 11] = [
+/// - Where all of them fail, it is TetGen's points on segments that do, in gaps of a hundred-thousandth of the body between curved faces:
+///   without any, the surface can be filled, if not as well.
+pub const LADDER: [Rung; 12] = [
     rung(Ending::Large, Change::AllowMore),
     rung(Ending::Large, Change::AllowMore),
     rung(Ending::Heaped, Change::Loosen),
@@ -105,4 +109,5 @@ pub const LADDER: [Rung; 11] = [
             ..Description::PLAIN
         }),
     ),
+    rung(Ending::Chance, Change::KeepSurface),
 ];

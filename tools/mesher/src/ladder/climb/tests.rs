@@ -95,6 +95,15 @@ fn document() -> Document {
 
 /// Climbs until a mesh is taken; gives the number of its run.
 fn climb(mesher: &Scripted, rungs: &[Rung], timeout: Option<Duration>) -> Result<usize, Error> {
+    take(mesher, rungs, timeout, |_| mesher.runs())
+}
+
+fn take<T>(
+    mesher: &Scripted,
+    rungs: &[Rung],
+    timeout: Option<Duration>,
+    what: impl Fn(Answer) -> T,
+) -> Result<T, Error> {
     let document = document();
     let params = Params {
         timeout,
@@ -111,7 +120,9 @@ fn climb(mesher: &Scripted, rungs: &[Rung], timeout: Option<Duration>) -> Result
         mesher,
         log: Log::new(&|_| ()),
     };
-    climb.climb(Attempt::new(Asks::Eased([1.1, 0.5])), |_| Ok(mesher.runs()))
+    climb.climb(Attempt::new(Asks::Eased([1.1, 0.5])), |answer| {
+        Ok(what(answer))
+    })
 }
 
 #[test]
@@ -134,10 +145,23 @@ fn failures_by_chance_get_other_descriptions_until_the_ladder_ends() {
     let descriptions = LADDER.iter().filter(|r| r.after == Ending::Chance).count();
     assert_eq!(mesher.runs(), 1 + descriptions);
     assert!(mesher.runs() <= 1 + LADDER.len());
+    // The last one without points on the surface, which fail in all others.
+    let asked = mesher.asked.into_inner().unwrap();
+    let preserved: Vec<bool> = asked.iter().map(|(task, _)| task.preserve).collect();
+    let (last, others) = preserved.split_last().unwrap();
+    assert!(
+        *last && others.iter().all(|preserved| !preserved),
+        "{preserved:?}"
+    );
     assert!(
         error.to_string().contains("intersect, the first near"),
         "{error}"
     );
+    let mesher = Scripted::new(&vec![FailureKind::Chance; descriptions]);
+    let told = take(&mesher, &LADDER, None, |answer| answer.advice)
+        .unwrap()
+        .unwrap();
+    assert!(told.contains("added none"), "{told}");
     // No rungs, no other attempt.
     let mesher = Scripted::new(&[FailureKind::Chance]);
     assert!(climb(&mesher, &[], None).is_err());
