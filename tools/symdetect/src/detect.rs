@@ -115,7 +115,9 @@ fn answer(shape: &mut Shape, params: &Params, log: Log<'_>) -> Result<Detection,
         ..
     } = query;
     if hidden && !is_round {
-        shape.told = Told::ByVertices;
+        shape.told = Told::ByVertices {
+            hiding: limits.tolerance,
+        };
         // Where folds tell as much, they tell best where it is.
         let more = (shape.smooth().wider() > limits.tolerance).then(|| {
             log("and what vertices tell of it");

@@ -195,7 +195,7 @@ impl Shape {
     /// The facets that the image of a triangle may be on, and how far from them it may be.
     fn part_behind(&self, triangle: u32, target: &Target, limit: f64) -> Option<(&Part, f64)> {
         let smooth = self.smooth();
-        let trees = self.behind[self.told as usize]
+        let trees = self.behind[self.told.index()]
             .trees
             .get_or_init(|| Trees::new(&self.interfaces, |t| self.corners(t), |t| smooth.most(t)));
         let part = trees.part(&self.interfaces, triangle, target)?;
@@ -220,7 +220,7 @@ impl Shape {
 
     /// The smooth shape that the facets stand for.
     pub fn smooth(&self) -> &SmoothSurface {
-        self.behind[self.told as usize].smooth.get_or_init(|| {
+        self.behind[self.told.index()].smooth.get_or_init(|| {
             let surface = (&self.vertices[..], &self.triangles[..]);
             SmoothSurface::new(surface, &self.normals, self.told)
         })

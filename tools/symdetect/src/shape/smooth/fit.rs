@@ -12,12 +12,22 @@ use crate::tolerance::{SINGLE, VANISHING};
 use glam::{DMat3, DVec3};
 
 /// What tells of the shape behind facets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Told {
     /// How they turn at their edges.
     ByFolds,
-    /// The places of the vertices around them, too: the shape may be as either tells it.
-    ByVertices,
+    /// The places of the vertices around them, too, of facets that may hide as much as this: the shape may be as either tells it.
+    ByVertices {
+        /// In the units of the shape.
+        hiding: f64,
+    },
+}
+
+impl Told {
+    /// Zero, or one.
+    pub fn index(self) -> usize {
+        usize::from(self != Self::ByFolds)
+    }
 }
 
 /// Vertices that a quadratic function is fitted to at least, where there are as many: twice as many as it has coefficients.
@@ -39,7 +49,7 @@ const OFF: f64 = 0.25;
 
 /// The curvature tensor of each flat as [`super::curvature::curvature`] gives it, by least squares from the vertices around; that which is
 /// given where they tell none.
-pub fn fitted(facets: &Facets<'_>, folds: &[Fold], known: &[DMat3]) -> Vec<DMat3> {
+pub fn fitted(facets: &Facets<'_>, folds: &[Fold], (known, hiding): (&[DMat3], f64)) -> Vec<DMat3> {
     let both = folds
         .iter()
         .flat_map(|f| [(f.flats[0], f.flats[1]), (f.flats[1], f.flats[0])]);
@@ -48,17 +58,51 @@ pub fn fitted(facets: &Facets<'_>, folds: &[Fold], known: &[DMat3]) -> Vec<DMat3
     for (&flat, &normal) in facets.flats.of.iter().zip(facets.normals) {
         normals[flat as usize] = normal;
     }
+    let turns = turns_near(folds, facets.flats.count());
     let fit = |flat: usize| {
-        let around = Around::new(facets, &beside, (flat as u32, normals[flat]))?;
+        let mut around = Around::of_flat(facets, (flat as u32, normals[flat]))?;
+        // A chord of that length, and the turns at its ends; twice that, as they may be less there than beyond.
+        if around.size * turns[flat] < hiding {
+            return None;
+        }
+        around.grow(facets, &beside)?;
         around.curvature()
     };
     let flats: Vec<usize> = (0..known.len()).collect();
     threads::map(&flats, |&flat| fit(flat).unwrap_or(known[flat]))
 }
 
+/// Whether a flat has so few corners that it may be one of the facets of a curved surface.
+fn is_facet(facets: &Facets<'_>, flat: u32) -> bool {
+    facets.flats.corners(flat).len() <= AROUND
+}
+
+/// The largest turns at the folds of each flat and of those next to it, radians.
+fn turns_near(folds: &[Fold], count: usize) -> Vec<f64> {
+    let mut own = vec![0.0_f64; count];
+    for fold in folds {
+        for flat in fold.flats {
+            own[flat as usize] = own[flat as usize].max(fold.turn.abs());
+        }
+    }
+    let mut near = own.clone();
+    for fold in folds {
+        let largest = fold.flats.map(|flat| own[flat as usize]);
+        let largest = largest[0].max(largest[1]);
+        for flat in fold.flats {
+            near[flat as usize] = near[flat as usize].max(largest);
+        }
+    }
+    near
+}
+
 /// The vertices around a flat.
 struct Around {
-    /// Places of them, those of the flat among them.
+    /// The flat, and those around it.
+    flats: Vec<u32>,
+    /// Their vertices, each once.
+    vertices: Vec<u32>,
+    /// Where these are.
     points: Vec<DVec3>,
     /// Middle of the flat.
     middle: DVec3,
@@ -69,47 +113,55 @@ struct Around {
 }
 
 impl Around {
-    /// As far as smooth edges lead from there, ring by ring, until they are [`ENOUGH`] and reach [`BEYOND`] it; `None` if they never do.
-    fn new(facets: &Facets<'_>, beside: &Table, (flat, normal): (u32, DVec3)) -> Option<Self> {
-        let at = |v: &u32| facets.vertices[*v as usize];
-        let is_facet = |flat: u32| facets.flats.corners(flat).len() <= AROUND;
-        if !is_facet(flat) {
-            return None;
-        }
-        let mut vertices = facets.flats.corners(flat).to_vec();
-        let middle = vertices.iter().map(at).sum::<DVec3>() / vertices.len() as f64;
-        let far = |vertices: &[u32]| {
-            let distances = vertices
-                .iter()
-                .map(|v| (at(v) - middle).reject_from(normal).length());
-            distances.fold(0.0, f64::max)
+    /// Those of the flat itself, with its normal; `None` if it is no facet.
+    fn of_flat(facets: &Facets<'_>, (flat, normal): (u32, DVec3)) -> Option<Self> {
+        let vertices = facets.flats.corners(flat).to_vec();
+        let points = vertices.iter().map(|v| facets.vertices[*v as usize]);
+        let points: Vec<DVec3> = points.collect();
+        let middle = points.iter().sum::<DVec3>() / points.len() as f64;
+        let mut around = Self {
+            flats: vec![flat],
+            vertices,
+            points,
+            middle,
+            normal,
+            size: 0.0,
         };
-        let size = far(&vertices);
-        let mut flats = vec![flat];
+        around.size = around.reach();
+        is_facet(facets, flat).then_some(around)
+    }
+
+    /// How far the vertices are from the middle at most, along the plane of the flat.
+    fn reach(&self) -> f64 {
+        let distances =
+            (self.points.iter()).map(|p| (p - self.middle).reject_from(self.normal).length());
+        distances.fold(0.0, f64::max)
+    }
+
+    /// As far as smooth edges lead from there, ring by ring, until they are [`ENOUGH`] and reach [`BEYOND`] it; `None` if they never do.
+    fn grow(&mut self, facets: &Facets<'_>, beside: &Table) -> Option<()> {
         let mut ring = 0..1;
-        while vertices.len() < ENOUGH || far(&vertices) < BEYOND * size {
-            if ring.is_empty() || flats.len() > AROUND {
+        while self.points.len() < ENOUGH || self.reach() < BEYOND * self.size {
+            if ring.is_empty() || self.flats.len() > AROUND {
                 return None;
             }
-            let end = flats.len();
+            let end = self.flats.len();
             for i in ring {
-                for &other in beside.of(flats[i]).iter().take(AROUND) {
-                    if !flats.contains(&other) && is_facet(other) {
-                        flats.push(other);
-                        vertices.extend(facets.flats.corners(other));
+                for &other in beside.of(self.flats[i]).iter().take(AROUND) {
+                    if !self.flats.contains(&other) && is_facet(facets, other) {
+                        self.flats.push(other);
+                        self.vertices.extend(facets.flats.corners(other));
                     }
                 }
             }
-            vertices.sort_unstable();
-            vertices.dedup();
-            ring = end..flats.len();
+            self.vertices.sort_unstable();
+            self.vertices.dedup();
+            let points = self.vertices.iter().map(|v| facets.vertices[*v as usize]);
+            self.points.clear();
+            self.points.extend(points);
+            ring = end..self.flats.len();
         }
-        Some(Self {
-            points: vertices.iter().map(at).collect(),
-            middle,
-            normal,
-            size,
-        })
+        Some(())
     }
 
     /// Minus the second derivatives of the quadratic function over the plane of the facet that is nearest to the points; `None` if it is
@@ -120,6 +172,7 @@ impl Around {
             middle,
             normal,
             size,
+            ..
         } = *self;
         let x = normal.any_orthonormal_vector();
         let y = normal.cross(x);
@@ -191,6 +244,8 @@ mod tests {
         let middle = own.iter().sum::<DVec3>() / own.len() as f64;
         let distances = own.iter().map(|p| p.distance(middle));
         let around = Around {
+            flats: Vec::new(),
+            vertices: Vec::new(),
             points,
             middle,
             normal,
@@ -257,7 +312,7 @@ mod tests {
         let normals: Vec<DVec3> = triangles.iter().map(normal).collect();
         let facets = Facets::new(&vertices, &triangles, &normals);
         let known = vec![DMat3::ZERO; facets.flats.count()];
-        fitted(&facets, &facets.folds(), &known)[facets.flats.of[0] as usize]
+        fitted(&facets, &facets.folds(), (&known, 1e-3))[facets.flats.of[0] as usize]
     }
 
     #[test]

@@ -57,8 +57,8 @@ impl<'a> Reading<'a> {
         flip(facets, &self.is_smooth, &mut heights);
         let known = (&self.folds[..], &curvature[..], self.least);
         slack(facets, around, known, &mut heights);
-        if told == Told::ByVertices {
-            let fitted = fitted(facets, &self.folds, &curvature);
+        if let Told::ByVertices { hiding } = told {
+            let fitted = fitted(facets, &self.folds, (&curvature, hiding));
             add_fitted(facets, &fitted, &mut heights);
         }
         heights
