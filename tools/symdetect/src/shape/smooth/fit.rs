@@ -62,7 +62,7 @@ pub fn fitted(facets: &Facets<'_>, folds: &[Fold], (known, hiding): (&[DMat3], f
     let fit = |flat: usize| {
         let mut around = Around::of_flat(facets, (flat as u32, normals[flat]))?;
         // A chord of that length, and the turns at its ends; twice that, as they may be less there than beyond.
-        if around.size * turns[flat] < hiding {
+        if around.size * turns[flat] <= hiding {
             return None;
         }
         around.grow(facets, &beside)?;

@@ -9,6 +9,10 @@
 //! into others: inside of faces that are curved in two directions CAD kernels draw coarser than they are told. They are read
 //! both ways, and the shape may be anywhere between the two readings.
 //!
+//! Where all that leaves a symmetry that the drawing does not have unexplained, the vertices around a facet are asked, too: they are on the
+//! shape, and tell how it bends along a facet between two sharp edges, and whatever diagonals were drawn. The shape may be as either
+//! tells it.
+//!
 //! Flat faces, sharp edges between them and straight edges so hide nothing; arcs hide their sagitta. A place may be
 //! anywhere between the facet and the patch, since facets of flat and of curved faces look alike where they meet, and
 //! between the two ways of dividing a quadrilateral into triangles. How well the patch is known is told by the patches
