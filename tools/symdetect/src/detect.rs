@@ -101,9 +101,8 @@ fn answer(shape: &mut Shape, params: &Params, log: Log<'_>) -> Result<Detection,
     query.limits.facets = false;
     let drawing = search(&query, log);
     let mut outcome = drawing.clone();
-    let is_round = outcome.found.as_ref().is_some_and(|f| f.axisymmetric);
     let hidden = query.params.facets && query.facets_hide_something();
-    if hidden && !is_round {
+    if hidden && !outcome.is_round() {
         log("the shape behind the facets is looked at");
         query.look_behind(&mut outcome, log);
     } else {
@@ -114,7 +113,7 @@ fn answer(shape: &mut Shape, params: &Params, log: Log<'_>) -> Result<Detection,
         mut drawn,
         ..
     } = query;
-    if hidden && !is_round {
+    if hidden && !outcome.is_round() {
         shape.told = Told::ByVertices {
             hiding: limits.tolerance,
         };
@@ -210,6 +209,11 @@ struct Outcome {
 }
 
 impl Outcome {
+    /// Whether any rotation takes the body to itself: then there is no more.
+    fn is_round(&self) -> bool {
+        self.found.as_ref().is_some_and(|f| f.axisymmetric)
+    }
+
     /// How many operations the group found has.
     fn size(&self) -> u32 {
         self.found.as_ref().map_or(1, |f| f.group.size())
