@@ -47,8 +47,8 @@ const BEYOND: f64 = 2.0;
 /// more within a few facets is not known.
 const OFF: f64 = 0.25;
 
-/// The curvature tensor of each flat as [`super::curvature::curvature`] gives it, by least squares from the vertices around; that which is
-/// given where they tell none.
+/// The curvature tensor of each flat as [`super::curvature::curvature`] gives it, by least squares from the vertices around; the one that is
+/// `known` where they tell none, or the flat hides less than `hiding`.
 pub fn fitted(facets: &Facets<'_>, folds: &[Fold], (known, hiding): (&[DMat3], f64)) -> Vec<DMat3> {
     let both = folds
         .iter()

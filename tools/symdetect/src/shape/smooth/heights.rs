@@ -15,8 +15,8 @@ pub struct Heights {
     pub side: [f32; 3],
     /// Both where edges are smooth that may be sharp.
     pub bent: [[f32; 3]; 2],
-    /// Both by the vertices around, however they are joined.
-    pub fitted: [[f32; 3]; 2],
+    /// Both by the vertices around, however they are joined, as far as edges are smooth, and as far as they may be.
+    pub fitted: [[[f32; 3]; 2]; 2],
     /// Height there of the other diagonal of the quadrilateral that the triangle makes with the one beyond.
     pub flipped: [f32; 3],
     /// What two estimates of the heights differ by where the corners are far away.
@@ -66,7 +66,10 @@ impl Heights {
     pub fn range(&self, b: [f64; 3]) -> [f64; 2] {
         let mut range = [0.0_f64; 2];
         let flipped = (0..3).map(|c| bubble_of(self.flipped[c], b, c));
-        let patches = [self.shape(b), patch(self.bent, b), patch(self.fitted, b)];
+        let fitted = self.fitted.map(|fitted| patch(fitted, b));
+        let patches = [self.shape(b), patch(self.bent, b)]
+            .into_iter()
+            .chain(fitted);
         for height in flipped.chain(patches) {
             range = [range[0].min(height), range[1].max(height)];
         }
@@ -84,9 +87,7 @@ impl Heights {
     /// Adds what another reading of the edges says.
     pub fn add(&mut self, other: &Self) {
         self.bent = [other.corner, other.side];
-        if other.fitted != [[0.0; 3]; 2] {
-            self.fitted = other.fitted;
-        }
+        self.fitted[1] = other.fitted[0];
         // Either diagonal of an edge that may be sharp: of a smooth one, both readings say the same.
         self.flipped = other.flipped;
         self.slack = self.slack.max(other.slack);
@@ -99,7 +100,7 @@ impl Heights {
 
     /// Adds what the vertices around tell of the curvature.
     fn add_fitted(&mut self, other: &Self, corners: [DVec3; 3], curvature: DMat3) {
-        self.fitted = [other.corner, other.side];
+        self.fitted[0] = [other.corner, other.side];
         for (c, border) in self.border.iter_mut().enumerate() {
             let along = (corners[(c + 1) % 3] - corners[c]).normalize_or_zero();
             let bends = along.dot(curvature * along).abs();
@@ -117,7 +118,10 @@ impl Heights {
             let [corner, side] = self.bent;
             let sides = [self.side[c], side[c], self.flipped[c]];
             let corners = [self.corner[c], corner[c], 0.0];
-            beyond(self.fitted[1][c], sides) + beyond(self.fitted[0][c], corners)
+            let fitted = self
+                .fitted
+                .map(|[corner, side]| beyond(side[c], sides) + beyond(corner[c], corners));
+            fitted[0].max(fitted[1])
         };
         let border = |b: &Border| 0.125 * b.length * b.length * b.fitted;
         let borders = self.border.iter().map(border);
@@ -129,7 +133,7 @@ impl Heights {
     pub fn most(&self) -> f64 {
         let largest = |x: [f32; 3]| x.iter().fold(0.0_f32, |m, h| m.max(h.abs()));
         let above = |[corner, side]: [[f32; 3]; 2]| largest(corner) + largest(side);
-        let fitted = above(self.fitted);
+        let fitted = self.fitted.map(above).into_iter().fold(0.0, f32::max);
         let above = above([self.corner, self.side]).max(above(self.bent));
         let above = above.max(fitted).max(largest(self.flipped)) + 2.0 * self.slack;
         let at_borders = self.border.iter().map(Border::sagitta);
