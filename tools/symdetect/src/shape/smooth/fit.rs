@@ -36,8 +36,11 @@ const ENOUGH: usize = 2 * COEFFICIENTS;
 /// Of a quadratic function of two variables.
 const COEFFICIENTS: usize = 6;
 
-/// Facets around one that are looked at at most: three rings of triangles have 36. What has more corners is a flat face and no facet.
-const AROUND: usize = 36;
+/// Facets around one that are looked at at most: four rings of triangles have 60. What has more corners is a flat face and no facet.
+const AROUND: usize = 60;
+
+/// Corners of a facet at most: kernels draw curved surfaces with triangles and quadrilaterals. What has more is a flat face.
+const SIDES: usize = 4;
 
 /// How far the vertices around a facet must reach along its plane, over its size: its own and those close to it tell nothing of how it bends, but how a
 /// rounding does that a flat face ends at.
@@ -58,11 +61,13 @@ pub fn fitted(facets: &Facets<'_>, folds: &[Fold], (known, hiding): (&[DMat3], f
     for (&flat, &normal) in facets.flats.of.iter().zip(facets.normals) {
         normals[flat as usize] = normal;
     }
+    let turning = facets.turning_points();
     let turns = turns_near(folds, facets.flats.count());
     let fit = |flat: usize| {
         let mut around = Around::of_flat(facets, (flat as u32, normals[flat]))?;
         // A chord of that length, and the turns at its ends; twice that, as they may be less there than beyond.
-        if around.size * turns[flat] <= hiding {
+        let is_polygon = turning.of(flat as u32).len() > SIDES;
+        if is_polygon || around.size * turns[flat] <= hiding {
             return None;
         }
         around.grow(facets, &beside)?;
@@ -238,7 +243,7 @@ fn least_squares(rows: &[[f64; COEFFICIENTS + 1]]) -> [f64; COEFFICIENTS] {
 mod tests {
     use super::*;
     use geom::measure::double_area_vector;
-    use std::f64::consts::FRAC_PI_4;
+    use std::f64::consts::TAU;
 
     fn curvature(points: Vec<DVec3>, own: &[DVec3], normal: DVec3) -> Option<DMat3> {
         let middle = own.iter().sum::<DVec3>() / own.len() as f64;
@@ -284,20 +289,20 @@ mod tests {
         );
     }
 
-    /// The curvature of a face with eight corners, and rings of facets around it, each given by its radius and its height.
-    fn in_the_middle(rings: &[(f64, f64)]) -> DMat3 {
+    /// The curvature of a face with so many corners, and rings of facets around it, each given by its radius and its height.
+    fn in_the_middle(sides: u32, rings: &[(f64, f64)]) -> DMat3 {
         let ring = |&(r, z): &(f64, f64)| {
-            (0..8).map(move |i| {
-                let (s, c) = libm::sincos(FRAC_PI_4 * f64::from(i));
+            (0..sides).map(move |i| {
+                let (s, c) = libm::sincos(TAU / f64::from(sides) * f64::from(i));
                 DVec3::new(r * c, r * s, z)
             })
         };
         let vertices: Vec<DVec3> = rings.iter().flat_map(ring).collect();
-        let fan = (1..7).map(|i| [0, i, i + 1]);
+        let fan = (1..sides - 1).map(|i| [0, i, i + 1]);
         let between = |k: u32| {
-            let [low, high] = [8 * k, 8 * k + 8];
-            (0..8).flat_map(move |i| {
-                let next = (i + 1) % 8;
+            let [low, high] = [sides * k, sides * (k + 1)];
+            (0..sides).flat_map(move |i| {
+                let next = (i + 1) % sides;
                 let [a, b, c, d] = [low + i, low + next, high + next, high + i];
                 [[a, c, b], [a, d, c]]
             })
@@ -318,9 +323,10 @@ mod tests {
     #[test]
     fn a_face_with_a_rounding_around_it_is_no_dome() {
         let rounding = [(1.0, 0.0), (1.05, -0.013), (1.087, -0.05), (1.1, -0.1)];
-        for depth in [0.3, 1.0, 3.0] {
+        for (depth, sides) in [(0.3, 8), (1.0, 8), (3.0, 8), (0.3, 4), (1.0, 4), (3.0, 4)] {
             let wall = [(1.1, -0.1 - depth)];
-            assert_eq!(in_the_middle(&[&rounding[..], &wall].concat()), DMat3::ZERO);
+            let found = in_the_middle(sides, &[&rounding[..], &wall].concat());
+            assert_eq!(found, DMat3::ZERO, "{depth} {sides}");
             let hollow = [
                 (1.113, -0.15 - depth),
                 (1.15, -0.187 - depth),
@@ -328,11 +334,11 @@ mod tests {
             ];
             let floor = [(2.5, -0.2 - depth)];
             let step = [&rounding[..], &wall, &hollow, &floor].concat();
-            assert_eq!(in_the_middle(&step), DMat3::ZERO, "{depth}");
+            assert_eq!(in_the_middle(sides, &step), DMat3::ZERO, "{depth} {sides}");
         }
         // And the cap of a sphere is one.
         let cap = [0.1_f64, 0.3, 0.5, 0.7].map(|angle| (angle.sin(), angle.cos()));
-        let found = in_the_middle(&cap);
+        let found = in_the_middle(4, &cap);
         assert!(
             (found.x_axis.x - 1.0).abs() < 0.1 && (found.y_axis.y - 1.0).abs() < 0.1,
             "{found}"
