@@ -76,6 +76,19 @@ fn a_solid_that_is_there_twice_is_refused() {
 }
 
 #[test]
+fn edges_along_which_solids_touch_are_divided() {
+    // Along a part of an edge, in the middle of it, and one in the middle of the other.
+    for (low, high) in [
+        ([1.0, 1.0, 0.5], [2.0, 2.0, 1.5]),
+        ([1.0, 1.0, 0.25], [2.0, 2.0, 0.75]),
+        ([1.0, 1.0, -1.0], [2.0, 2.0, 2.0]),
+    ] {
+        let size: f64 = (0..3).map(|i| high[i] - low[i]).product();
+        expect(&two(unit_cube([0.0; 3]), cuboid(low, high)), [1.0, size]);
+    }
+}
+
+#[test]
 fn faces_that_touch_with_different_triangles_get_the_same_ones() {
     let plate = || cuboid([0.0; 3], [4.0, 3.0, 1.0]);
     // A post in the middle, at an edge, over a corner, and as large as the plate with the other diagonal.

@@ -106,11 +106,13 @@ pub fn label_mended(
             let known = known.filter(|_| !several);
             match imprinted(apart, &tolerance, contacts, known) {
                 Ok(imprinted) if imprinted.is_slight && told.is_ok() => (surface, told?),
-                // What is drawn is a body as it is, and what looked like a contact is none.
+                // What is drawn is a body as it is, and what looked like a contact is none; but where solids touch in edges or
+                // vertices alone, these are divided.
                 Ok(imprinted)
-                    if told.as_ref().is_ok_and(|told| {
-                        !told.crosses && imprinted.labels.interfaces() <= told.interfaces()
-                    }) =>
+                    if imprinted.joined.largest > tolerance.equal()
+                        && told.as_ref().is_ok_and(|told| {
+                            !told.crosses && imprinted.labels.interfaces() <= told.interfaces()
+                        }) =>
                 {
                     (surface, told?)
                 }
