@@ -77,8 +77,10 @@ fn a_solid_that_is_there_twice_is_refused() {
 
 #[test]
 fn edges_along_which_solids_touch_are_divided() {
-    // Along a part of an edge, in the middle of it, and one in the middle of the other.
+    // Along a part of an edge from a corner that they have in common, from the middle of it, in the middle of it, and one in the middle
+    // of the other.
     for (low, high) in [
+        ([1.0, 1.0, 0.0], [2.0, 2.0, 0.52]),
         ([1.0, 1.0, 0.5], [2.0, 2.0, 1.5]),
         ([1.0, 1.0, 0.25], [2.0, 2.0, 0.75]),
         ([1.0, 1.0, -1.0], [2.0, 2.0, 2.0]),
@@ -86,6 +88,60 @@ fn edges_along_which_solids_touch_are_divided() {
         let size: f64 = (0..3).map(|i| high[i] - low[i]).product();
         expect(&two(unit_cube([0.0; 3]), cuboid(low, high)), [1.0, size]);
     }
+}
+
+/// Two blocks with a corner in common and an edge of one half of an edge of the other, within eight digits: no vertex is moved by more.
+#[test]
+fn edges_along_which_rounded_solids_touch_are_divided() {
+    const POINTS: [[f64; 3]; 15] = [
+        [2.47226984, -2.89819986, -0.56736656],
+        [1.10119222, -3.62596397, 1.00008316],
+        [0.699408254, -2.72524818, 1.06683593],
+        [2.07048587, -1.99748407, -0.500613788],
+        [2.62025134, -1.7948605, 0.0743541213],
+        [1.24917372, -2.52262461, 1.64180384],
+        [1.65095769, -3.4233404, 1.57505106],
+        [3.0220353, -2.69557629, 0.00760134927],
+        [1.05041522, -2.47992069, -0.130737875],
+        [0.33564869, -2.85931673, 0.686400834],
+        [-0.544417127, -0.886392884, 0.832615809],
+        [0.170349402, -0.506996839, 0.0154771004],
+        [0.534108966, -0.372928284, 0.395912194],
+        [-0.180657563, -0.752324329, 1.2130509],
+        [1.41417478, -2.34585213, 0.249697219],
+    ];
+    let first = [
+        [0, 1, 2],
+        [0, 2, 3],
+        [4, 5, 6],
+        [4, 6, 7],
+        [2, 5, 4],
+        [2, 4, 3],
+        [7, 6, 1],
+        [7, 1, 0],
+        [3, 4, 7],
+        [3, 7, 0],
+        [1, 6, 5],
+        [1, 5, 2],
+    ];
+    let second = [
+        [8, 9, 10],
+        [8, 10, 11],
+        [12, 13, 2],
+        [12, 2, 14],
+        [11, 10, 13],
+        [11, 13, 12],
+        [14, 2, 9],
+        [14, 9, 8],
+        [12, 14, 8],
+        [12, 8, 11],
+        [10, 9, 2],
+        [10, 2, 13],
+    ];
+    let facets = |triangles: [[usize; 3]; 12]| triangles.map(|t| t.map(|v| POINTS[v])).to_vec();
+    let imported = two(facets(first), facets(second));
+    assert_eq!(volumes(&imported).len(), 2);
+    assert!(imported.joined.is_some());
 }
 
 #[test]

@@ -30,7 +30,7 @@ impl Needle {
         let mut left_out: Vec<bool> = triangles.iter().map(at_walls).collect();
         let mut may_be = vec![false; triangles.len()];
         for e in 0..surface.edges.len() {
-            let &[ref u, ref v] = surface.edges.around(e) else {
+            let [u, v] = surface.edges.around(e) else {
                 continue;
             };
             for (u, beyond) in [(u, v), (v, u)] {
