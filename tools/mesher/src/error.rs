@@ -116,6 +116,9 @@ pub enum Fault {
     Impossible,
 }
 
+/// Steps in which TetGen puts a surface into its mesh.
+const RECOVERY: [&str; 2] = ["Constrained Delaunay", "Recovering boundaries"];
+
 impl Error {
     /// Who can do something about it.
     pub fn fault(&self) -> Fault {
@@ -136,6 +139,14 @@ impl Error {
         match self {
             Self::Mesher { failure, .. } => failure.kind == FailureKind::Chance,
             Self::Unusable { .. } => true,
+            _ => false,
+        }
+    }
+
+    /// Whether the mesher failed while it put the surface into its mesh, before it refined that.
+    pub fn is_of_recovery(&self) -> bool {
+        match self {
+            Self::Mesher { failure, .. } => RECOVERY.contains(&failure.step.as_str()),
             _ => false,
         }
     }

@@ -90,8 +90,12 @@ impl Climb<'_> {
                 },
                 Err(broken) => broken,
             };
+            let recovery = error.is_of_recovery();
             let change = match error.is_chance() {
-                true => left.next(Ending::Chance),
+                true => left.next(Ending::Chance).or_else(|| {
+                    let next = recovery.then(|| left.next(Ending::Recovery));
+                    next.flatten()
+                }),
                 false => None,
             };
             let Some(change) = change else {

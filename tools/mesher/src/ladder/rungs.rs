@@ -9,6 +9,8 @@ pub enum Ending {
     /// meet: TetGen's own points on segments are coplanar up to rounding only, and where layers are thin some of its
     /// assertions fail by bad luck; so does its walk through the Delaunay mesh of symmetric points in some orders.
     Chance,
+    /// The mesher failed so, in every description, while it put the surface into its mesh.
+    Recovery,
     /// All points that may be added were used, on edges not much shorter than the surface's: the mesh is to be that large.
     Large,
     /// All points that may be added were used, and heap up at sharp places.
@@ -109,5 +111,5 @@ pub const LADDER: [Rung; 12] = [
             ..Description::PLAIN
         }),
     ),
-    rung(Ending::Chance, Change::KeepSurface),
+    rung(Ending::Recovery, Change::KeepSurface),
 ];
