@@ -627,3 +627,87 @@ fn remeshing_does_not_depend_on_threads() {
     };
     assert_eq!(templates("1"), templates("3"));
 }
+
+/// A barrel of four equal quarters, drawn with coordinates that are exactly symmetric; with a needle beside an edge of each, as CAD
+/// kernels leave them.
+fn barrel(with_needles: bool) -> Vec<u8> {
+    type Point = [f64; 3];
+    let quarter = |p: Point, turns: u32| (0..turns).fold(p, |[x, y, z], _| [-y, x, z]);
+    let polar = |r: f64, angle: f64, z: f64| [r * angle.cos(), r * angle.sin(), z];
+    let step = std::f64::consts::TAU / 24.0;
+    // Lobes on top, steeper on one side, so that there are no mirror planes.
+    let at = |k: u32, level: u32| {
+        let radius = match (level, k % 6) {
+            (1, _) => 1.2,
+            (2, 0) => 1.3,
+            (2, 1) => 1.15,
+            _ => 1.0,
+        };
+        quarter(
+            polar(radius, step * f64::from(k % 6), f64::from(level)),
+            k / 6,
+        )
+    };
+    let needle = |turns: u32| {
+        let [low, high] = [at(3, 0), at(3, 1)];
+        let [x, y, z] = [0, 1, 2].map(|i| 0.5 * (low[i] + high[i]));
+        let (radius, angle) = (x.hypot(y), y.atan2(x));
+        quarter(polar(radius + 2e-6, angle - 1e-5, z), turns)
+    };
+    let mut triangles: Vec<[Point; 3]> = Vec::new();
+    for k in 0..24 {
+        let next = (k + 1) % 24;
+        triangles.push([[0.0; 3], at(next, 0), at(k, 0)]);
+        triangles.push([[0.0, 0.0, 2.0], at(k, 2), at(next, 2)]);
+        for level in [0, 1] {
+            let [a, b, c, d] = [
+                at(k, level),
+                at(next, level),
+                at(next, level + 1),
+                at(k, level + 1),
+            ];
+            triangles.push([a, c, d]);
+            if with_needles && level == 0 && k % 6 == 2 {
+                let p = needle(k / 6);
+                triangles.extend([[a, b, p], [a, p, c], [p, b, c]]);
+            } else {
+                triangles.push([a, b, c]);
+            }
+        }
+    }
+    let mut text = "solid barrel\n".to_owned();
+    for corners in triangles {
+        text += "facet normal 0 0 0\nouter loop\n";
+        for [x, y, z] in corners {
+            text += &format!("vertex {x:?} {y:?} {z:?}\n");
+        }
+        text += "endloop\nendfacet\n";
+    }
+    (text + "endsolid barrel\n").into_bytes()
+}
+
+#[test]
+fn exact_bodies_are_remeshed_for_their_needles_only() {
+    let quality = |stl: &[u8], deviation: &str| {
+        let found = run("symdetect", &["-q"], stl).success();
+        let wedge = run(
+            "wedgecut",
+            &["-q", "--order", "4", "--deviation", deviation],
+            &found,
+        );
+        let surface = run("periodic-surf", &["-v"], &wedge.success());
+        let told = surface.stderr.contains("surface remeshed");
+        let meshed = run("tetwedge", &["-q"], &surface.success()).success();
+        let whole = run("rotassemble", &["-q", "--to", "tmesh"], &meshed).success();
+        let checked = run("meshqual", &["-q", "--check", "--json", "-"], &whole).success();
+        let quality: Value = serde_json::from_slice(&checked).expect("JSON");
+        let tetrahedra = quality["tetrahedra"].as_u64().expect("a number");
+        (told, tetrahedra)
+    };
+    let (told, _) = quality(&barrel(false), "auto");
+    assert!(!told);
+    let (told, remeshed) = quality(&barrel(true), "auto");
+    assert!(told);
+    let (told, kept) = quality(&barrel(true), "0");
+    assert!(!told && kept > 2 * remeshed, "{kept} {remeshed}");
+}

@@ -105,7 +105,7 @@ pub struct Source {
     pub triangles: u64,
     /// Volume of the body, all regions, model units cubed.
     pub volume: f64,
-    /// Area of the outer boundary (one side outside), model units squared.
+    /// Area of the outer boundary (one side outside), model units squared, less that of sheets without thickness that were taken out.
     pub boundary_area: f64,
     /// Absolute error of a coordinate, model units: what the input's number format can hold at the
     /// size of its largest coordinate.

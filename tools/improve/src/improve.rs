@@ -225,7 +225,8 @@ impl Work<'_> {
             self.done.moved += count.moved;
             self.done.flipped += count.flipped;
             self.looked_at += count.looked_at;
-            if count.moved + count.flipped == 0 || self.looked_at > self.mesh.len() {
+            let is_done = count.moved + count.flipped == 0 || self.looked_at > self.mesh.len();
+            if self.is_stopped() || is_done {
                 break;
             }
         }

@@ -240,20 +240,22 @@ impl Glued {
 
 /// Vertices of faces that are glued to templates that are not in the group, whoever lists them.
 fn held(document: &Document, index: usize, group: &[usize]) -> Vec<bool> {
-    let template = &document.templates[index];
-    let mut held = vec![false; template.vertices.len()];
-    for gluing in &template.gluings {
-        if !group.contains(&(gluing.other as usize)) {
-            gluing.vertices_here().for_each(|v| held[v as usize] = true);
+    on_faces(document, index, |beyond| !group.contains(&beyond))
+}
+
+/// Vertices of a template's faces that are glued, whoever lists them, to templates that count.
+pub fn on_faces(document: &Document, index: usize, counts: impl Fn(usize) -> bool) -> Vec<bool> {
+    let mut on = vec![false; document.templates[index].vertices.len()];
+    for (lists, template) in document.templates.iter().enumerate() {
+        for gluing in &template.gluings {
+            let beyond = gluing.other as usize;
+            if lists == index && counts(beyond) {
+                gluing.vertices_here().for_each(|v| on[v as usize] = true);
+            }
+            if beyond == index && counts(lists) {
+                gluing.vertices_there().for_each(|v| on[v as usize] = true);
+            }
         }
     }
-    for (o, other) in document.templates.iter().enumerate() {
-        let named = other.gluings.iter();
-        for gluing in named.filter(|g| g.other_than(o) == Some(index) && !group.contains(&o)) {
-            gluing
-                .vertices_there()
-                .for_each(|v| held[v as usize] = true);
-        }
-    }
-    held
+    on
 }

@@ -1,5 +1,6 @@
 //! Needles that CAD kernels leave on curved surfaces.
 
+use crate::joined::on_faces;
 use geom::edges::{EdgeUse, Edges, apex_of};
 use geom::measure::double_area_vector;
 use glam::DVec3;
@@ -25,7 +26,7 @@ impl Needle {
             template,
             edges: Edges::new(&triangles),
         };
-        let is_cut = on_walls(document, index);
+        let is_cut = on_faces(document, index, |_| true);
         let at_walls = |t: &[u32; 3]| t.iter().any(|&v| is_cut[v as usize]);
         let mut left_out: Vec<bool> = triangles.iter().map(at_walls).collect();
         let mut may_be = vec![false; triangles.len()];
@@ -45,22 +46,6 @@ impl Needle {
             .zip(&left_out)
             .any(|(may_be, out)| *may_be && !out)
     }
-}
-
-/// Which vertices of a template are on its walls, whichever template lists them.
-fn on_walls(document: &Document, index: usize) -> Vec<bool> {
-    let mut on = vec![false; document.templates[index].vertices.len()];
-    for (i, template) in document.templates.iter().enumerate() {
-        for gluing in &template.gluings {
-            if i == index {
-                gluing.vertices_here().for_each(|v| on[v as usize] = true);
-            }
-            if gluing.other as usize == index {
-                gluing.vertices_there().for_each(|v| on[v as usize] = true);
-            }
-        }
-    }
-    on
 }
 
 /// The triangles of a template, and their edges.

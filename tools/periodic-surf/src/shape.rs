@@ -20,7 +20,7 @@ const OF_WALL: f64 = 0.25;
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
 /// changed. Where the input is as symmetric as its coordinates can be and no deviation is asked for, nothing changes but templates
-/// that are drawn far finer than edges are asked for. Where the deviation is left to the length of edges that is asked for, or to
+/// that are drawn far finer than edges are asked for, or all of them where there are needles. Where the deviation is left to the length of edges that is asked for, or to
 /// the tolerance of a body without symmetry, the document's wishes say afterwards how far surfaces have moved.
 ///
 /// # Errors
@@ -35,17 +35,17 @@ pub fn follow_shape(
     let radius = tolerance.extent().radius;
     let deviation = radius * document.deviation(tolerance.equal() / radius);
     let exact = deviation <= tolerance.equal();
-    let needles = (exact && params.quality)
-        .then(|| for_needles(document, &tolerance))
-        .flatten();
-    if !params.quality || exact && needles.is_none() && !document.moves_for_lengths() {
+    if !params.quality {
+        return Ok(facts);
+    }
+    let within = match exact {
+        true => for_needles(document, &tolerance).into_iter().collect(),
+        false => attempts(document, &tolerance, deviation),
+    };
+    if within.is_empty() && !document.moves_for_lengths() {
         return Ok(facts);
     }
     let sizes = Sizes::new(document)?;
-    let within = match exact {
-        true => needles.into_iter().collect(),
-        false => attempts(document, &tolerance, deviation),
-    };
     let noise = deviation.max(tolerance.equal());
     let by_length = by_length(document, &sizes, radius).map(|wide| Attempt {
         deviation: wide.max(noise),

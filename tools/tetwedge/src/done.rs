@@ -128,13 +128,14 @@ pub fn done<B: Send>(
             filled.dropped
         ));
     }
-    let stopped = cut_short(climb, &filled);
+    let notes = [answer.advice, cut_short(climb, &filled)];
+    let notes: Vec<String> = notes.into_iter().flatten().collect();
     let done = Done {
         filled,
         switches: answer.mesh.told().to_owned(),
         failed: answer.failed,
         is_uneven: answer.plc.relief.is_there(),
-        advice: answer.advice.or(stopped),
+        advice: (!notes.is_empty()).then(|| notes.join("; ")),
     };
     Ok((done, made))
 }

@@ -73,7 +73,7 @@ pub struct WishArgs {
     #[arg(default_missing_value = "true")]
     no_quality: Option<bool>,
 
-    /// Time limit for the mesher, per template [default: inherited, or none]
+    /// Time limit for the mesher and for the improvement of its elements, per template [default: inherited, or none]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = positive)]
     timeout: Option<f64>,
 }
