@@ -21,6 +21,18 @@ const SEARCHES: usize = 4;
 /// propeller of sharp triangles takes three times as long.
 const FEWER: usize = 16;
 
+/// The same for angles beyond those of good elements. With [`FEWER`], as many elements are below 15 degrees and 2 % fewer past the
+/// radius-edge bound, and twisted gears and blades take a quarter longer.
+const FEWER_FURTHER: usize = 2;
+
+/// How much larger than those of good elements the angles are that improvement goes on to, once nothing is left to do for these, degrees.
+/// Measured on 73 parts from CAD kernels and scanners with 25 degrees: with five more there are 0.6 % fewer elements, the first percentile is 2.4
+/// degrees larger, the smallest angle of a part by an eighth in the mean, little more than half as many elements are below 15 degrees and an
+/// eighth fewer past the radius-edge bound, for 1.0 to 1.09 times the time of the whole pipe. With ten more, 1.24 times the time and 3.5 degrees;
+/// with fifteen, 2.6 % more elements, 1.4 times the time and 4.9 degrees. Asking for 30 degrees from the start gives 3.9 % more elements,
+/// since the mesher is asked for more, too.
+const FURTHER: f64 = 5.0;
+
 /// What is asked of the elements.
 pub struct Wish<'a> {
     /// Smallest dihedral angle, degrees.
@@ -66,13 +78,15 @@ pub struct Improved {
 ///
 /// At first elements past the radius-edge bound are worth little less than good ones, and they and slivers get vertices. What is still
 /// past a bound after that is worth any angle down to the smallest one asked for. From the start, that would spoil
-/// elements whose neighbours a vertex can mend.
+/// elements whose neighbours a vertex can mend. And all of it again for angles that are [`FURTHER`] away: what stands in the way of the
+/// worst elements is often a neighbour that was good enough.
 pub fn improve(
     template: &mut Template,
     freedoms: &Freedoms,
     wish: &Wish<'_>,
 ) -> (Improved, Vec<u32>) {
-    let goal = Goal::new(wish.angle, wish.radius_edge, wish.min_dihedral);
+    let goal = |angle: f64| Goal::new(angle, wish.radius_edge, wish.min_dihedral);
+    let asked = goal(wish.angle);
     let cube = 6.0 * wish.scale.powi(3);
     let limits: FxHashMap<u32, f64> = wish
         .max_volume
@@ -82,7 +96,7 @@ pub fn improve(
     let mut freedoms = freedoms.clone();
     let surface = freedoms.take_surface();
     let mut work = Work {
-        mesh: Mesh::of_template(template, wish.scale, goal.lenient(), &limits),
+        mesh: Mesh::of_template(template, wish.scale, asked.lenient(), &limits),
         freedoms,
         wish,
         tried: Tried::default(),
@@ -91,11 +105,12 @@ pub fn improve(
     };
     work.mesh.set_surface(surface);
     work.done.bad = work.bad().len();
-    work.pursue();
-    work.mesh.change_goal(goal);
-    // What was not worth it then may be now.
-    work.tried.vertices.clear();
-    work.pursue();
+    for (more, fewer) in [(0.0, FEWER), (FURTHER, FEWER_FURTHER)] {
+        let goal = goal(wish.angle + more);
+        work.pursue(goal.lenient(), fewer);
+        work.pursue(goal, fewer);
+    }
+    work.mesh.change_goal(asked);
     work.count_what_is_left();
     let Work { mesh, done, .. } = work;
     for (p, &moved) in template.vertices.iter_mut().zip(&mesh.positions) {
@@ -201,13 +216,16 @@ impl Work<'_> {
         self.done.stopped
     }
 
-    /// Works towards the mesh's goal.
-    fn pursue(&mut self) {
+    /// Works towards a goal, with new vertices until they help less than this part of what they helped at first. What was not worth it for
+    /// another goal may be for this one.
+    fn pursue(&mut self, goal: Goal, fewer: usize) {
+        self.mesh.change_goal(goal);
+        self.tried = Tried::default();
         self.looked_at = 0;
         self.rounds();
         let first = self.add_vertices();
         let mut added = first;
-        while added > 0 && FEWER * added >= first && !self.done.stopped {
+        while added > 0 && fewer * added >= first && !self.done.stopped {
             self.rounds();
             added = self.add_vertices();
         }

@@ -91,18 +91,12 @@ impl<'a> Mesh<'a> {
         mesh
     }
 
-    /// Grades bad tetrahedra by another goal, which grades good ones alike.
+    /// Grades all tetrahedra by another goal.
     pub fn change_goal(&mut self, goal: Goal) {
         self.goal = goal;
         self.stars.renew();
         for tet in 0..self.len() as u32 {
-            let before = self.grade(tet);
-            if before.quality < 1.0 {
-                let grade = self.of_corners(self.corners(tet));
-                if grade != before {
-                    self.regrade(tet, grade);
-                }
-            }
+            self.grades[tet as usize] = self.of_corners(self.corners(tet));
         }
     }
 

@@ -43,7 +43,8 @@ pub struct WishArgs {
     layers_across: Option<u32>,
 
     /// Dihedral angle, degrees, above which tetrahedra are optimized away, and half of what it leaves of 180
-    /// the angle below which they are; `off` removes only the nearly flat ones [default: inherited, or 130]
+    /// the angle below which they are, and once that is done, up to five degrees above it; `off` removes only the
+    /// nearly flat ones [default: inherited, or 130]
     #[arg(long, value_name = "DEG|off", value_parser = optimize)]
     optimize: Option<f64>,
 
