@@ -74,6 +74,18 @@ impl Goal {
         }
     }
 
+    /// The same goal for another angle: an element just past the bound is worth the same angle as before, and so is a vertex.
+    pub fn towards(self, angle: f64) -> Self {
+        let tangent = libm::tan(angle.to_radians());
+        let part = self.tangent / tangent;
+        Self {
+            tangent,
+            step: self.step * part,
+            after: self.after * part,
+            ..self
+        }
+    }
+
     /// Quality of an element within the radius-edge bound with this smallest dihedral angle, degrees.
     pub fn of_angle(&self, angle: f64) -> f64 {
         libm::tan(angle.to_radians()) / self.tangent
@@ -201,6 +213,24 @@ mod tests {
             let goal = Goal::new(25.0, radius_edge, 10.0).lenient();
             assert!(goal.quality(2.0, 0.9) < 1.0, "{goal:?}");
         }
+    }
+
+    #[test]
+    fn larger_angles_change_nothing_about_what_is_worth_a_vertex() {
+        let goal = Goal::new(25.0, 1.4, 10.0).lenient();
+        let further = goal.towards(30.0);
+        assert!((further.of_angle(30.0) - 1.0).abs() < 1e-12);
+        // The step is at 22.9 degrees; made for 30 degrees, it would be at 25.2.
+        for (angle, worth) in [(5.0, true), (22.5, true), (23.5, false), (25.0, false)] {
+            for goal in [goal, further] {
+                let quality = goal.of_angle(angle);
+                assert_eq!(goal.is_worth_a_vertex(quality), worth, "{angle}");
+                assert_eq!(goal.is_worth_it(quality), !worth, "{angle}");
+            }
+        }
+        // An element past the bound is worth the same angle.
+        let angle = |goal: Goal| goal.quality(100.0, 0.9) / goal.of_angle(45.0);
+        assert!((angle(goal) - angle(further)).abs() < 1e-9);
     }
 
     #[test]
