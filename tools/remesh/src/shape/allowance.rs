@@ -118,9 +118,14 @@ fn bent(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
     }
     let mut angle = vec![0.0_f64; count];
     for (t, &patch) in patches.of.iter().enumerate() {
-        let mean = vector[patch as usize].normalize_or_zero();
-        let normal = patches.normals[t];
-        let off = libm::atan2(mean.cross(normal).length(), mean.dot(normal));
+        // Directions all around, as in a hole, have no mean.
+        let off = match vector[patch as usize].try_normalize() {
+            Some(mean) => {
+                let normal = patches.normals[t];
+                libm::atan2(mean.cross(normal).length(), mean.dot(normal))
+            }
+            None => std::f64::consts::PI,
+        };
         angle[patch as usize] = angle[patch as usize].max(off);
     }
     let is_bent = |patch: usize| {
