@@ -1,6 +1,7 @@
 //! A filled template: coarsened, improved, checked, with what there is to say about it.
 
 use crate::fill::{Filled, fill, finish};
+use crate::score::FAILING;
 use improve::Leaves;
 use mesher::{Answer, Climb, EASING, Error, Progress};
 
@@ -20,10 +21,6 @@ pub struct Done {
 
 /// What is made of a filled template while it is improved, of what it shares with others, unless that may change.
 pub type Beside<'a, B> = &'a (dyn Fn(&Filled) -> Option<B> + Sync);
-
-/// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where
-/// one in a hundred fails, these weigh as much as all others.
-const FAILING: usize = 100;
 
 /// Where one in so many elements fails, it is the shape, and no coarsening helps: a thin layer drawn with needles takes a minute to improve, and
 /// another one for nothing. Impellers have one in thirty.

@@ -1,10 +1,9 @@
 //! Templates of few elements are filled several times, and the best is taken.
 
 use crate::done::Done;
-use geom::tet::TetMeasures;
-use mesher::{Asks, Attempt, Climb, Description, EASING, Log, Order, Params, Room};
+use crate::score::Score;
+use mesher::{Asks, Attempt, Climb, Description, EASING, Log, Order, Params};
 use rayon::prelude::*;
-use std::cmp::Ordering;
 
 /// Up to so many elements the first percentile of the angles is the smallest one, which is that of a single element and a matter of
 /// luck; and another mesh takes a few milliseconds.
@@ -36,7 +35,8 @@ pub fn draws(climb: &Climb<'_>, elements: usize) -> usize {
     }
 }
 
-fn has_lengths(climb: &Climb<'_>) -> bool {
+/// Whether lengths of edges are asked for.
+pub fn has_lengths(climb: &Climb<'_>) -> bool {
     climb.sizes.lengths.iter().any(Option::is_some)
 }
 
@@ -84,7 +84,12 @@ pub fn best_of_draws(
                 log: Log::new(&|_| ()),
                 ..*climb
             };
-            again(&quiet, attempt(draw as u64, factors, room))
+            // Refinement to stricter bounds may not come to an end.
+            let attempt = Attempt {
+                room: Some(room),
+                ..drawn(draw as u64, Asks::Eased(factors))
+            };
+            again(&quiet, attempt)
         })
         .collect();
     let failed = first.failed;
@@ -108,8 +113,8 @@ pub fn best_of_draws(
     (Done { failed, ..best }, is_another)
 }
 
-/// The attempt of a draw. Refinement to stricter bounds may not come to an end.
-fn attempt(draw: u64, factors: [f64; 2], room: Room) -> Attempt {
+/// The attempt of a draw, without a limit.
+pub fn drawn(draw: u64, asks: Asks) -> Attempt {
     Attempt {
         description: Description {
             order: Order::Shuffled(draw),
@@ -117,55 +122,6 @@ fn attempt(draw: u64, factors: [f64; 2], room: Room) -> Attempt {
             rounds_from: Some(0),
             ..Description::PLAIN
         },
-        room: Some(room),
-        ..Attempt::new(Asks::Eased(factors))
-    }
-}
-
-/// How good a mesh is.
-struct Score {
-    /// Elements that fail what is asked for.
-    failing: usize,
-    elements: usize,
-    /// The smallest dihedral angle of all elements, degrees.
-    angle: f64,
-    /// What that is worth in elements: its cube, as edges that are shorter by a part make as many more elements. Whole degrees count, up
-    /// to those that are enough.
-    worth: f64,
-}
-
-impl Score {
-    fn new(done: &Done, enough: f64) -> Self {
-        let template = &done.filled.template;
-        let angles = template.tets.iter().map(|tet| {
-            let corners = tet.vertices.map(|v| template.vertices[v as usize]);
-            TetMeasures::of(corners).min_dihedral().to_degrees()
-        });
-        let angle = angles.fold(f64::INFINITY, f64::min);
-        Self {
-            failing: done.filled.improved.map_or(0, |i| i.past + i.low),
-            elements: template.tets.len(),
-            angle,
-            worth: angle.min(enough).floor().powi(3),
-        }
-    }
-
-    /// Whether it has fewer elements that fail, or as many and fewer elements for what the smallest angle is worth.
-    fn is_better_than(&self, other: &Self) -> bool {
-        let price = |one: &Self, other: &Self| one.elements as f64 * other.worth;
-        match self.failing.cmp(&other.failing) {
-            Ordering::Equal => price(self, other) < price(other, self),
-            differ => differ.is_lt(),
-        }
-    }
-
-    /// Room for all meshes that are better than one of so many vertices, which have `enough` degrees at best. Improvement begins with
-    /// taking vertices out, up to every other one.
-    fn room(&self, vertices: usize, enough: f64) -> Room {
-        let times = match self.failing {
-            0 => 2.0 * enough.powi(3) / self.worth,
-            _ => f64::INFINITY,
-        };
-        Room::beside(vertices, times)
+        ..Attempt::new(asks)
     }
 }

@@ -13,7 +13,9 @@ mod draws;
 mod fill;
 mod follow;
 mod forecast;
+mod kept;
 mod leads;
+mod score;
 mod settle;
 mod template;
 

@@ -3,6 +3,7 @@
 use crate::done::{Beside, Done, done};
 use crate::draws::{best_of_draws, draws};
 use crate::fill::Filled;
+use crate::kept::better_of_kept;
 use mesher::{
     Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
 };
@@ -66,5 +67,6 @@ pub fn template<B: Send>(
         Some(done.ok()?.0)
     };
     let (best, is_another) = best_of_draws(climb, first, again);
-    Ok((best, made.filter(|_| !is_another)))
+    let (best, is_kept) = better_of_kept(climb, best, Attempt::new(asks), again);
+    Ok((best, made.filter(|_| !is_another && !is_kept)))
 }
