@@ -1,7 +1,7 @@
 //! A filled template: coarsened, improved, checked, with what there is to say about it.
 
 use crate::fill::{Filled, fill, finish};
-use crate::score::FAILING;
+use crate::score::{FAILING, is_hopeless};
 use improve::Leaves;
 use mesher::{Answer, Climb, EASING, Error, Progress};
 
@@ -22,10 +22,6 @@ pub struct Done {
 /// What is made of a filled template while it is improved, of what it shares with others, unless that may change.
 pub type Beside<'a, B> = &'a (dyn Fn(&Filled) -> Option<B> + Sync);
 
-/// Where one in so many elements fails, it is the shape, and no coarsening helps: a thin layer drawn with needles takes a minute to improve, and
-/// another one for nothing. Impellers have one in thirty.
-const HOPELESS: usize = 10;
-
 /// The mesher's answer coarsened within the bound that it was given, where coarser elements could not all be mended and this is better. Improvement is
 /// chaotic where shapes leave it little room, and the better one of two has fewer bad outcomes: of 12 placements of an impeller, 1.70 % of
 /// the elements are past the radius-edge bound in the mean, and 1.90 % at most; 1.78 and 2.06 % without. Faces that other templates
@@ -36,7 +32,7 @@ fn bounded(climb: &Climb<'_>, answer: &Answer, filled: &Filled) -> Option<Filled
         (failing, filled.template.tets.len() + FAILING * failing)
     };
     let (failing, most) = weight(filled);
-    let is_hopeless = HOPELESS * failing > filled.template.tets.len();
+    let is_hopeless = is_hopeless(failing, filled.template.tets.len());
     if failing == 0
         || is_hopeless
         || climb.deadline.is_over()

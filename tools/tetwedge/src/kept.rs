@@ -16,8 +16,13 @@ use tmesh::Template;
 /// two of them.
 const SHORT: f64 = 0.8;
 
-/// Width of the widest facet, over the length asked for, up to which vertices on its border are all that it needs.
-const WIDEST: f64 = 2.0;
+/// Triangles of the surface over those it had from which on most of its edges were halved: one that is halved makes two more of three.
+const HALVED: usize = 2;
+
+/// Width of facets and length of edges between them, over the length asked for, up to which the surface may do without another vertex: that
+/// of two of the longest edges that remeshing leaves, so that none misses more than one. Beyond, improvement takes long to make good of what is
+/// filled so, and fails.
+const WIDEST: f64 = 8.0 / 3.0;
 
 /// The better one of a filled template and one whose surface is kept, and whether that is the other; `again` fills it.
 pub fn better_of_kept(
@@ -30,38 +35,41 @@ pub fn better_of_kept(
         && first.advice.is_none()
         && climb.params.switches.is_empty();
     let angle = climb.params.angle().filter(|_| is_as_asked);
-    let Some(angle) = angle.filter(|_| is_short(climb, &first.filled.template) && fits(climb))
-    else {
+    let made = &first.filled.template;
+    let is_halved = made.triangles.len() > HALVED * climb.piece.template.triangles.len();
+    let angle = angle.filter(|_| is_halved && is_short(climb, made) && fits(climb));
+    let Some(angle) = angle else {
         return (first, false);
     };
+    let here = Score::new(&first, angle);
     let quiet = Climb {
         rungs: &[],
         log: Log::new(&|_| ()),
         ..*climb
     };
-    // About half as many elements.
-    let count = 1 + draws(climb, first.filled.template.tets.len() / 2);
-    let others: Vec<Option<Done>> = (0..count as u64)
-        .into_par_iter()
-        .map(|draw| {
-            let attempt = match draw.checked_sub(1) {
-                Some(draw) => drawn(draw, attempt.asks),
-                None => attempt,
-            };
-            let kept = Attempt {
+    let kept = |attempt: Attempt| {
+        let done = again(
+            &quiet,
+            Attempt {
                 keeps_surface: true,
                 ..attempt
-            };
-            again(&quiet, kept)
-        })
-        .collect();
-    let graded = |done: Done| (Score::new(&done, angle), done);
-    let best = others.into_iter().flatten().map(graded);
-    let best = best.reduce(|a, b| if b.0.costs_less_than(&a.0) { b } else { a });
-    let Some((there, other)) = best else {
+            },
+        )?;
+        Some((Score::new(&done, angle), done))
+    };
+    let Some(one) = kept(attempt).filter(|one| !one.0.is_hopeless()) else {
         return (first, false);
     };
-    if !there.costs_less_than(&Score::new(&first, angle)) {
+    let others: Vec<_> = (0..draws(climb, one.0.elements) as u64)
+        .into_par_iter()
+        .map(|draw| kept(drawn(draw, attempt.asks)))
+        .collect();
+    let better = |a: (Score, Done), b: (Score, Done)| match b.0.costs_less_than(&a.0) {
+        true => b,
+        false => a,
+    };
+    let (there, other) = others.into_iter().flatten().fold(one, better);
+    if !there.costs_less_than(&here) {
         return (first, false);
     }
     climb.log.detail(&format!(
@@ -103,20 +111,19 @@ fn is_short(climb: &Climb<'_>, template: &Template) -> bool {
     sum < SHORT * count
 }
 
-/// Whether no facet of the surface is so wide that it needs vertices inside.
+/// Whether the surface is not kept anyway, and no facet of it is so wide, and no edge between facets so long, that it needs more vertices.
 fn fits(climb: &Climb<'_>) -> bool {
     let Ok(plc) = Plc::new(climb.piece, climb.sizes, Description::PLAIN) else {
         return false;
     };
-    let length = climb
-        .sizes
-        .lengths
-        .iter()
-        .flatten()
-        .copied()
-        .fold(f64::INFINITY, f64::min);
+    if plc.faces.preserve() {
+        return false;
+    }
+    let lengths = climb.sizes.lengths.iter().flatten().copied();
+    let length = lengths.fold(f64::INFINITY, f64::min);
     let template = climb.piece.template;
     let mut borders = vec![0.0; plc.facets.facets.len()];
+    let mut longest = 0.0_f64;
     let mut around: FxHashMap<[u32; 2], Vec<u32>> = FxHashMap::default();
     for (triangle, &facet) in template.triangles.iter().zip(&plc.facets.of_triangle) {
         let [a, b, c] = triangle.vertices;
@@ -127,14 +134,11 @@ fn fits(climb: &Climb<'_>) -> bool {
     for ([a, b], facets) in around {
         if !matches!(facets[..], [f, g] if f == g) {
             let length = template.vertices[a as usize].distance(template.vertices[b as usize]);
+            longest = longest.max(length);
             facets.iter().for_each(|&f| borders[f as usize] += length);
         }
     }
-    let widths = plc
-        .facets
-        .facets
-        .iter()
-        .zip(borders)
-        .map(|(facet, border)| 4.0 * facet.area / border);
-    widths.fold(0.0, f64::max) <= WIDEST * length
+    let facets = plc.facets.facets.iter().zip(borders);
+    let widths = facets.map(|(facet, border)| 4.0 * facet.area / border);
+    widths.fold(longest, f64::max) <= WIDEST * length
 }

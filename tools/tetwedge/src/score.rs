@@ -9,6 +9,15 @@ use std::cmp::Ordering;
 /// one in a hundred fails, these weigh as much as all others.
 pub const FAILING: usize = 100;
 
+/// Where one in so many elements fails, it is the shape, and no coarsening helps: a thin layer drawn with needles takes a minute to improve, and
+/// another one for nothing. Impellers have one in thirty.
+const HOPELESS: usize = 10;
+
+/// Whether so many elements fail that nothing else is worth trying.
+pub fn is_hopeless(failing: usize, elements: usize) -> bool {
+    HOPELESS * failing > elements
+}
+
 /// How good a mesh is.
 pub struct Score {
     /// Elements that fail what is asked for.
@@ -46,6 +55,11 @@ impl Score {
             Ordering::Equal => price(self, other) < price(other, self),
             differ => differ.is_lt(),
         }
+    }
+
+    /// See [`is_hopeless`].
+    pub fn is_hopeless(&self) -> bool {
+        is_hopeless(self.failing, self.elements)
     }
 
     /// Whether it has fewer elements for what the smallest angle is worth, where one that fails weighs as much as [`FAILING`].
