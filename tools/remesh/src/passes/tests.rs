@@ -748,3 +748,64 @@ fn a_facet_that_is_narrow_only_at_its_end_costs_more_than_a_strip() {
     );
     assert!(wedge > 1.2 * strip, "{wedge} {strip}");
 }
+
+/// A square plate with a hole of 32 corners in its middle. What faces all around has no direction in the mean, to the last bit.
+fn plate_with_a_hole() -> Surface {
+    // Of 33.2 units from the middle, and the corner of the square.
+    #[rustfmt::skip]
+    let quadrant = [
+        [33, 4], [32, 9], [31, 12], [24, 23], [23, 24], [12, 31], [9, 32], [4, 33], [64, 64],
+    ];
+    let turned = |[x, y]: [i32; 2], times: usize| (0..times).fold([x, y], |[x, y], _| [-y, x]);
+    let mut surface = Surface::default();
+    for z in [0, 16] {
+        for k in 0..4 {
+            let points = quadrant.map(|p| turned(p, k));
+            let points = points.map(|[x, y]| [x, y, z].map(f64::from));
+            surface.points.extend(points.map(DVec3::from_array));
+        }
+    }
+    let at = |k: u32, i: u32, up: u32| 36 * up + 9 * (k % 4) + i;
+    let mut add = |[a, b, c]: [u32; 3], label| {
+        surface.triangles.push([a, b, c]);
+        surface.labels.push(label);
+    };
+    let next = |k: u32, i: u32| if i < 7 { (k, i + 1) } else { (k + 1, 0) };
+    // What cancels out follows each other.
+    for (i, k) in (0..8).flat_map(|i| [0, 2, 1, 3].map(|k| (i, k))) {
+        let (l, j) = next(k, i);
+        add([at(k, i, 0), at(k, i, 1), at(l, j, 0)], 0);
+        // Around the corner.
+        add([at(k, 8, 1), at(l, j, 1), at(k, i, 1)], 1);
+        add([at(k, 8, 0), at(k, i, 0), at(l, j, 0)], 2);
+    }
+    for (i, k) in (0..8).flat_map(|i| [0, 2, 1, 3].map(|k| (i, k))) {
+        let (l, j) = next(k, i);
+        add([at(k, i, 1), at(l, j, 1), at(l, j, 0)], 0);
+    }
+    for k in 0..4 {
+        add([at(k, 8, 1), at(k + 1, 8, 1), at(k + 1, 0, 1)], 1);
+        add([at(k, 8, 0), at(k + 1, 0, 0), at(k + 1, 8, 0)], 2);
+        add([at(k, 8, 0), at(k + 1, 8, 0), at(k, 8, 1)], 3);
+        add([at(k, 8, 1), at(k + 1, 8, 0), at(k + 1, 8, 1)], 3);
+    }
+    surface
+}
+
+#[test]
+fn what_faces_all_around_is_curved() {
+    let plate = plate_with_a_hole();
+    assert!(is_closed(&plate));
+    let none = vec![false; plate.points.len()];
+    let bound = vec![0; plate.points.len()];
+    let rules = Rules {
+        noise: 1e-9,
+        ..rules(4.0, (&none, &[64.0; 4]), (&bound, &[]))
+    };
+    let done = remesh(&plate, &rules).expect("a coarser hole");
+    assert!(is_closed(&done.surface));
+    let of_the_hole = |surface: &Surface| surface.labels.iter().filter(|&&l| l == 0).count();
+    let [drawn, coarser] = [&plate, &done.surface].map(of_the_hole);
+    assert!(2 * coarser <= drawn, "{coarser} of {drawn}");
+    assert!((volume(&done.surface) / volume(&plate) - 1.0).abs() < 0.05);
+}
