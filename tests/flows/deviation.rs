@@ -487,6 +487,29 @@ fn exact_drawings_get_the_edges_asked_for_where_they_are_finer() {
     assert!(made(384, &[]).1 < 1e-6);
 }
 
+/// The mesher halves edges of a surface for their neighbours' sake, all over a wall that is as thin as they are long. Where the surface
+/// has the lengths asked for already, one without that is made, too, and is taken here: with the others, means are 0.73 and 0.71.
+#[test]
+fn thin_walls_get_the_edges_asked_for() {
+    let circle = |radius: f64, corners: u32| Circle {
+        radius,
+        corners,
+        phase: 0.0,
+    };
+    for [inner, outer] in [[43, 47], [53, 58]] {
+        let facets = tube(circle(0.8, inner), circle(1.0, outer), [-2.0, 2.0]);
+        let found = run("symdetect", &["-q"], &binary_stl(b"tube", &facets)).success();
+        let options = ["-q", "--edge-length", "0.2", "--segments-per-turn", "6"];
+        let cut = run("wedgecut", &options, &found).success();
+        let filled = run("tetwedge", &["-q"], &cut).success();
+        let checked = run("meshqual", &["-q", "--check", "--json", "-"], &filled).success();
+        let quality: Value = serde_json::from_slice(&checked).expect("JSON");
+        let mean = quality["metrics"]["edge_length"]["mean"].as_f64();
+        let mean = mean.expect("a length") / 0.2;
+        assert!(mean > 0.8, "{inner} and {outer}: {mean}");
+    }
+}
+
 /// The order is chosen for the edges that are asked for: narrow wedges of a fine drawing would ask for shorter ones.
 #[test]
 fn fine_drawings_are_cut_as_coarse_ones_where_edges_are_asked_for() {
