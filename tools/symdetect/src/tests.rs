@@ -667,6 +667,20 @@ fn regions_must_match_or_be_permuted() {
     assert_eq!(found.axis.direction, [0.0, 0.0, 1.0]);
 }
 
+/// Of three half-turn axes, the one across which the body is widest: mirror planes through it leave a plate as thick as it is.
+#[test]
+fn the_axis_of_a_plate_is_across_it() {
+    for (sizes, axis) in [
+        ([1, 4, 6], DVec3::X),
+        ([6, 1, 4], DVec3::Y),
+        ([4, 6, 1], DVec3::Z),
+    ] {
+        let found = find(&bodies::cubes(sizes, |_| 0));
+        assert_eq!((found.group.as_str(), found.order), ("D2h", 2));
+        assert_eq!(found.axis.direction, axis.to_array(), "{sizes:?}");
+    }
+}
+
 #[test]
 fn overrides_are_verified() {
     let body = Kind::Dnh.body(12, 6, 0.05);
