@@ -191,9 +191,7 @@ fn without_corners(
     let [with, without] = [&found.0, &cut].map(least_elements);
     // What improvement brings elements to, where nothing stands in its way.
     let wishes = &body.document.wishes;
-    let good = wishes
-        .optimize()
-        .map_or(0.0, |largest| 0.5 * (180.0 - largest));
+    let good = wishes.optimize().map_or(0.0, Wishes::smallest_beside);
     let good = good.max(wishes.min_dihedral());
     if 2 * without > with || Sharp::of(&cut, good).on_axis > 0 {
         return Ok(found);
