@@ -24,34 +24,38 @@ impl Query<'_> {
                 best.order,
                 point(best.frame.rotation.z_axis.to_array())
             ));
-            let mut found = self.complete(best.clone());
+            let first = self.complete(best.clone());
+            let mut before: Option<Found> = None;
             // Among half-turn axes the main one is that with the most operations beside it; of three alike, that across which the
             // body is widest.
             if best.order == 2 {
                 for other in candidates.iter().filter(|c| c.order == 2 && c.distinct) {
                     let other = self.complete(other.clone());
+                    let best = before.as_ref().unwrap_or(&first);
                     let is_wider = || {
-                        other.group == found.group
+                        other.group == best.group
                             && other.group == BOX
-                            && other.radius > WIDER * found.radius
+                            && other.radius > WIDER * best.radius
                     };
-                    if rank(&other.group) > rank(&found.group) || is_wider() {
-                        found = other;
+                    if rank(&other.group) > rank(&best.group) || is_wider() {
+                        before = Some(other);
                     }
                 }
             }
-            log(&format!("group {} by a quick test", found.group.symbol()));
-            if self.certify(&mut found) {
-                log(&format!("group {} verified in full", found.group.symbol()));
-                return Some(found);
+            // Where another one comes before the first, and does not hold everywhere, the first one may.
+            for mut found in before.into_iter().chain([first.clone()]) {
+                log(&format!("group {} by a quick test", found.group.symbol()));
+                if self.certify(&mut found) {
+                    log(&format!("group {} verified in full", found.group.symbol()));
+                    return Some(found);
+                }
             }
-            let z = found.frame.rotation.z_axis;
-            candidates.push(best);
+            let z = first.frame.rotation.z_axis;
             candidates.retain(|c| !self.same_axis(c.frame.rotation.z_axis, z));
             let mut search = self.search_about(z);
             search.depth = Depth::Full;
-            let lower = search.find(found.frame.origin, z, false);
-            candidates.extend(lower.filter(|r| r.order < found.group.order));
+            let lower = search.find(first.frame.origin, z, false);
+            candidates.extend(lower.filter(|r| r.order < first.group.order));
             log("some operation does not hold everywhere");
         }
         None
