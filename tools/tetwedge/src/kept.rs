@@ -87,7 +87,9 @@ fn lengths(climb: &Climb<'_>) -> Option<FxHashMap<u32, f64>> {
     let known: FxHashMap<u32, f64> = each
         .filter_map(|(r, &length)| Some((r.id, length?)))
         .collect();
-    has_lengths(climb).then_some(known)
+    // A size that changes from place to place may want the surface divided.
+    let is_even = climb.sizes.local[climb.piece.index].is_none();
+    (is_even && has_lengths(climb)).then_some(known)
 }
 
 /// Whether edges are shorter than asked for in the mean.
