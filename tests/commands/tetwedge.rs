@@ -101,11 +101,19 @@ fn endless(input: &Path) -> (Child, BufReader<std::process::ChildStderr>, u32) {
         line.clear();
         assert!(messages.read_line(&mut line).unwrap() > 0);
     }
-    let child = child_of(&tool).unwrap();
+    // The kernel may leave children out of its list while others come and go.
+    let begun = Instant::now();
+    let child = loop {
+        if let Some(child) = child_of(&tool) {
+            break child;
+        }
+        assert!(begun.elapsed() < Duration::from_secs(10), "no mesher");
+        std::thread::sleep(Duration::from_millis(5));
+    };
     (tool, messages, child)
 }
 
-/// Process id of the mesher that the tool runs now.
+/// Process id of the mesher that the tool runs now, if the kernel tells.
 fn child_of(tool: &Child) -> Option<u32> {
     let tasks = fs::read_dir(format!("/proc/{}/task", tool.id())).ok()?;
     tasks

@@ -501,7 +501,11 @@ fn thin_walls_get_the_edges_asked_for() {
         let found = run("symdetect", &["-q"], &binary_stl(b"tube", &facets)).success();
         let options = ["-q", "--edge-length", "0.2", "--segments-per-turn", "6"];
         let cut = run("wedgecut", &options, &found).success();
-        let filled = run("tetwedge", &["-q"], &cut).success();
+        let with = |threads: &str| run("tetwedge", &["-q", "--threads", threads], &cut).success();
+        let filled = with("1");
+        // The history has the arguments.
+        let [one, four] = [&filled, &with("4")].map(|bytes| read(bytes).templates);
+        assert!(one == four, "{inner} and {outer}: threads");
         let checked = run("meshqual", &["-q", "--check", "--json", "-"], &filled).success();
         let quality: Value = serde_json::from_slice(&checked).expect("JSON");
         let mean = quality["metrics"]["edge_length"]["mean"].as_f64();
