@@ -23,6 +23,15 @@ fn mesh_of(seed: u64, options: &[&str]) -> (u64, f64) {
     (count, angle.as_f64().expect("an angle"))
 }
 
+/// A hub has corners of its own, and a body with no others gets its elements from them: 150, 466 and 258 with the hub.
+#[test]
+fn bodies_of_few_corners_get_no_more_with_a_hub() {
+    for (seed, most, least) in [(504, 60, 30.0), (153, 180, 25.0), (199, 100, 28.0)] {
+        let (count, angle) = mesh_of(seed, &[]);
+        assert!(count < most && angle > least, "{seed}: {count}, {angle}");
+    }
+}
+
 /// With one mesh each, 17.6, 22.3, 24.7, 27.0, 26.6 and, with a hub, 11.4 degrees; the meshes of TetGen alone have these.
 #[test]
 fn small_wedges_are_the_best_of_several_meshes() {

@@ -180,6 +180,12 @@ impl Wishes {
         Some(self.optimize.unwrap_or(Self::OPTIMIZE)).filter(|&angle| angle < 180.0)
     }
 
+    /// The smallest dihedral angle that elements are brought to where none may be larger than `largest`, degrees: what that leaves of a
+    /// straight angle, halved.
+    pub fn smallest_beside(largest: f64) -> f64 {
+        0.5 * (180.0 - largest)
+    }
+
     /// Largest volume of an element where a region has no limit of its own, model units cubed.
     pub fn max_volume(&self) -> Option<f64> {
         self.size.map(Size::max_volume)

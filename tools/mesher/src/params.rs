@@ -41,11 +41,10 @@ impl Params {
         }
     }
 
-    /// The smallest dihedral angle that improvement is to reach, degrees: what remains of a straight angle, halved, and the one asked
-    /// for at least. `None` where elements stay as the mesher makes them.
+    /// The smallest dihedral angle that improvement is to reach, degrees: that beside the largest one, and the one asked for at least. `None` where elements stay as the mesher makes them.
     pub fn angle(&self) -> Option<f64> {
         let largest = self.optimize.filter(|_| self.quality)?;
-        Some((0.5 * (180.0 - largest)).max(self.min_dihedral))
+        Some(Wishes::smallest_beside(largest).max(self.min_dihedral))
     }
 }
 

@@ -1,14 +1,11 @@
-//! Templates whose surface has the lengths asked for already are filled once more with no vertices added to it.
+//! Templates whose surface has the lengths asked for already, which may be filled with no vertices added to it.
 //!
 //! The mesher keeps all edges of a curved surface, and refuses any vertex inside of the sphere around one of them: it halves the
 //! edge instead. Of triangles with sides of one length, the middle of a side is inside of the spheres around the longer ones, so that a
 //! single obtuse triangle, or a single vertex wanted near a thin wall, has most of the edges of the surface halved.
 
-use crate::done::Done;
-use crate::draws::{drawn, draws, has_lengths};
-use crate::score::Score;
-use mesher::{Attempt, Climb, Description, Log, Plc};
-use rayon::prelude::*;
+use crate::draws::has_lengths;
+use mesher::{Climb, Description, Plc};
 use rustc_hash::FxHashMap;
 use tmesh::Template;
 
@@ -16,68 +13,14 @@ use tmesh::Template;
 /// two of them.
 const SHORT: f64 = 0.8;
 
-/// Triangles of the surface over those it had from which on most of its edges were halved: one that is halved makes two more of three.
-const HALVED: usize = 2;
-
 /// Width of facets and length of edges between them, over the length asked for, up to which the surface may do without another vertex: that
 /// of two of the longest edges that remeshing leaves, so that none misses more than one. Beyond, improvement takes long to make good of what is
 /// filled so, and fails.
 const WIDEST: f64 = 8.0 / 3.0;
 
-/// The better one of a filled template and one whose surface is kept, and whether that is the other; `again` fills it.
-pub fn better_of_kept(
-    climb: &Climb<'_>,
-    first: Done,
-    attempt: Attempt,
-    again: impl Fn(&Climb<'_>, Attempt) -> Option<Done> + Sync,
-) -> (Done, bool) {
-    let is_as_asked = first.filled.improved.is_some()
-        && first.advice.is_none()
-        && climb.params.switches.is_empty();
-    let angle = climb.params.angle().filter(|_| is_as_asked);
-    let made = &first.filled.template;
-    let is_halved = made.triangles.len() > HALVED * climb.piece.template.triangles.len();
-    let angle = angle.filter(|_| is_halved && is_short(climb, made) && fits(climb));
-    let Some(angle) = angle else {
-        return (first, false);
-    };
-    let here = Score::new(&first, angle);
-    let quiet = Climb {
-        rungs: &[],
-        log: Log::new(&|_| ()),
-        ..*climb
-    };
-    let kept = |attempt: Attempt| {
-        let done = again(
-            &quiet,
-            Attempt {
-                keeps_surface: true,
-                ..attempt
-            },
-        )?;
-        Some((Score::new(&done, angle), done))
-    };
-    let Some(one) = kept(attempt).filter(|one| !one.0.is_hopeless()) else {
-        return (first, false);
-    };
-    let others: Vec<_> = (0..draws(climb, one.0.elements) as u64)
-        .into_par_iter()
-        .map(|draw| kept(drawn(draw, attempt.asks)))
-        .collect();
-    let better = |a: (Score, Done), b: (Score, Done)| match b.0.costs_less_than(&a.0) {
-        true => b,
-        false => a,
-    };
-    let (there, other) = others.into_iter().flatten().fold(one, better);
-    if !there.costs_less_than(&here) {
-        return (first, false);
-    }
-    climb.log.detail(&format!(
-        "template {}: with no vertices added to the surface there are {} tetrahedra, none with an angle below {:.1} degrees",
-        climb.piece.index, there.elements, there.angle,
-    ));
-    let failed = first.failed;
-    (Done { failed, ..other }, true)
+/// Whether a filled template has shorter edges than asked for, and one whose surface is kept may do better.
+pub fn may_keep(climb: &Climb<'_>, filled: &Template) -> bool {
+    is_short(climb, filled) && fits(climb)
 }
 
 /// Length asked for in each region, model units, where all regions of the template have one.

@@ -3,7 +3,6 @@
 use crate::done::{Beside, Done, done};
 use crate::draws::{best_of_draws, draws};
 use crate::fill::Filled;
-use crate::kept::better_of_kept;
 use mesher::{
     Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
 };
@@ -67,6 +66,5 @@ pub fn template<B: Send>(
         Some(done.ok()?.0)
     };
     let (best, is_another) = best_of_draws(climb, first, again);
-    let (best, is_kept) = better_of_kept(climb, best, Attempt::new(asks), again);
-    Ok((best, made.filter(|_| !is_another && !is_kept)))
+    Ok((best, made.filter(|_| !is_another)))
 }

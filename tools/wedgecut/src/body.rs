@@ -5,6 +5,7 @@ use crate::graph::Graph;
 use crate::params::{Params, Seam};
 use estimate::edge_of_volume;
 use geom::edges::Edges;
+use geom::measure::volume_of_region;
 use geom::tolerance::{Extent, Tolerance};
 use glam::DVec3;
 use sizing::field::mean_volume;
@@ -83,6 +84,16 @@ impl<'a> Body<'a> {
         let size = regions[at].size.or(self.document.wishes.size);
         let volumes = size.map(Size::max_volume).into_iter();
         volumes.chain(self.mean_volume).reduce(f64::min)
+    }
+
+    /// The least elements that sizes asked for take: those of the largest volume in each region.
+    pub fn least_by_sizes(&self) -> f64 {
+        let of_region = |id| {
+            let (vertices, faces) = (&self.surface.vertices, self.surface.faces());
+            Some(volume_of_region(vertices, faces, id) / self.max_volume(id)?)
+        };
+        let regions = self.document.regions.iter();
+        regions.filter_map(|r| of_region(r.id)).sum()
     }
 
     /// Whether surfaces will get edges of a length that is asked for, longer ones than those that there are, too, however they are

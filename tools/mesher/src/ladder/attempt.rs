@@ -28,6 +28,15 @@ pub enum Asks {
     Loosened,
 }
 
+/// Why the mesher may add no points to the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// It has the edges that are asked for.
+    Enough,
+    /// The mesher fails where it adds some.
+    Last,
+}
+
 /// What is done in an attempt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attempt {
@@ -41,8 +50,8 @@ pub struct Attempt {
     pub stop: bool,
     /// Layers too thin for the bounds.
     pub layers: Option<Layers>,
-    /// Whether the mesher may add no points to the surface.
-    pub keeps_surface: bool,
+    /// Whether the mesher may add no points to the surface, and why.
+    pub keeps_surface: Option<Kept>,
 }
 
 impl Attempt {
@@ -54,7 +63,7 @@ impl Attempt {
             room: None,
             stop: false,
             layers: None,
-            keeps_surface: false,
+            keeps_surface: None,
         }
     }
 
@@ -76,7 +85,7 @@ impl Attempt {
             },
             Change::KeepSurface => Self {
                 description: Description::PLAIN,
-                keeps_surface: true,
+                keeps_surface: Some(Kept::Last),
                 ..self
             },
         }
@@ -118,7 +127,7 @@ impl Attempt {
     pub fn task(&self, params: &Params, preserve: bool) -> Task {
         Task {
             bounds: params.quality.then(|| self.bounds(params)),
-            preserve: preserve || self.keeps_surface,
+            preserve: preserve || self.keeps_surface.is_some(),
             most_points: self.room.map(Room::most),
             rounds_from: self.description.rounds_from,
             switches: params.switches.clone(),
@@ -141,7 +150,7 @@ impl Attempt {
                 "{why}: radius-edge bound eased to {radius_edge}, that of the smallest dihedral angle left out{stopped}",
             )
         });
-        let kept = self.keeps_surface.then(|| {
+        let kept = (self.keeps_surface == Some(Kept::Last)).then(|| {
             "TetGen fails where it adds points to the surface, so that it added none: elements there are as large as its triangles"
                 .to_owned()
         });

@@ -6,7 +6,7 @@ mod layers;
 mod room;
 mod rungs;
 
-pub use attempt::{Answer, Asks, Attempt, EASING};
+pub use attempt::{Answer, Asks, Attempt, EASING, Kept};
 pub use climb::Climb;
 pub use layers::IN_CUBE;
 pub use room::Room;

@@ -7,9 +7,9 @@ use super::refusals::Refusals;
 use crate::body::Body;
 use crate::cutting::{Candidate, Cut, cut};
 use crate::error::CutError;
-use crate::params::Seam;
+use crate::params::{Hub, Seam};
 use estimate::CostModel;
-use tmesh::{Group, Template};
+use tmesh::{Group, Template, Wishes};
 
 /// What was found.
 pub struct Found {
@@ -60,6 +60,12 @@ pub fn search(body: &Body<'_>) -> Result<Found, CutError> {
         return finish(found, refusals, None);
     };
     let found = first_of(body, choice.list, Some(first), &mut refusals)?;
+    let found = match found {
+        Some(found) if body.params.hub == Hub::Auto => {
+            Some(without_corners(body, found, &mut refusals)?)
+        }
+        found => found,
+    };
     let found = match found {
         Some(found) if body.params.order.is_none() => {
             let others = choice.accepted.into_iter();
@@ -162,6 +168,48 @@ fn without_sharp(
         }
     }
     Ok(found)
+}
+
+/// Where the corners of a hub take at least twice the elements that there are without it, and none of the angles on the axis is below that of good
+/// elements, the same wedge without a hub. Corners do not count where sizes that are asked for take more elements: the choice was made by these.
+///
+/// # Errors
+/// What holds of any candidate.
+fn without_corners(
+    body: &Body<'_>,
+    found: (Cut, Option<String>),
+    refusals: &mut Refusals,
+) -> Result<(Cut, Option<String>), CutError> {
+    let Candidate { group, hub } = found.0.candidate;
+    let Some(radius) = hub else {
+        return Ok(found);
+    };
+    let whole = vec![Candidate { group, hub: None }];
+    let Some((mut cut, warning)) = first_of(body, whole, None, refusals)? else {
+        return Ok(found);
+    };
+    let [with, without] = [&found.0, &cut].map(least_elements);
+    // What improvement brings elements to, where nothing stands in its way.
+    let wishes = &body.document.wishes;
+    let good = wishes.optimize().map_or(0.0, Wishes::smallest_beside);
+    let good = good.max(wishes.min_dihedral());
+    let by_sizes = body.least_by_sizes();
+    let take = |by_corners: usize| by_sizes.max(by_corners as f64);
+    if 2.0 * take(without) > take(with) || Sharp::of(&cut, good).on_axis > 0 {
+        return Ok(found);
+    }
+    cut.notes.push(format!(
+        "no hub of {radius:.3}: its corners ask for {with} elements, those without it for {without}"
+    ));
+    Ok((cut, warning))
+}
+
+/// The least elements of all copies that have no vertices but the corners of the surface, where that is a ball's: a tetrahedron has four,
+/// and each further one adds one.
+fn least_elements(cut: &Cut) -> usize {
+    let instances = cut.copies.instances.iter();
+    let corners = instances.map(|i| cut.templates[i.template as usize].vertices.len());
+    corners.map(|n| n.saturating_sub(3)).sum()
 }
 
 /// How many edges with angles below the one asked for there are.
