@@ -1,5 +1,6 @@
 //! What is known of the facets of a surface before it is improved.
 
+use crate::shape::Curved;
 use glam::DVec3;
 
 /// Facets of the surface of a filled template.
@@ -16,4 +17,6 @@ pub struct Flats<'a> {
     pub kept: &'a [u32],
     /// A vertex this far from the line between its neighbours is on it, model units.
     pub straight: f64,
+    /// The curved shape that facets stand for, if vertices may be moved along it.
+    pub curved: Option<Curved<'a>>,
 }

@@ -189,6 +189,9 @@ fn sides(mesh: &Mesh<'_>, region: u32, a: u32, b: u32) -> Option<ArrayVec<Side, 
     let mut sides = ArrayVec::new();
     if let Some(new) = side.open {
         let diagonal = Diagonal { old: [a, b], new };
+        if !mesh.may_replace(diagonal) {
+            return None;
+        }
         let other = match mesh.surface().beyond(diagonal, region)? {
             Beyond::Nothing => None,
             Beyond::Region(other) => Some((diagonal, other)),

@@ -1,11 +1,14 @@
 //! Where a vertex may be moved to without changing the shape, its facets, or a wall.
 
 use crate::flats::Flats;
+use crate::shape::Shape;
+use crate::slide::sliding;
 use crate::surface::{Sheet, Surface};
 use geom::edges::Edges;
-use geom::measure::Areas;
+use geom::measure::{Areas, double_area_vector};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 use tmesh::{FixedSet, Gluing, Isometry, Template};
 
 /// Directions in which a vertex may move.
@@ -17,6 +20,8 @@ pub enum Freedom {
     Line(DVec3),
     /// Inside of a facet: two unit vectors along it.
     Plane(DVec3, DVec3),
+    /// Along a patch of a curved shape: two unit vectors along it where the vertex was at first.
+    Along(u32, [DVec3; 2]),
     /// Not on the surface.
     Free,
 }
@@ -27,7 +32,7 @@ impl Freedom {
         let (list, count) = match *self {
             Self::Fixed => ([DVec3::ZERO; 3], 0),
             Self::Line(a) => ([a, DVec3::ZERO, DVec3::ZERO], 1),
-            Self::Plane(a, b) => ([a, b, DVec3::ZERO], 2),
+            Self::Plane(a, b) | Self::Along(_, [a, b]) => ([a, b, DVec3::ZERO], 2),
             Self::Free => ([DVec3::X, DVec3::Y, DVec3::Z], 3),
         };
         list.into_iter().take(count)
@@ -69,6 +74,10 @@ pub struct Freedoms {
     image_of: FxHashMap<u32, (u32, Isometry)>,
     /// Where edges of the surface may be replaced.
     surface: Surface,
+    /// The shape that vertices move along.
+    shape: Option<Arc<dyn Shape>>,
+    /// Mirror planes, which no such vertex passes.
+    mirrors: Vec<FixedSet>,
 }
 
 /// Of a plane and a line in it, the sine of the angle between them is below this: normals are those of the largest triangle of
@@ -94,9 +103,17 @@ impl Freedoms {
             master_of: FxHashMap::default(),
             image_of: FxHashMap::default(),
             surface: Surface::new((template, own), flats),
+            shape: flats.curved.as_ref().map(|curved| curved.shape.clone()),
+            mirrors: Vec::new(),
         };
+        for (v, freedom) in sliding((template, own), flats) {
+            freedoms.of_vertex[v as usize] = freedom;
+        }
         flats.fixed.iter().for_each(|&v| freedoms.fix(v));
         for gluing in &template.gluings {
+            if gluing.is_mirror(own) {
+                freedoms.mirrors.push(FixedSet::of(gluing.step));
+            }
             if gluing.other_than(own).is_some() {
                 gluing.vertices_here().for_each(|v| freedoms.fix(v));
                 continue;
@@ -205,13 +222,45 @@ impl Freedoms {
 
     /// The nearest place to `p` that is exactly on what `v` belongs to.
     pub fn place(&self, v: u32, p: DVec3) -> DVec3 {
+        if let (Freedom::Along(patch, _), Some(shape)) = (self.of(v), &self.shape) {
+            return shape.nearest(patch, p).map_or(p, |found| found.0);
+        }
         self.exact.get(&v).map_or(p, |exact| exact.place(p))
     }
 
+    /// Whether a vertex that moves along a shape may go from one place to another: `faces` are the triangles of the surface there, from the
+    /// vertex on, without it.
+    pub fn holds(&self, v: u32, [from, to]: [DVec3; 2], faces: &[[DVec3; 2]]) -> bool {
+        let (Freedom::Along(patch, _), Some(shape)) = (self.of(v), &self.shape) else {
+            return true;
+        };
+        let stays = |mirror: &FixedSet| {
+            let [before, after] = [from, to].map(|p| p - mirror.nearest(p));
+            before.dot(after) > 0.0
+        };
+        self.mirrors.iter().all(stays) && faces.iter().all(|&[a, b]| shape.holds(patch, [to, a, b]))
+    }
+
+    /// What a vertex inside of a patch of the shape may do.
+    pub fn along(&self, patch: u32, p: DVec3) -> Option<Freedom> {
+        let (_, normal) = self.shape.as_ref()?.nearest(patch, p)?;
+        Some(Freedom::Along(patch, normal.any_orthonormal_pair().into()))
+    }
+
     /// What a vertex in a patch of the surface may do, and what it must keep: what all corners of a triangle there keep.
-    pub fn within(&self, sheet: &Sheet) -> (Freedom, Exact) {
-        let (a, b) = sheet.normal.any_orthonormal_pair();
-        (Freedom::Plane(a, b), self.common(&sheet.corners))
+    pub fn within(&self, sheet: &Sheet, at: impl Fn(u32) -> DVec3) -> (Freedom, Exact) {
+        let normal = sheet.normal.unwrap_or_else(|| {
+            let [a, b, c] = sheet.corners.map(at);
+            double_area_vector(a, b, c).normalize_or_zero()
+        });
+        let freedom = match normal {
+            DVec3::ZERO => Freedom::Fixed,
+            normal => {
+                let (a, b) = normal.any_orthonormal_pair();
+                Freedom::Plane(a, b)
+            }
+        };
+        (freedom, self.common(&sheet.corners))
     }
 
     /// What a vertex between others must keep: what all of them keep.

@@ -28,9 +28,10 @@ pub struct Insertion {
     at: DVec3,
     parts: Vec<Part>,
     least: f64,
-    /// Triangles of the surface that it divides, by patch, the edge that it is on, and what it may do there.
+    /// Triangles of the surface that it divides, by patch, the edge that it is on, the patch of a curved shape that it is inside of, and what it may do there.
     divided: Vec<Vec<[u32; 3]>>,
     edge: Option<[u32; 2]>,
+    patch: Option<u32>,
     within: (Freedom, Exact),
 }
 
@@ -63,7 +64,8 @@ impl Insertion {
         }
         if !self.divided.is_empty() {
             let (freedom, exact) = self.within;
-            freedoms.add(vertex, freedom, exact);
+            let along = self.patch.and_then(|patch| freedoms.along(patch, self.at));
+            freedoms.add(vertex, along.unwrap_or(freedom), exact);
             for triangles in &self.divided {
                 mesh.divide_surface(triangles, vertex, self.edge);
             }
@@ -197,6 +199,7 @@ fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, place: Place) -> Option<Insertion>
         least,
         divided,
         edge,
+        patch: support.and_then(|s| s.patch),
         within,
     })
 }

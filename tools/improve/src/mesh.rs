@@ -3,6 +3,7 @@
 use crate::quality::{Goal, Grade};
 use crate::stars::Stars;
 use crate::surface::{Diagonal, Surface, sorted};
+use geom::measure::double_area_vector;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Template, Tet, Triangle};
@@ -71,6 +72,52 @@ impl<'a> Mesh<'a> {
     /// Replaces an edge of the surface.
     pub fn replace_diagonal(&mut self, diagonal: Diagonal) {
         self.surface.replace(diagonal);
+    }
+
+    /// The patch of a curved shape that the two triangles of the surface from an edge to each of two vertices stand for, if it is one and no
+    /// feature is between them.
+    pub fn patch_around(&self, [a, b]: [u32; 2], others: [u32; 2]) -> Option<u32> {
+        let faces = others.map(|c| [a, b, c]);
+        let [p, q] = faces.map(|face| self.surface.curved(face));
+        let [m, n] = faces.map(|face| Some(self.normal(self.surface.triangle(face)?)));
+        (p == q && m?.dot(n?) > self.surface.feature()).then_some(p?)
+    }
+
+    /// Unit normal of a triangle.
+    fn normal(&self, face: [u32; 3]) -> DVec3 {
+        let [a, b, c] = face.map(|v| self.positions[v as usize]);
+        double_area_vector(a, b, c).normalize_or_zero()
+    }
+
+    /// Whether the shape allows for another diagonal between two triangles of the surface: anywhere in a flat facet; where they stand for a
+    /// patch of a curved shape, if that holds both new triangles, and no feature is between them, then as before.
+    pub fn may_replace(
+        &self,
+        Diagonal {
+            old: [a, b],
+            new: [c, d],
+        }: Diagonal,
+    ) -> bool {
+        let Some(first) = self.surface.triangle([a, b, c]) else {
+            return false;
+        };
+        if self.surface.curved(first).is_none() {
+            return true;
+        }
+        let Some((patch, shape)) = self.patch_around([a, b], [c, d]).zip(self.surface.shape())
+        else {
+            return false;
+        };
+        // The triangle runs from one end of the edge to the other, and then to c.
+        let [a, b] = match first {
+            [x, y, _] | [_, x, y] | [y, _, x] if [x, y] == [a, b] => [a, b],
+            _ => [b, a],
+        };
+        let after = [[d, c, a], [c, d, b]];
+        let [m, n] = after.map(|face| self.normal(face));
+        m.dot(n) > self.surface.feature()
+            && (after.iter())
+                .all(|face| shape.holds(patch, face.map(|v| self.positions[v as usize])))
     }
 
     /// Takes over the tetrahedra of a template, and keeps its surface inside of regions. Linear.

@@ -11,6 +11,7 @@ use crate::freedom::{Exact, Freedom, Freedoms};
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
 use arrayvec::ArrayVec;
+use geom::tet::FACES;
 use glam::DVec3;
 
 /// Within this part of the smallest quality above it, others count as active. With none but the smallest, steps would go to and
@@ -24,6 +25,8 @@ struct Star<'m, 'a> {
     vertex: u32,
     /// What the vertex keeps, if it is a new one.
     exact: Option<Exact>,
+    /// The triangles of the surface there if it moves along a curved shape, from the vertex on, without it.
+    faces: Vec<[u32; 2]>,
     tets: Vec<Corners>,
     regions: Vec<u32>,
     /// Size that each tetrahedron may have in any case, six volumes.
@@ -43,7 +46,18 @@ impl Star<'_, '_> {
             }
             list.push(grade.quality);
         }
-        Some(list)
+        self.holds(p).then_some(list)
+    }
+
+    /// Whether a vertex that moves along a curved shape may be at `p`.
+    fn holds(&self, p: DVec3) -> bool {
+        if self.faces.is_empty() {
+            return true;
+        }
+        let at = |v: u32| self.mesh.positions[v as usize];
+        let faces: Vec<[DVec3; 2]> = self.faces.iter().map(|face| face.map(at)).collect();
+        self.freedoms
+            .holds(self.vertex, [at(self.vertex), p], &faces)
     }
 
     /// The middle of the other corners, if the vertex is free to go there and all of them are on its side of a seam.
@@ -149,6 +163,7 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
         freedoms,
         vertex,
         exact: None,
+        faces: faces_along(mesh, freedoms, vertex),
         tets: tets.iter().map(|&t| mesh.corners(t)).collect(),
         regions: tets.iter().map(|&t| mesh.region(t)).collect(),
         sizes: grades.iter().map(|g| g.six_volume).collect(),
@@ -169,6 +184,31 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
         partner: partner.map(|(other, turn)| (other, turn.apply(to))),
         tets: tets.into_iter().zip(grades).collect(),
     })
+}
+
+/// The triangles of the surface at a vertex that moves along a curved shape, from the vertex on, without it; none at others.
+fn faces_along(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Vec<[u32; 2]> {
+    let mut faces = Vec::new();
+    if !matches!(freedoms.of(vertex), Freedom::Along(..)) {
+        return faces;
+    }
+    for &tet in mesh.star(vertex) {
+        let corners = mesh.corners(tet);
+        for face in FACES.map(|face| face.map(|i| corners[i])) {
+            let triangle = face
+                .contains(&vertex)
+                .then(|| mesh.surface().triangle(face));
+            faces.extend(triangle.flatten().map(|[a, b, c]| match vertex {
+                v if v == a => [b, c],
+                v if v == b => [c, a],
+                _ => [a, b],
+            }));
+        }
+    }
+    // What is between two regions was found from both.
+    faces.sort_unstable();
+    faces.dedup();
+    faces
 }
 
 /// The tetrahedra at a vertex that is new.
@@ -206,6 +246,7 @@ pub fn settle(
         freedoms,
         vertex: mesh.positions.len() as u32,
         exact: Some(exact),
+        faces: Vec::new(),
         tets: newcomer.tets,
         regions: newcomer.regions,
         sizes: newcomer.sizes,

@@ -17,6 +17,8 @@ pub struct Support {
     pub spaces: Vec<Vec<u32>>,
     /// What a vertex on it may do, and what it must keep.
     pub within: (Freedom, Exact),
+    /// The patch of a curved shape that it is inside of.
+    pub patch: Option<u32>,
     /// Patches with nothing beyond, in which more triangles may be divided.
     sheets: Vec<Sheet>,
 }
@@ -32,7 +34,8 @@ impl Support {
         Some(Self {
             corners: face.into(),
             spaces: vec![vec![tet]],
-            within: freedoms.within(&sheet),
+            within: freedoms.within(&sheet, |v| mesh.positions[v as usize]),
+            patch: mesh.surface().curved(face),
             sheets: vec![sheet],
         })
     }
@@ -64,7 +67,7 @@ impl Support {
         let within = match inside_of {
             // Inside of a sheet, there is more room in its triangles.
             Some(_) if !sheets.is_empty() => return None,
-            Some(patch) => freedoms.within(&patch),
+            Some(patch) => freedoms.within(&patch, |v| mesh.positions[v as usize]),
             None => {
                 let [p, q] = ends.map(|v| mesh.positions[v as usize]);
                 let along = (q - p).try_normalize()?;
@@ -75,6 +78,10 @@ impl Support {
             corners: ends.into_iter().collect(),
             spaces,
             within,
+            patch: match corners[..] {
+                [c, d] => mesh.patch_around(ends, [c, d]),
+                _ => None,
+            },
             sheets,
         })
     }

@@ -7,8 +7,10 @@
 //! Where there is none, a vertex may be put into triangles of a facet, which it divides.
 
 use crate::flats::Flats;
+use crate::shape::{NO_PATCH, Shape};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 use tmesh::{Gluing, OUTSIDE, Template};
 
 /// The triangles of a template's surface, and where their edges may be replaced.
@@ -29,6 +31,10 @@ pub struct Surface {
     normals: Vec<DVec3>,
     /// Of each triangle that has come since, one that it is a part of.
     parents: Vec<u32>,
+    /// The shape that curved patches are of.
+    shape: Option<Arc<dyn Shape>>,
+    /// Cosine of the angle from which on an edge of such a patch is a feature.
+    feature: f64,
 }
 
 /// What may become of a triangle.
@@ -38,6 +44,8 @@ enum Patch {
     Kept,
     /// It may be divided at a vertex on one of its edges, which leaves the shape as it is.
     Single,
+    /// It stands for a patch of a curved shape, and edges and vertices there are what that allows.
+    Curved(u32),
     /// Edges between triangles with the same number may be replaced, and vertices put into them.
     Of(u32),
 }
@@ -47,19 +55,19 @@ impl Patch {
     fn number(self) -> Option<u32> {
         match self {
             Self::Of(number) => Some(number),
-            Self::Kept | Self::Single => None,
+            Self::Kept | Self::Single | Self::Curved(_) => None,
         }
     }
 }
 
-/// A flat patch with nothing beyond, by one of its triangles.
+/// A flat patch with nothing beyond, by one of its triangles; of what is curved, a triangle alone.
 #[derive(Clone, Copy, Debug)]
 pub struct Sheet {
     /// Corners of the triangle.
     pub corners: [u32; 3],
-    /// Unit normal of the patch.
-    pub normal: DVec3,
-    patch: u32,
+    /// Unit normal of the patch; that of the triangle where it is alone.
+    pub normal: Option<DVec3>,
+    patch: Option<u32>,
 }
 
 /// An edge between two triangles, and what is there when it is replaced.
@@ -87,11 +95,16 @@ impl Surface {
     pub fn new((template, own): (&Template, usize), flats: &Flats<'_>) -> Self {
         let triangles = &template.triangles;
         let is_flat = |f: usize| flats.slopes[f] == 0.0 && flats.normals[f] != DVec3::ZERO;
+        let curved = |f: usize| {
+            let curved = flats.curved.as_ref().map(|curved| curved.patches[f]);
+            curved.filter(|&patch| patch != NO_PATCH)
+        };
         let facets = flats.of_triangle.iter();
         let mut patches: Vec<Patch> = facets
-            .map(|&f| match is_flat(f as usize) {
-                true => Patch::Of(f),
-                false => Patch::Single,
+            .map(|&f| match (is_flat(f as usize), curved(f as usize)) {
+                (true, Some(patch)) => Patch::Curved(patch),
+                (true, None) => Patch::Of(f),
+                (false, _) => Patch::Single,
             })
             .collect();
         patches.resize(triangles.len(), Patch::Kept);
@@ -100,6 +113,8 @@ impl Surface {
             patches,
             regions: triangles.iter().map(|t| [t.front, t.back]).collect(),
             normals: flats.normals.to_vec(),
+            shape: flats.curved.as_ref().map(|curved| curved.shape.clone()),
+            feature: flats.curved.as_ref().map_or(1.0, |curved| curved.feature),
             ..Self::default()
         };
         let first = flats.normals.len() as u32;
@@ -223,17 +238,34 @@ impl Surface {
         }
     }
 
+    /// The triangle of the surface that a face is, as it runs.
+    pub fn triangle(&self, face: [u32; 3]) -> Option<[u32; 3]> {
+        let t = *self.numbers.get(&sorted(face))?;
+        Some(self.triangles[t as usize])
+    }
+
     /// The patch that a face is in, if a vertex may be put there.
     pub fn sheet(&self, face: [u32; 3]) -> Option<Sheet> {
         let t = *self.numbers.get(&sorted(face))?;
-        self.flat(face)
-            .filter(|_| self.regions[t as usize].contains(&OUTSIDE))
+        let alone = || {
+            self.curved(face)?;
+            Some(Sheet {
+                corners: face,
+                normal: None,
+                patch: None,
+            })
+        };
+        let sheet = self.flat(face).or_else(alone);
+        sheet.filter(|_| self.regions[t as usize].contains(&OUTSIDE))
     }
 
     /// Whether a face is a triangle of a patch.
     pub fn is_in(&self, sheet: &Sheet, face: [u32; 3]) -> bool {
+        let Some(patch) = sheet.patch else {
+            return sorted(face) == sorted(sheet.corners);
+        };
         let number = self.numbers.get(&sorted(face));
-        number.is_some_and(|&t| self.patches[t as usize] == Patch::Of(sheet.patch))
+        number.is_some_and(|&t| self.patches[t as usize] == Patch::Of(patch))
     }
 
     /// Whether a vertex on an edge of a triangle may divide it: with or without something beyond, but not on a seam, nor inside of
@@ -248,13 +280,31 @@ impl Surface {
         (front != back && !self.twins.contains_key(&t)).then_some(t)
     }
 
+    /// The patch of a curved shape that a face stands for, if it may be divided.
+    pub fn curved(&self, face: [u32; 3]) -> Option<u32> {
+        match self.patches[self.divisible(face)? as usize] {
+            Patch::Curved(patch) => Some(patch),
+            _ => None,
+        }
+    }
+
+    /// The shape that patches are of.
+    pub fn shape(&self) -> Option<&dyn Shape> {
+        self.shape.as_deref()
+    }
+
+    /// Cosine of the angle between triangles from which on an edge of a curved patch is a feature.
+    pub fn feature(&self) -> f64 {
+        self.feature
+    }
+
     /// The flat patch that a face is in, if it may be divided.
     pub fn flat(&self, face: [u32; 3]) -> Option<Sheet> {
         let patch = self.patches[self.divisible(face)? as usize].number()?;
         Some(Sheet {
             corners: face,
-            normal: self.normals[patch as usize],
-            patch,
+            normal: Some(self.normals[patch as usize]),
+            patch: Some(patch),
         })
     }
 
@@ -267,7 +317,7 @@ impl Surface {
         numbers.sort_by_key(|&t| self.patches[t as usize]);
         let by_patch = numbers.chunk_by(|&s, &t| {
             let [p, q] = [s, t].map(|t| self.patches[t as usize]);
-            p == q && p != Patch::Single
+            p == q && p.number().is_some()
         });
         let triangles = by_patch.map(|some| some.iter().map(|&t| self.triangles[t as usize]));
         triangles.map(Iterator::collect).collect()
@@ -314,7 +364,8 @@ impl Surface {
         let both = [number(new[0])?, number(new[1])?];
         let [s, t] = both.map(|t| self.triangles[t as usize]);
         let [p, q] = both.map(|t| self.patches[t as usize]);
-        (p == q && p != Patch::Single && runs(s, a, b) != runs(t, a, b)).then_some(both)
+        let is_one = p == q && p != Patch::Single;
+        (is_one && runs(s, a, b) != runs(t, a, b)).then_some(both)
     }
 
     /// The image of an edge between two triangles of a seam.
@@ -424,6 +475,7 @@ mod tests {
             fixed: &[],
             kept,
             straight: 1e-12,
+            curved: None,
         };
         Surface::new((template, 0), &flats)
     }
@@ -489,7 +541,7 @@ mod tests {
     fn triangles_are_divided_from_a_vertex() {
         let mut flat = surface(&square(OUTSIDE, 5), &[7, 7], &[]);
         let sheet = flat.sheet([2, 1, 0]).unwrap();
-        assert_eq!(sheet.normal, DVec3::Z);
+        assert_eq!(sheet.normal, Some(DVec3::Z));
         assert!(flat.is_in(&sheet, [3, 0, 2]) && !flat.is_in(&sheet, [3, 0, 1]));
         flat.divide(&[[2, 1, 0], [0, 3, 2]], 4, None);
         // Two more, which all run as before.

@@ -4,12 +4,13 @@ use super::insert;
 use super::mesh::Mesh;
 use super::quality::Goal;
 use super::smooth;
-use super::surface::sorted;
-use super::{Flats, Freedoms, Wish, improve};
+use super::surface::{Diagonal, sorted};
+use super::{Curved, Flats, Freedoms, Shape, Wish, improve};
 use geom::measure::tet_volume;
 use geom::tet::{FACES, TetMeasures};
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tmesh::{Gluing, Isometry, OUTSIDE, Template, Tet, Triangle};
 
@@ -201,6 +202,7 @@ fn freedoms(template: &Template, of_triangle: &[u32], normals: &[DVec3]) -> Free
             fixed: &[],
             kept: &[],
             straight: 1e-12,
+            curved: None,
         },
     )
 }
@@ -228,6 +230,109 @@ fn inner_vertices_go_to_the_middle() {
     assert!(!smooth(&mut mesh, &freedoms, 1));
     assert!(least(&mesh) > 2.0 * before);
     assert!(mesh.positions[0].length() < 0.1, "{}", mesh.positions[0]);
+}
+
+/// A unit sphere, which holds what it is told to.
+struct Sphere {
+    holds: bool,
+}
+
+impl Shape for Sphere {
+    fn nearest(&self, _: u32, p: DVec3) -> Option<(DVec3, DVec3)> {
+        let normal = p.try_normalize()?;
+        Some((normal, normal))
+    }
+
+    fn holds(&self, patch: u32, [a, b, c]: [DVec3; 3]) -> bool {
+        // As the surface runs.
+        assert!(patch == 3 && (b - a).cross(c - a).dot(a + b + c) > 0.0);
+        self.holds
+    }
+}
+
+/// What may be done to an octahedron that stands for a sphere, with features from an angle on whose cosine is given.
+fn on_sphere(template: &Template, holds: bool, feature: f64) -> Freedoms {
+    let (of_triangle, normals) = facets(template);
+    Freedoms::new(
+        (template, 0),
+        &Flats {
+            of_triangle: &of_triangle,
+            normals: &normals,
+            slopes: &vec![0.0; normals.len()],
+            fixed: &[],
+            kept: &[],
+            straight: 1e-12,
+            curved: Some(Curved {
+                shape: Arc::new(Sphere { holds }),
+                patches: &vec![3; normals.len()],
+                feature,
+            }),
+        },
+    )
+}
+
+#[test]
+fn vertices_move_along_a_curved_shape() {
+    let goal = Goal::new(54.0, 1.4, 10.0);
+    let limits = FxHashMap::default();
+    let mut template = octahedron(DVec3::ZERO);
+    template.vertices[1] = DVec3::new(1.0, 0.5, -0.4).normalize();
+    let moved = |template: &Template, holds: bool, feature: f64| {
+        let freedoms = on_sphere(template, holds, feature);
+        let mut mesh = Mesh::of_template(template, 1.0, goal, &limits);
+        mesh.set_surface(freedoms.clone().take_surface());
+        let least = |mesh: &Mesh<'_>| {
+            let qualities = (0..8).map(|t| mesh.grade(t).quality);
+            qualities.fold(f64::INFINITY, f64::min)
+        };
+        let before = least(&mesh);
+        let mut count = 0;
+        for v in (0..20).flat_map(|_| 1..7) {
+            count += usize::from(smooth(&mut mesh, &freedoms, v));
+        }
+        for p in &mesh.positions[1..] {
+            assert!((p.length() - 1.0).abs() < 1e-14, "{p}");
+        }
+        (count > 0).then(|| least(&mesh) / before)
+    };
+    let gain = moved(&template, true, -1.0);
+    assert!(gain.is_some_and(|gain| gain > 1.3), "{gain:?}");
+    assert_eq!(moved(&template, false, -1.0), None);
+    // Its edges fold by 70 degrees.
+    assert_eq!(moved(&template, true, 0.9), None);
+    // What is shared with another template stays, with all around it.
+    template.gluings = vec![Gluing::seam("hub", 1, Isometry::IDENTITY, [[5, 5]], [])];
+    let freedoms = on_sphere(&template, true, -1.0);
+    let kinds: Vec<bool> = (1..7).map(|v| freedoms.of(v) == Freedom::Fixed).collect();
+    assert_eq!(kinds, [true, true, true, true, true, false]);
+}
+
+#[test]
+fn vertices_that_move_along_a_shape_pass_no_mirror_plane() {
+    let mut template = octahedron(DVec3::ZERO);
+    let mirror = Isometry::reflection(0, 1);
+    template.gluings = vec![Gluing::mirror("wall-a", 0, mirror, [], [])];
+    let freedoms = on_sphere(&template, true, -1.0);
+    let [here, there] = [0.1, -0.1].map(|y| DVec3::new(0.0, y, 1.0).normalize());
+    assert!(freedoms.holds(5, [here, here], &[]) && !freedoms.holds(5, [here, there], &[]));
+    assert!(freedoms.holds(5, [there, there], &[]) && !freedoms.holds(5, [there, here], &[]));
+}
+
+#[test]
+fn edges_on_a_curved_shape_are_replaced_where_that_allows_it() {
+    let goal = Goal::new(54.0, 1.4, 10.0);
+    let limits = FxHashMap::default();
+    let mut template = octahedron(DVec3::ZERO);
+    template.vertices[5] = DVec3::new(0.5, 0.5, 1.0).normalize();
+    template.vertices[6] = DVec3::new(0.5, 0.5, -1.0).normalize();
+    let may = |holds: bool, feature: f64, old: [u32; 2]| {
+        let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
+        mesh.set_surface(on_sphere(&template, holds, feature).take_surface());
+        mesh.may_replace(Diagonal { old, new: [5, 6] })
+    };
+    // Either way along the edge.
+    assert!(may(true, -1.0, [1, 3]) && may(true, -1.0, [3, 1]));
+    assert!(!may(false, -1.0, [1, 3]) && !may(true, 0.999, [1, 3]) && !may(true, -1.0, [1, 2]));
 }
 
 /// Steps that are small against what is next to the vertex would never make a good tetrahedron.
@@ -442,6 +547,7 @@ fn vertices_come_on_edges_of_the_surface() {
             fixed: &[],
             kept,
             straight: 1e-12,
+            curved: None,
         };
         let freedoms = Freedoms::new((&*template, 0), &flats);
         improve(template, &freedoms, &wish)
@@ -725,6 +831,7 @@ fn kept_cubes(n: u32) -> (Template, Freedoms) {
             fixed: &fixed,
             kept: &[],
             straight: 0.0,
+            curved: None,
         },
     );
     (cubes, freedoms)

@@ -31,7 +31,7 @@ pub fn prepare(
     if tets > 0 {
         return Err(SurfaceError::AlreadyFilled(tets));
     }
-    let mut facts = follow_shape(&mut document, params, log)?;
+    let mut facts = follow_shape(&mut document, params, log)?.facts;
     let (document, report) = settle_faces(document, params, log)?;
     facts.extend(report.facts);
     Ok((document, Report { facts, ..report }))

@@ -1,5 +1,6 @@
 //! The surfaces of templates, remeshed within the deviation.
 
+use crate::footing::Footing;
 use crate::joined::{AXIS, Joined, Part};
 use glam::DVec3;
 use remesh::{Remeshed, Rules, Sizes, Told, remesh};
@@ -16,6 +17,8 @@ pub struct Smoothed {
     pub vertices: Vec<u32>,
     /// New triangle of each triangle that stayed, `u32::MAX` for others.
     pub triangles: Vec<u32>,
+    /// What its surface stands on.
+    pub footing: Option<Footing>,
 }
 
 /// How far a surface may move, and what is asked of it.
@@ -146,6 +149,12 @@ fn smoothed(
         vertices: corners.map(|v| numbers.vertices[v as usize]),
         ..kind.like
     };
+    let patches = made.labels.iter().zip(&done.patches);
+    let patches = patches.filter(|(label, _)| joined.kinds[**label as usize].part as usize == p);
+    let footing = done.ground.clone().map(|ground| Footing {
+        ground,
+        patches: patches.map(|(_, &patch)| patch).collect(),
+    });
     let new = |old: &[u32], number: &[u32]| -> Vec<u32> {
         let new = old.iter().map(|&n| number.get(n as usize));
         new.map(|n| n.copied().unwrap_or(u32::MAX)).collect()
@@ -215,6 +224,7 @@ fn smoothed(
         },
         vertices,
         triangles: faces,
+        footing,
     })
 }
 

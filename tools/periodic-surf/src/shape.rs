@@ -1,6 +1,7 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
 use crate::apart::{apart, note_moved};
+use crate::footing::Footing;
 use crate::joined::groups;
 use crate::needles::Needle;
 use crate::remeshed::{Remeshing, Smoothed, remeshed};
@@ -18,8 +19,16 @@ const NARROWER: f64 = 0.25;
 /// How far a face of a wall may move for the sake of lengths, over the wall's thickness: as both do at most, half of it is left.
 const OF_WALL: f64 = 0.25;
 
-/// Remeshes the surfaces of all templates within the deviation that the wishes allow; returns a sentence for each that
-/// changed. Where the input is as symmetric as its coordinates can be and no deviation is asked for, nothing changes but templates
+/// What became of surfaces that follow the shape.
+#[derive(Default)]
+pub struct Followed {
+    /// A sentence for each that changed.
+    pub facts: Vec<String>,
+    /// Of each template, what its surface stands on if it changed; empty for none.
+    pub footings: Vec<Option<Footing>>,
+}
+
+/// Remeshes the surfaces of all templates within the deviation that the wishes allow. Where the input is as symmetric as its coordinates can be and no deviation is asked for, nothing changes but templates
 /// that are drawn far finer than edges are asked for, or all of them where there are needles. Where the deviation is left to the length of edges that is asked for, or to
 /// the tolerance of a body without symmetry, the document's wishes say afterwards how far surfaces have moved.
 ///
@@ -29,21 +38,24 @@ pub fn follow_shape(
     document: &mut Document,
     params: &Params,
     log: Log<'_>,
-) -> Result<Vec<String>, Error> {
+) -> Result<Followed, Error> {
     let tolerance = tolerance(document);
-    let mut facts = Vec::new();
+    let mut followed = Followed {
+        facts: Vec::new(),
+        footings: vec![None; document.templates.len()],
+    };
     let radius = tolerance.extent().radius;
     let deviation = radius * document.deviation(tolerance.equal() / radius);
     let exact = deviation <= tolerance.equal();
     if !params.quality {
-        return Ok(facts);
+        return Ok(followed);
     }
     let within = match exact {
         true => for_needles(document, &tolerance).into_iter().collect(),
         false => attempts(document, &tolerance, deviation),
     };
     if within.is_empty() && !document.moves_for_lengths() {
-        return Ok(facts);
+        return Ok(followed);
     }
     let sizes = Sizes::new(document)?;
     let noise = deviation.max(tolerance.equal());
@@ -77,14 +89,18 @@ pub fn follow_shape(
                         let moved = all.iter().map(|s| apart(before(s), &s.template));
                         farthest = moved.fold(farthest, f64::max);
                     }
-                    facts.push(fact(document, &all, told, attempt.deviation));
-                    all.into_iter().for_each(|s| take(document, &group, s));
+                    let fact = fact(document, &all, told, attempt.deviation);
+                    followed.facts.push(fact);
+                    for mut smoothed in all {
+                        followed.footings[smoothed.index] = smoothed.footing.take();
+                        take(document, &group, smoothed);
+                    }
                     break;
                 }
             }
         }
     }
-    if !facts.is_empty() {
+    if !followed.facts.is_empty() {
         document.wishes.keep_surface = Some(true);
     }
     if farthest > deviation {
@@ -92,7 +108,7 @@ pub fn follow_shape(
     } else if farthest > tolerance.drift() {
         note_moved(document, farthest);
     }
-    Ok(facts)
+    Ok(followed)
 }
 
 /// How far a surface may move, and what must not change.

@@ -15,4 +15,5 @@ mod smooth;
 
 pub use input::{Link, MOST_LINKS, Rules, Sizes, Surface};
 pub use passes::{Remeshed, Told, remesh};
+pub use shape::Ground;
 pub use smooth::{Drawing, Reading, Redrawn, Sheets, SmoothShape};

@@ -7,7 +7,7 @@ use crate::leads::leader;
 use crate::settle::{Settled, settle};
 use crate::template::{Job, template};
 use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
-use periodic_surf::{apart, note_moved};
+use periodic_surf::{Footing, apart, note_moved};
 use rayon::prelude::*;
 use tmesh::{Deviation, Document, Template};
 
@@ -54,6 +54,7 @@ fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (
         advice: unsettled,
         facts: settled,
         remeshed,
+        footings,
     } = settle(document, params, log).map_err(|error| (error, true))?;
     let sizes = Sizes::new(&document).map_err(|error| (error.into(), remeshed))?;
     let leaders: Vec<Option<usize>> = (0..document.templates.len())
@@ -61,7 +62,8 @@ fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (
         .collect();
     let failed = |error| (error, remeshed);
     let given = document.templates.clone();
-    let mut done = templates(&mut document, &leaders, params, &sizes, log).map_err(failed)?;
+    let mut done =
+        templates(&mut document, &leaders, params, (&sizes, &footings), log).map_err(failed)?;
     let advices = done.iter().filter_map(|d| d.advice.clone());
     let advice = unsettled.into_iter().chain(advices).collect();
     let facts = [settled, facts(&done)].concat();
@@ -72,7 +74,7 @@ fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (
         if leaders[index].is_none() {
             renumber(index, &mut template, &done).map_err(failed)?;
         }
-        if done[index].is_uneven {
+        if done[index].is_off {
             moved = moved.max(apart(&given[index], &template));
         }
         document.templates[index] = template;
@@ -90,7 +92,7 @@ fn templates(
     document: &mut Document,
     leaders: &[Option<usize>],
     params: &Params,
-    sizes: &Sizes,
+    (sizes, footings): (&Sizes, &[Option<Footing>]),
     log: Log<'_>,
 ) -> Result<Vec<Done>, Error> {
     let count = document.templates.len();
@@ -112,7 +114,9 @@ fn templates(
             false => Some(&follow),
         };
         let deadline = Deadline::start(params.timeout);
-        template(&job.climb(Piece::of(document, index), deadline), beside)
+        let footing = footings.get(index).and_then(Option::as_ref);
+        let climb = job.climb(Piece::of(document, index), deadline);
+        template(&climb, footing, beside)
     };
     let meshed: Vec<Led> = first.par_iter().map(mesh).collect();
     let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();

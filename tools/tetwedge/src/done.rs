@@ -4,6 +4,7 @@ use crate::fill::{Filled, fill, finish};
 use crate::score::{FAILING, is_hopeless};
 use improve::Leaves;
 use mesher::{Answer, Climb, EASING, Error, Progress};
+use periodic_surf::Footing;
 
 /// A filled template, and what there is to say about it.
 pub struct Done {
@@ -15,8 +16,8 @@ pub struct Done {
     pub advice: Option<String>,
     /// Descriptions that failed before.
     pub failed: usize,
-    /// Whether faces are uneven, so that the surface is off the one that was given.
-    pub is_uneven: bool,
+    /// Whether the surface is off the one that was given: faces are uneven, or vertices were moved along the shape.
+    pub is_off: bool,
 }
 
 /// What is made of a filled template while it is improved, of what it shares with others, unless that may change.
@@ -26,7 +27,11 @@ pub type Beside<'a, B> = &'a (dyn Fn(&Filled) -> Option<B> + Sync);
 /// chaotic where shapes leave it little room, and the better one of two has fewer bad outcomes: of 12 placements of an impeller, 1.70 % of
 /// the elements are past the radius-edge bound in the mean, and 1.90 % at most; 1.78 and 2.06 % without. Faces that other templates
 /// share are settled before anything is mended, so that templates with such faces have one way only.
-fn bounded(climb: &Climb<'_>, answer: &Answer, filled: &Filled) -> Option<Filled> {
+fn bounded(
+    (climb, footing): (&Climb<'_>, Option<&Footing>),
+    answer: &Answer,
+    filled: &Filled,
+) -> Option<Filled> {
     let weight = |filled: &Filled| {
         let failing = filled.improved.map_or(0, |done| done.past + done.low);
         (failing, filled.template.tets.len() + FAILING * failing)
@@ -43,7 +48,7 @@ fn bounded(climb: &Climb<'_>, answer: &Answer, filled: &Filled) -> Option<Filled
     }
     let [ratio, _] = EASING;
     let (mut other, origin) = fill(climb, answer, Leaves::Within(ratio)).ok()?;
-    finish(climb, &answer.plc, &mut other, origin).ok()?;
+    finish((climb, footing), &answer.plc, &mut other, origin).ok()?;
     (weight(&other).1 < most).then_some(other)
 }
 
@@ -62,7 +67,7 @@ fn cut_short(climb: &Climb<'_>, filled: &Filled) -> Option<String> {
 /// # Errors
 /// See [`Error`].
 pub fn done<B: Send>(
-    climb: &Climb<'_>,
+    (climb, footing): (&Climb<'_>, Option<&Footing>),
     answer: Answer,
     beside: Option<Beside<'_, B>>,
 ) -> Result<(Done, Option<B>), Error> {
@@ -83,17 +88,17 @@ pub fn done<B: Send>(
             let surface = filled.shared_surface();
             let (made, finished) = rayon::join(
                 || beside(&surface),
-                || finish(climb, &answer.plc, &mut filled, origin),
+                || finish((climb, footing), &answer.plc, &mut filled, origin),
             );
             finished?;
             made
         }
         None => {
-            finish(climb, &answer.plc, &mut filled, origin)?;
+            finish((climb, footing), &answer.plc, &mut filled, origin)?;
             None
         }
     };
-    if let Some(better) = bounded(climb, &answer, &filled) {
+    if let Some(better) = bounded((climb, footing), &answer, &filled) {
         say("coarser elements could not be mended, so that fewer vertices were taken out");
         filled = better;
     }
@@ -123,11 +128,12 @@ pub fn done<B: Send>(
     }
     let notes = [answer.advice, cut_short(climb, &filled)];
     let notes: Vec<String> = notes.into_iter().flatten().collect();
+    let is_off = answer.plc.relief.is_there() || filled.has_slid;
     let done = Done {
         filled,
         switches: answer.mesh.told().to_owned(),
         failed: answer.failed,
-        is_uneven: answer.plc.relief.is_there(),
+        is_off,
         advice: (!notes.is_empty()).then(|| notes.join("; ")),
     };
     Ok((done, made))

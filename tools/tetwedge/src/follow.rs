@@ -27,7 +27,7 @@ pub fn follower(job: &Job<'_>, index: usize, lead: &Filled) -> Result<(Template,
         template: &surface,
         ..Piece::of(job.document, index)
     };
-    let (done, _) = template::<()>(&job.climb(piece, deadline), None)?;
+    let (done, _) = template::<()>(&job.climb(piece, deadline), None, None)?;
     Ok((surface, done))
 }
 

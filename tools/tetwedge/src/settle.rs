@@ -2,7 +2,7 @@
 //! filled.
 
 use mesher::{Error, Log, Params, Progress};
-use periodic_surf::{SurfaceError, follow_shape, settle_faces};
+use periodic_surf::{Followed, Footing, SurfaceError, follow_shape, settle_faces};
 use tmesh::Document;
 
 /// A document whose surface is to stay, and what there is to say about it.
@@ -15,6 +15,8 @@ pub struct Settled {
     pub facts: Vec<String>,
     /// Whether surfaces were remeshed.
     pub remeshed: bool,
+    /// Of each template, what its surface stands on if it was remeshed; empty for none.
+    pub footings: Vec<Option<Footing>>,
 }
 
 /// Remeshes surfaces and makes those of templates with seams, as `periodic-surf` does, unless that was done before or is
@@ -23,15 +25,16 @@ pub struct Settled {
 /// # Errors
 /// What another attempt would not change: time, memory, what is asked for.
 pub fn settle(mut document: Document, params: &Params, log: Log<'_>) -> Result<Settled, Error> {
-    let kept = |document, advice, facts: Vec<String>| Settled {
+    let kept = |document, advice, followed: Followed| Settled {
         document,
         advice,
-        remeshed: !Vec::is_empty(&facts),
-        facts,
+        remeshed: !followed.facts.is_empty(),
+        facts: followed.facts,
+        footings: followed.footings,
     };
     let filled = document.templates.iter().any(|t| !t.tets.is_empty());
     if document.wishes.keep_surface() || filled {
-        return Ok(kept(document, Vec::new(), Vec::new()));
+        return Ok(kept(document, Vec::new(), Followed::default()));
     }
     // Switches are meant for the tetrahedra.
     let surface = Params {
@@ -47,27 +50,28 @@ pub fn settle(mut document: Document, params: &Params, log: Log<'_>) -> Result<S
         true => Log::new(&detail).with_progress(&progress),
         false => log,
     };
-    let mut facts = follow_shape(&mut document, &surface, of_surface)?;
-    facts.iter().for_each(|fact| log.detail(fact));
+    let followed = follow_shape(&mut document, &surface, of_surface)?;
+    followed.facts.iter().for_each(|fact| log.detail(fact));
     match settle_faces(document.clone(), &surface, of_surface) {
-        Ok((document, report)) => Ok(Settled {
-            document,
-            advice: report.advice,
-            remeshed: !facts.is_empty(),
-            facts: {
-                if report.remade > 0 {
-                    facts.extend(report.facts);
-                }
-                facts
-            },
-        }),
+        Ok((settled, report)) => {
+            let mut kept = kept(settled, report.advice, followed);
+            if report.remade > 0 {
+                kept.facts.extend(report.facts);
+            }
+            // What was made anew has other triangles.
+            let templates = document.templates.iter().zip(&kept.document.templates);
+            for ((before, after), footing) in templates.zip(&mut kept.footings) {
+                footing.take_if(|_| before.triangles != after.triangles);
+            }
+            Ok(kept)
+        }
         Err(SurfaceError::Mesher(error)) if !error.is_chance() => Err(error),
         Err(error) => Ok(kept(
             document,
             vec![format!(
                 "the faces that copies share stay as they were cut, which costs elements or their quality: {error}"
             )],
-            facts,
+            followed,
         )),
     }
 }

@@ -6,6 +6,7 @@ use crate::fill::Filled;
 use mesher::{
     Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
 };
+use periodic_surf::Footing;
 use tmesh::Document;
 
 /// What all templates have in common.
@@ -41,12 +42,13 @@ impl<'a> Job<'a> {
 }
 
 /// Meshes a template, with the bounds eased if elements are improved afterwards. What it shares with others is settled
-/// before: where there are threads and only one mesh is made, `beside` works on that at the same time, and what it makes of it is returned.
+/// before; its surface may stand on a shape. Where there are threads and only one mesh is made, `beside` works on that at the same time, and what it makes of it is returned.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn template<B: Send>(
     climb: &Climb<'_>,
+    footing: Option<&Footing>,
     beside: Option<&(dyn Fn(&Filled) -> B + Sync)>,
 ) -> Result<(Done, Option<B>), Error> {
     let asks = match climb.params.angle().is_some() {
@@ -60,9 +62,11 @@ pub fn template<B: Send>(
         }
     });
     let beside = unless_drawn.as_ref().map(|made| made as Beside<'_, B>);
-    let (first, made) = climb.climb(Attempt::new(asks), |answer| done(climb, answer, beside))?;
+    let (first, made) = climb.climb(Attempt::new(asks), |answer| {
+        done((climb, footing), answer, beside)
+    })?;
     let again = |climb: &Climb<'_>, attempt| {
-        let done = climb.climb(attempt, |answer| done::<()>(climb, answer, None));
+        let done = climb.climb(attempt, |answer| done::<()>((climb, footing), answer, None));
         Some(done.ok()?.0)
     };
     let (best, is_another) = best_of_draws(climb, first, again);

@@ -499,7 +499,7 @@ fn a_time_limit_ends_improvement_with_a_mesh() {
             deadline: Deadline::start(Some(Duration::from_nanos(1))),
             ..*climb
         };
-        let (done, _) = done::<()>(&late, answer, None).unwrap();
+        let (done, _) = done::<()>((&late, None), answer, None).unwrap();
         let told = done.advice.unwrap();
         assert!(
             told.contains("--timeout") && told.contains("remain"),
@@ -567,7 +567,7 @@ fn equivalent_descriptions_give_equivalent_meshes() {
             described(&document, description, |climb, answer| {
                 assert_eq!(answer.plc.shift > 0.0, description.flat);
                 let (mut filled, origin) = fill(climb, &answer, Leaves::Mendable).unwrap();
-                finish(climb, &answer.plc, &mut filled, origin).unwrap();
+                finish((climb, None), &answer.plc, &mut filled, origin).unwrap();
                 let mut done = document.clone();
                 done.templates[0] = filled.template;
                 check(&document, &done);

@@ -49,8 +49,8 @@ pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
     make_as(climb, apart)
 }
 
-/// Whether triangles meet anywhere but in common vertices and edges.
-fn crosses_itself(template: &Template) -> bool {
+/// Whether triangles of a template meet anywhere but in common vertices and edges. n log n.
+pub fn crosses_itself(template: &Template) -> bool {
     let triangles: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
     let mut crosses = false;
     contacts(

@@ -27,4 +27,4 @@ mod pieces;
 
 pub use check::{same_body, same_size};
 pub use impose::{Other, impose};
-pub use make::{Made, make};
+pub use make::{Made, crosses_itself, make};

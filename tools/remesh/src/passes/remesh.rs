@@ -9,14 +9,15 @@ use super::uncap::uncap;
 use super::worth::{DETAIL, FINE, GOOD, LONG, SHORT};
 use crate::input::{MOST_LINKS, Rules, Surface};
 use crate::mesh::{Mesh, NONE};
-use crate::shape::{Allowance, Curves, Envelope, Patches};
+use crate::shape::{Allowance, Curves, Envelope, Ground, Patches};
 use geom::contacts::contacts;
 use geom::measure::double_area_vector;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
+use std::sync::Arc;
 
 /// A surface that was remeshed.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Default)]
 pub struct Remeshed {
     /// The surface.
     pub surface: Surface,
@@ -28,6 +29,10 @@ pub struct Remeshed {
     pub bound: Vec<u32>,
     /// Of each link, the new vertices with their images.
     pub links: Vec<Vec<[u32; 2]>>,
+    /// Patch of each triangle, `u32::MAX` for those of flat faces.
+    pub patches: Vec<u32>,
+    /// What these are patches of.
+    pub ground: Option<Arc<Ground>>,
     /// What was done.
     pub told: Told,
 }
@@ -211,7 +216,12 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     told.flipped += flip_all(&mut mesh, &active);
     told.joined = mesh.joined;
     let cost = slenderness(&mesh);
-    (!told.is_nothing()).then(|| (taken(surface, mesh, told), cost))
+    if told.is_nothing() {
+        return None;
+    }
+    let mut remeshed = taken(surface, mesh, told);
+    remeshed.ground = Some(Arc::new(Ground::new(envelope)));
+    Some((remeshed, cost))
 }
 
 /// Corners of facets, by facet and vertex, with their angles in degrees.
@@ -453,6 +463,10 @@ fn taken(surface: &Surface, mesh: Mesh<'_>, told: Told) -> Remeshed {
             let corners = mesh.triangles[t].map(|v| vertices[v as usize]);
             remeshed.surface.triangles.push(corners);
             remeshed.surface.labels.push(label_of[&mesh.patch[t]]);
+            let is_flat = mesh.planes[mesh.patch[t] as usize].is_some();
+            remeshed
+                .patches
+                .push(if is_flat { NONE } else { mesh.patch[t] });
         }
     }
     remeshed.links = (0..mesh.rules.links.len())

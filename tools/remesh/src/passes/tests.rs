@@ -155,12 +155,42 @@ fn is_closed(surface: &Surface) -> bool {
 }
 
 #[test]
+fn a_remeshed_surface_stands_on_the_patches_of_the_input() {
+    let globe = globe(40, 20);
+    let held = vec![false; globe.points.len()];
+    let deviation = 0.02;
+    let made = done(&globe, deviation, &held).expect("needles at the poles");
+    let ground = made.ground.expect("a shape");
+    assert_eq!(made.patches.len(), made.surface.triangles.len());
+    for (t, &patch) in (0..).zip(&made.patches) {
+        let [a, b, c] = made.surface.corners(t);
+        let (at, normal) = ground.nearest(patch, a).expect("a place");
+        assert!(
+            at.distance(a) <= deviation && normal.dot(a) > 0.9,
+            "{at} {normal}"
+        );
+        assert!(ground.holds(patch, [a, b, c]));
+        // Not what faces the other way, nor what is farther off, also where its sides are not.
+        assert!(!ground.holds(patch, [a, c, b]));
+        assert!(!ground.holds(patch, [a * (1.0 + 2.0 * deviation), b, c]));
+        let small = [a, b, c].map(|p| p * (1.0 - 2.0 * deviation));
+        assert!(!ground.holds(patch, small));
+    }
+}
+
+#[test]
 fn needles_go_and_the_surface_stays_in_its_envelope() {
     let globe = globe(40, 20);
     let held = vec![false; globe.points.len()];
     for deviation in [0.003, 0.02] {
         let made = done(&globe, deviation, &held).expect("needles at the poles");
-        assert_eq!(Some(&made), done(&globe, deviation, &held).as_ref());
+        let again = done(&globe, deviation, &held).unwrap();
+        let all = |made: &Remeshed| {
+            let numbers =
+                [&made.vertices, &made.triangles, &made.bound, &made.patches].map(Vec::clone);
+            (made.surface.clone(), numbers, made.links.clone(), made.told)
+        };
+        assert_eq!(all(&made), all(&again));
         let surface = &made.surface;
         assert!(is_closed(surface));
         assert!(

@@ -6,6 +6,7 @@ mod arc;
 mod curves;
 mod envelope;
 mod facets;
+mod ground;
 mod patches;
 
 pub use allowance::Allowance;
@@ -13,4 +14,5 @@ pub use arc::LONG;
 pub use curves::Curves;
 pub use envelope::{Envelope, Near};
 pub use facets::{Beside, Facets};
+pub use ground::Ground;
 pub use patches::{ALIKE, Patches};

@@ -89,6 +89,7 @@ pub fn fill(climb: &Climb<'_>, answer: &Answer, leaves: Leaves) -> Result<(Fille
         dropped,
         removed,
         improved: None,
+        has_slid: false,
     };
     // Old vertices come first, in their order.
     let first_new = filled.vertices.iter().filter(|&&v| v != NONE).count();

@@ -23,6 +23,8 @@ pub struct Filled {
     pub removed: usize,
     /// What was improved, unless elements are to stay as the mesher left them.
     pub improved: Option<Improved>,
+    /// Whether vertices of the surface were moved along the shape behind it.
+    pub has_slid: bool,
 }
 
 impl Filled {
@@ -41,6 +43,7 @@ impl Filled {
             dropped: 0,
             removed: 0,
             improved: None,
+            has_slid: false,
         }
     }
 }

@@ -2,20 +2,24 @@
 
 use super::answer::{Origin, put_onto_relief};
 use super::filled::Filled;
-use super::measures::measures;
+use super::measures::{volumes, walls};
 use super::orientations::orientations;
 use geom::flat::FACE_FOLD_SINE;
+use geom::measure::corners;
 use glam::DVec3;
-use improve::{Flats, Freedoms, Improved, Wish, improve};
-use mesher::{Climb, Error, Plc};
+use improve::{Curved, Flats, Freedoms, Improved, NO_PATCH, Wish, improve};
+use mesher::{Climb, Error, NO_FACE, Plc};
+use periodic_surf::{Footing, crosses_itself};
 use rustc_hash::FxHashSet;
+use tmesh::Template;
 
-/// Improves the tetrahedra of a filled template, and checks all of it.
+/// Improves the tetrahedra of a filled template, and checks all of it. Where its surface stands on a shape, vertices are moved along that,
+/// unless triangles meet then that did not.
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
 pub fn finish(
-    climb: &Climb<'_>,
+    (climb, footing): (&Climb<'_>, Option<&Footing>),
     plc: &Plc,
     filled: &mut Filled,
     mut origin: Origin,
@@ -24,7 +28,33 @@ pub fn finish(
         template: climb.piece.index,
         what,
     };
-    if let Some((improved, parents)) = refine(climb, plc, &origin.facets, filled) {
+    let input = climb.piece.template;
+    let patches = footing.map(|footing| patches(plc, footing));
+    let curved = footing
+        .zip(patches.as_deref())
+        .map(|(footing, patches)| Curved {
+            shape: footing.shape(plc.scale),
+            patches,
+            feature: libm::cos(climb.piece.document.wishes.feature_angle().to_radians()),
+        });
+    let mut refined = None;
+    if let Some(curved) = curved {
+        volumes(input, plc, &filled.template).map_err(unusable)?;
+        let before = filled.template.clone();
+        refined = refine(climb, plc, (&origin.facets, Some(curved)), filled);
+        filled.has_slid = has_slid(&before, &filled.template, |t| {
+            patches
+                .as_ref()
+                .is_some_and(|patches| patches[origin.facets[t]] != NO_PATCH)
+        });
+        if filled.has_slid && crosses_itself(&filled.template) {
+            filled.template = before;
+            filled.has_slid = false;
+            refined = None;
+        }
+    }
+    let refined = refined.or_else(|| refine(climb, plc, (&origin.facets, None), filled));
+    if let Some((improved, parents)) = refined {
         filled.improved = Some(improved);
         for t in parents {
             origin.facets.push(origin.facets[t as usize]);
@@ -41,14 +71,40 @@ pub fn finish(
     let reach = climb.piece.document.frame.origin.length() + plc.extent;
     let template = &filled.template;
     orientations(template, origin.first_new, reach).map_err(unusable)?;
-    measures(climb.piece.template, plc, &origin.faces, template).map_err(unusable)
+    // What has slid was held against the input before.
+    let surface = if filled.has_slid { template } else { input };
+    volumes(surface, plc, template).map_err(unusable)?;
+    walls(input, plc, &origin.faces, template).map_err(unusable)
+}
+
+/// The patch that each facet stands for: none for walls, uneven facets, and those of several patches.
+fn patches(plc: &Plc, footing: &Footing) -> Vec<u32> {
+    let facets = &plc.facets.facets;
+    let mut patches: Vec<Option<u32>> = (facets.iter().zip(plc.relief.uneven()))
+        .map(|(facet, &uneven)| (uneven || facet.attributes.face != NO_FACE).then_some(NO_PATCH))
+        .collect();
+    for (&facet, &patch) in plc.facets.of_triangle.iter().zip(&footing.patches) {
+        let known = patches[facet as usize].get_or_insert(patch);
+        if *known != patch {
+            *known = NO_PATCH;
+        }
+    }
+    let known = patches.into_iter();
+    known.map(|patch| patch.unwrap_or(NO_PATCH)).collect()
+}
+
+/// Whether triangles that are curved are others, or elsewhere.
+fn has_slid(before: &Template, after: &Template, is_curved: impl Fn(usize) -> bool) -> bool {
+    let both = before.triangles.iter().zip(&after.triangles).enumerate();
+    let mut curved = both.filter(|(t, _)| is_curved(*t)).map(|(_, both)| both);
+    curved.any(|(old, new)| corners(&before.vertices, old) != corners(&after.vertices, new))
 }
 
 /// Improves the tetrahedra, as far as elements are to be optimized; of each new triangle, the one that it is a part of.
 fn refine(
     climb: &Climb<'_>,
     plc: &Plc,
-    facets: &[usize],
+    (facets, curved): (&[usize], Option<Curved<'_>>),
     filled: &mut Filled,
 ) -> Option<(Improved, Vec<u32>)> {
     let Climb {
@@ -79,6 +135,7 @@ fn refine(
             fixed: &fixed,
             kept: &filled.shared,
             straight: plc.rounding + 2.0 * plc.shift,
+            curved,
         },
     );
     let regions = piece.document.regions.iter().zip(&sizes.of_region);

@@ -36,16 +36,11 @@ impl Measure {
     }
 }
 
-/// Compares the filled template with the surface it was made from.
+/// Compares the volumes of a filled template's regions with those that a surface encloses.
 ///
 /// Uneven facets (see [`mesher::Facets`]) may be triangulated anew, which moves volume by no more
 /// than their area times their unevenness.
-pub fn measures(
-    input: &Template,
-    plc: &Plc,
-    faces: &[u32],
-    filled: &Template,
-) -> Result<(), String> {
+pub fn volumes(input: &Template, plc: &Plc, filled: &Template) -> Result<(), String> {
     let slack: f64 = plc
         .facets
         .facets
@@ -54,7 +49,7 @@ pub fn measures(
         .sum();
 
     let mut volumes: BTreeMap<u32, Measure> = BTreeMap::new();
-    let origin = input.vertices[plc.vertex_of_point[0] as usize];
+    let origin = input.vertices.first().copied().unwrap_or_default();
     for t in &input.triangles {
         let [a, b, c] = corners(&input.vertices, t);
         let cone = tet_volume(origin, a, b, c);
@@ -81,7 +76,11 @@ pub fn measures(
             ));
         }
     }
+    Ok(())
+}
 
+/// Compares the walls of a filled template with those of the surface it was made from; `faces` has the face of each triangle.
+pub fn walls(input: &Template, plc: &Plc, faces: &[u32], filled: &Template) -> Result<(), String> {
     let mut areas: BTreeMap<u32, Wall> = BTreeMap::new();
     let keys = plc.faces.of_triangle.iter();
     for (t, &key) in input.triangles.iter().zip(keys) {
