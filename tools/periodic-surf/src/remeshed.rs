@@ -154,6 +154,7 @@ fn smoothed(
     let footing = done.ground.clone().map(|ground| Footing {
         ground,
         patches: patches.map(|(_, &patch)| patch).collect(),
+        size: None,
     });
     let new = |old: &[u32], number: &[u32]| -> Vec<u32> {
         let new = old.iter().map(|&n| number.get(n as usize));

@@ -14,7 +14,7 @@ use rustc_hash::FxHashSet;
 use tmesh::Template;
 
 /// Improves the tetrahedra of a filled template, and checks all of it. Where its surface stands on a shape, vertices are moved along that,
-/// unless triangles meet then that did not.
+/// unless triangles meet then that did not, or sizes change that are to stay.
 ///
 /// # Errors
 /// [`Error::Unusable`] when anything that must hold does not.
@@ -38,7 +38,7 @@ pub fn finish(
             feature: libm::cos(climb.piece.document.wishes.feature_angle().to_radians()),
         });
     let mut refined = None;
-    if let Some(curved) = curved {
+    if let Some((curved, footing)) = curved.zip(footing) {
         volumes(input, plc, &filled.template).map_err(unusable)?;
         let before = filled.template.clone();
         refined = refine(climb, plc, (&origin.facets, Some(curved)), filled);
@@ -47,7 +47,10 @@ pub fn finish(
                 .as_ref()
                 .is_some_and(|patches| patches[origin.facets[t]] != NO_PATCH)
         });
-        if filled.has_slid && crosses_itself(&filled.template) {
+        let is_kept = |template: &Template| {
+            !crosses_itself(template) && footing.keeps_size(climb.piece.index, template)
+        };
+        if filled.has_slid && !is_kept(&filled.template) {
             filled.template = before;
             filled.has_slid = false;
             refined = None;
