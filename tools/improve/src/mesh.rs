@@ -1,5 +1,6 @@
 //! Tetrahedra that are replaced and vertices that are moved while the mesh is improved.
 
+use crate::near::are_near;
 use crate::quality::{Goal, Grade};
 use crate::stars::Stars;
 use crate::surface::{Diagonal, Surface, sorted};
@@ -66,12 +67,20 @@ impl<'a> Mesh<'a> {
 
     /// Puts a vertex into triangles of the surface that are in one patch, or on an edge of them, between the ends of that.
     pub fn divide_surface(&mut self, faces: &[[u32; 3]], vertex: u32, edge: Option<[u32; 2]>) {
-        self.surface.divide(faces, vertex, edge);
+        let positions = &self.positions;
+        let at = |v: u32| positions[v as usize];
+        self.surface.divide(faces, vertex, edge, at);
     }
 
     /// Replaces an edge of the surface.
     pub fn replace_diagonal(&mut self, diagonal: Diagonal) {
+        let Diagonal {
+            old: [a, b],
+            new: [c, d],
+        } = diagonal;
+        let both = self.surface.numbers_of(&[[a, b, c], [a, b, d]]);
         self.surface.replace(diagonal);
+        self.share(&both);
     }
 
     /// The patch of a curved shape that the two triangles of the surface from an edge to each of two vertices stand for, if it is one and no
@@ -115,9 +124,26 @@ impl<'a> Mesh<'a> {
         };
         let after = [[d, c, a], [c, d, b]];
         let [m, n] = after.map(|face| self.normal(face));
+        let after = after.map(|face| face.map(|v| self.positions[v as usize]));
         m.dot(n) > self.surface.feature()
-            && (after.iter())
-                .all(|face| shape.holds(patch, face.map(|v| self.positions[v as usize])))
+            && after.iter().all(|&corners| shape.holds(patch, corners))
+            && are_near(
+                &self.surface.points(&[[a, b, c], [a, b, d]]),
+                after.into_iter(),
+            )
+    }
+
+    /// Gives the points of the shape that some triangles are near to, to those of them that they are nearest to now.
+    fn share(&mut self, triangles: &[u32]) {
+        let positions = &self.positions;
+        let at = |v: u32| positions[v as usize];
+        self.surface.share(triangles, triangles, at);
+    }
+
+    /// The same for faces.
+    pub fn share_points(&mut self, faces: &[[u32; 3]]) {
+        let numbers = self.surface.numbers_of(faces);
+        self.share(&numbers);
     }
 
     /// Takes over the tetrahedra of a template, and keeps its surface inside of regions. Linear.

@@ -13,6 +13,15 @@ pub trait Shape: Send + Sync {
     fn holds(&self, patch: u32, corners: [DVec3; 3]) -> bool;
 }
 
+/// A point of the shape that the surface stays near to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Where it is.
+    pub at: DVec3,
+    /// How far the surface may be.
+    pub reach: f64,
+}
+
 /// What stands for a curved shape.
 #[derive(Clone)]
 pub struct Curved<'a> {
@@ -22,6 +31,10 @@ pub struct Curved<'a> {
     pub patches: &'a [u32],
     /// Cosine of the angle between triangles from which on an edge is a feature, which stays.
     pub feature: f64,
+    /// Points of the shape that each facet is near to, model units.
+    pub points: &'a [Vec<Point>],
+    /// What coordinates are multiplied by to improve elements.
+    pub scale: f64,
 }
 
 /// No patch.

@@ -9,7 +9,9 @@
 
 use crate::freedom::{Exact, Freedom, Freedoms};
 use crate::mesh::{Corners, Mesh};
+use crate::near::are_near;
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
+use crate::shape::Point;
 use arrayvec::ArrayVec;
 use geom::tet::FACES;
 use glam::DVec3;
@@ -27,6 +29,8 @@ struct Star<'m, 'a> {
     exact: Option<Exact>,
     /// The triangles of the surface there if it moves along a curved shape, from the vertex on, without it.
     faces: Vec<[u32; 2]>,
+    /// The points of the shape that these are near to.
+    points: Vec<Point>,
     tets: Vec<Corners>,
     regions: Vec<u32>,
     /// Size that each tetrahedron may have in any case, six volumes.
@@ -56,8 +60,10 @@ impl Star<'_, '_> {
         }
         let at = |v: u32| self.mesh.positions[v as usize];
         let faces: Vec<[DVec3; 2]> = self.faces.iter().map(|face| face.map(at)).collect();
+        let triangles = faces.iter().map(|&[a, b]| [p, a, b]);
         self.freedoms
             .holds(self.vertex, [at(self.vertex), p], &faces)
+            && are_near(&self.points, triangles)
     }
 
     /// The middle of the other corners, if the vertex is free to go there and all of them are on its side of a seam.
@@ -126,6 +132,8 @@ pub struct Move {
     partner: Option<(u32, DVec3)>,
     /// All tetrahedra that move with it, with their grades afterwards.
     tets: Vec<(u32, Grade)>,
+    /// The triangles of the surface that do, if it moves along a curved shape.
+    faces: Vec<[u32; 3]>,
 }
 
 impl Move {
@@ -138,6 +146,9 @@ impl Move {
         }
         for &(tet, grade) in &self.tets {
             mesh.regrade(tet, grade);
+        }
+        if !self.faces.is_empty() {
+            mesh.share_points(&self.faces);
         }
     }
 }
@@ -157,13 +168,16 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
         tets.sort_unstable();
         tets.dedup();
     }
+    let faces = faces_along(mesh, freedoms, vertex);
+    let triangles: Vec<[u32; 3]> = faces.iter().map(|&[a, b]| [vertex, a, b]).collect();
     let grades: Vec<Grade> = tets.iter().map(|&t| mesh.grade(t)).collect();
     let star = Star {
         mesh,
         freedoms,
         vertex,
         exact: None,
-        faces: faces_along(mesh, freedoms, vertex),
+        points: mesh.surface().points(&triangles),
+        faces,
         tets: tets.iter().map(|&t| mesh.corners(t)).collect(),
         regions: tets.iter().map(|&t| mesh.region(t)).collect(),
         sizes: grades.iter().map(|g| g.six_volume).collect(),
@@ -183,6 +197,7 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
         to,
         partner: partner.map(|(other, turn)| (other, turn.apply(to))),
         tets: tets.into_iter().zip(grades).collect(),
+        faces: triangles,
     })
 }
 
@@ -247,6 +262,7 @@ pub fn settle(
         vertex: mesh.positions.len() as u32,
         exact: Some(exact),
         faces: Vec::new(),
+        points: Vec::new(),
         tets: newcomer.tets,
         regions: newcomer.regions,
         sizes: newcomer.sizes,

@@ -7,7 +7,8 @@
 //! Where there is none, a vertex may be put into triangles of a facet, which it divides.
 
 use crate::flats::Flats;
-use crate::shape::{NO_PATCH, Shape};
+use crate::near::Near;
+use crate::shape::{NO_PATCH, Point, Shape};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
@@ -35,6 +36,8 @@ pub struct Surface {
     shape: Option<Arc<dyn Shape>>,
     /// Cosine of the angle from which on an edge of such a patch is a feature.
     feature: f64,
+    /// Points of that shape.
+    near: Near,
 }
 
 /// What may become of a triangle.
@@ -115,6 +118,9 @@ impl Surface {
             normals: flats.normals.to_vec(),
             shape: flats.curved.as_ref().map(|curved| curved.shape.clone()),
             feature: flats.curved.as_ref().map_or(1.0, |curved| curved.feature),
+            near: (flats.curved.as_ref()).map_or_else(Near::default, |curved| {
+                Near::new(template, flats.of_triangle, curved)
+            }),
             ..Self::default()
         };
         let first = flats.normals.len() as u32;
@@ -288,6 +294,27 @@ impl Surface {
         }
     }
 
+    /// The points of the shape that some faces are near to.
+    pub fn points(&self, faces: &[[u32; 3]]) -> Vec<Point> {
+        self.near.of(&self.numbers_of(faces))
+    }
+
+    /// Gives the points of some triangles to the nearest of them and others, by where these are now.
+    pub fn share(&mut self, old: &[u32], new: &[u32], at: impl Fn(u32) -> DVec3) {
+        let points = self.near.take(old);
+        if !points.is_empty() {
+            let corners = |t: u32| self.triangles[t as usize].map(&at);
+            let triangles: Vec<_> = new.iter().map(|&t| (t, corners(t))).collect();
+            self.near.give(points, &triangles);
+        }
+    }
+
+    /// The numbers of triangles.
+    pub fn numbers_of(&self, faces: &[[u32; 3]]) -> Vec<u32> {
+        let numbers = faces.iter().map(|face| self.numbers.get(&sorted(*face)));
+        numbers.flatten().copied().collect()
+    }
+
     /// The shape that patches are of.
     pub fn shape(&self) -> Option<&dyn Shape> {
         self.shape.as_deref()
@@ -325,7 +352,13 @@ impl Surface {
 
     /// Puts triangles from a new vertex to the outline of some in their place, which are in one patch: there are two more than before,
     /// or one if it is on an edge of the outline, between the ends of that.
-    pub fn divide(&mut self, faces: &[[u32; 3]], vertex: u32, edge: Option<[u32; 2]>) {
+    pub fn divide(
+        &mut self,
+        faces: &[[u32; 3]],
+        vertex: u32,
+        edge: Option<[u32; 2]>,
+        at: impl Fn(u32) -> DVec3,
+    ) {
         let numbers = faces
             .iter()
             .filter_map(|f| self.numbers.remove(&sorted(*f)));
@@ -334,6 +367,7 @@ impl Surface {
         let triangles = gone.iter().map(|&t| self.triangles[t as usize]);
         let mut outline = outline(&triangles.collect::<Vec<_>>());
         outline.retain(|&[a, b]| edge.is_none_or(|e| e != [a, b] && e != [b, a]));
+        let mut made = Vec::new();
         for (i, [a, b]) in outline.into_iter().enumerate() {
             let number = gone.get(i).copied().unwrap_or_else(|| {
                 self.triangles.push([0; 3]);
@@ -344,7 +378,9 @@ impl Surface {
             });
             self.triangles[number as usize] = [a, b, vertex];
             self.numbers.insert(sorted([a, b, vertex]), number);
+            made.push(number);
         }
+        self.share(&gone, &made, at);
     }
 
     /// Of each triangle that has come since, the one of those before that it is a part of.
@@ -543,7 +579,7 @@ mod tests {
         let sheet = flat.sheet([2, 1, 0]).unwrap();
         assert_eq!(sheet.normal, Some(DVec3::Z));
         assert!(flat.is_in(&sheet, [3, 0, 2]) && !flat.is_in(&sheet, [3, 0, 1]));
-        flat.divide(&[[2, 1, 0], [0, 3, 2]], 4, None);
+        flat.divide(&[[2, 1, 0], [0, 3, 2]], 4, None, |_| DVec3::ZERO);
         // Two more, which all run as before.
         let all: Vec<[u32; 3]> = flat.triangles().to_vec();
         assert_eq!(all.len(), 4);
@@ -552,13 +588,13 @@ mod tests {
         }
         assert_eq!(flat.parents(), [0, 0]);
         // What is new is in the same patch, and parts of it are parts of the same.
-        flat.divide(&[all[3]], 5, None);
+        flat.divide(&[all[3]], 5, None, |_| DVec3::ZERO);
         assert_eq!(flat.parents(), [0; 4]);
         let [a, b, _] = all[3];
         assert!(flat.is_in(&sheet, [a, b, 5]) && !flat.is_in(&sheet, all[3]));
         // On an edge of the outline, it leaves that to both of its ends.
         let mut sides = surface(&square(OUTSIDE, 5), &[7, 7], &[]);
-        sides.divide(&[[0, 1, 2]], 4, Some([1, 0]));
+        sides.divide(&[[0, 1, 2]], 4, Some([1, 0]), |_| DVec3::ZERO);
         assert_eq!(sides.triangles(), [[1, 2, 4], [2, 3, 0], [2, 0, 4]]);
         assert_eq!(
             sides

@@ -266,6 +266,8 @@ fn on_sphere(template: &Template, holds: bool, feature: f64) -> Freedoms {
                 shape: Arc::new(Sphere { holds }),
                 patches: &vec![3; normals.len()],
                 feature,
+                points: &vec![Vec::new(); normals.len()],
+                scale: 1.0,
             }),
         },
     )

@@ -1,9 +1,10 @@
 //! What the surface of a template that was remeshed stands on.
 
+use crate::apart::apart;
 use crate::surface::same_size;
 use glam::DVec3;
-use improve::Shape;
-use remesh::Ground;
+use improve::{Point, Shape};
+use remesh::{Ground, Sample};
 use std::sync::Arc;
 use tmesh::Template;
 
@@ -14,30 +15,44 @@ pub struct Footing {
     pub ground: Arc<Ground>,
     /// Patch of each triangle, `u32::MAX` for those of flat faces.
     pub patches: Vec<u32>,
-    /// What volumes and areas are to stay, where nobody asked for a surface that is farther off than the input is off its symmetry.
-    pub size: Option<Size>,
-}
-
-/// The template as it was given, and how far its surface may be off it by what its volumes and areas say, model units.
-#[derive(Clone)]
-pub struct Size {
-    /// The template.
-    pub of: Arc<Template>,
-    /// At most so far, model units.
-    pub drift: f64,
+    /// Points of the input that each triangle is near to.
+    pub points: Vec<Vec<Point>>,
+    /// The template as it was given.
+    pub given: Arc<Template>,
+    /// How far its surface may be off that by what volumes and areas say, model units, where nobody asked for a surface that is farther off than the
+    /// input is off its symmetry.
+    pub drift: Option<f64>,
+    /// How far its surface may be off that by its envelope, model units, where only the document says so.
+    pub deviation: Option<f64>,
 }
 
 impl Footing {
     /// Whether what became of template number `index` has the size that it is to have.
     pub fn keeps_size(&self, index: usize, template: &Template) -> bool {
-        let kept = |size: &Size| same_size((&size.of, index), template, size.drift).is_ok();
-        self.size.as_ref().is_none_or(kept)
+        let given = (&*self.given, index);
+        self.drift
+            .is_none_or(|drift| same_size(given, template, drift).is_ok())
+    }
+
+    /// By how much a surface may be farther from the given one than the remeshed one is, model units: what is measured at some places, and what
+    /// the envelope leaves. n log n.
+    pub fn farther(&self, surface: &Template, remeshed: &Template) -> f64 {
+        let [there, here] = [surface, remeshed].map(|other| apart(&self.given, other));
+        (there.max(self.deviation.unwrap_or(0.0)) - here).max(0.0)
     }
 
     /// The shape for positions that are the template's times a power of two.
     pub fn shape(&self, scale: f64) -> Arc<dyn Shape> {
         let ground = self.ground.clone();
         Arc::new(Scaled { ground, scale })
+    }
+}
+
+/// A point of the input, as who improves elements takes it.
+pub fn point(sample: &Sample) -> Point {
+    Point {
+        at: sample.point,
+        reach: sample.reach,
     }
 }
 

@@ -1,10 +1,11 @@
 //! The surfaces of templates, remeshed within the deviation.
 
-use crate::footing::Footing;
+use crate::footing::{Footing, point};
 use crate::joined::{AXIS, Joined, Part};
 use glam::DVec3;
 use remesh::{Remeshed, Rules, Sizes, Told, remesh};
 use rustc_hash::FxHashMap;
+use std::sync::Arc;
 use tmesh::{Document, Gluing, Template, Triangle};
 
 /// What a template became.
@@ -149,12 +150,20 @@ fn smoothed(
         vertices: corners.map(|v| numbers.vertices[v as usize]),
         ..kind.like
     };
+    let is_of_part = |label: &u32| joined.kinds[*label as usize].part as usize == p;
     let patches = made.labels.iter().zip(&done.patches);
-    let patches = patches.filter(|(label, _)| joined.kinds[**label as usize].part as usize == p);
+    let patches = patches.filter(|(label, _)| is_of_part(label));
+    let samples = made.labels.iter().zip(&done.samples);
+    let samples = samples.filter(|(label, _)| is_of_part(label));
     let footing = done.ground.clone().map(|ground| Footing {
         ground,
         patches: patches.map(|(_, &patch)| patch).collect(),
-        size: None,
+        points: samples
+            .map(|(_, samples)| samples.iter().map(point).collect())
+            .collect(),
+        given: Arc::new(part.template.clone()),
+        drift: None,
+        deviation: None,
     });
     let new = |old: &[u32], number: &[u32]| -> Vec<u32> {
         let new = old.iter().map(|&n| number.get(n as usize));

@@ -1,7 +1,7 @@
 //! Surfaces that follow the shape behind the triangles of the input.
 
 use crate::apart::{apart, note_moved};
-use crate::footing::{Footing, Size};
+use crate::footing::Footing;
 use crate::joined::groups;
 use crate::needles::Needle;
 use crate::remeshed::{Remeshing, Smoothed, remeshed};
@@ -10,8 +10,7 @@ use geom::tolerance::Tolerance;
 use kit::tolerance;
 use mesher::{Error, Log, Params, Progress, Sizes, thickness};
 use remesh::Told;
-use std::sync::Arc;
-use tmesh::{Deviation, Document, Template};
+use tmesh::{Deviation, Document};
 
 /// What a deviation is multiplied by where it changes volumes by too much. A choice: what a deviation changes of them is at most
 /// proportional to it, so that a few steps of this size are enough, and none gives up much more than needed.
@@ -94,10 +93,12 @@ pub fn follow_shape(
                     followed.facts.push(fact);
                     for mut smoothed in all {
                         let (index, mut footing) = (smoothed.index, smoothed.footing.take());
-                        let of = Arc::new(take(document, &group, smoothed));
-                        if let (Some(footing), Some(drift)) = (&mut footing, attempt.drift) {
-                            footing.size = Some(Size { of, drift });
+                        if let Some(footing) = &mut footing {
+                            footing.drift = attempt.drift;
+                            let is_noted = attempt.drift.is_none() && is_auto;
+                            footing.deviation = is_noted.then_some(attempt.deviation);
                         }
+                        take(document, &group, smoothed);
                         followed.footings[index] = footing;
                     }
                     break;
@@ -259,10 +260,10 @@ fn named(group: &[usize]) -> String {
     }
 }
 
-/// Puts a template in its place, and renumbers what templates that are not in its group have of it; returns the one that was there.
-fn take(document: &mut Document, group: &[usize], smoothed: Smoothed) -> Template {
+/// Puts a template in its place, and renumbers what templates that are not in its group have of it.
+fn take(document: &mut Document, group: &[usize], smoothed: Smoothed) {
     let index = smoothed.index;
-    let before = std::mem::replace(&mut document.templates[index], smoothed.template);
+    document.templates[index] = smoothed.template;
     let others = document.templates.iter_mut().enumerate();
     for (other, template) in others.filter(|(other, _)| !group.contains(other)) {
         for gluing in &mut template.gluings {
@@ -277,5 +278,4 @@ fn take(document: &mut Document, group: &[usize], smoothed: Smoothed) -> Templat
             }
         }
     }
-    before
 }

@@ -14,6 +14,7 @@ mod shape;
 mod smooth;
 
 pub use input::{Link, MOST_LINKS, Rules, Sizes, Surface};
+pub use mesh::Sample;
 pub use passes::{Remeshed, Told, remesh};
 pub use shape::Ground;
 pub use smooth::{Drawing, Reading, Redrawn, Sheets, SmoothShape};

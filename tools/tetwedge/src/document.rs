@@ -75,7 +75,11 @@ fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (
             renumber(index, &mut template, &done).map_err(failed)?;
         }
         if done[index].is_off {
-            moved = moved.max(apart(&given[index], &template));
+            let footing = footings.get(index).and_then(Option::as_ref);
+            moved = moved.max(match footing {
+                Some(footing) => footing.farther(&template, &given[index]),
+                None => apart(&given[index], &template),
+            });
         }
         document.templates[index] = template;
     }

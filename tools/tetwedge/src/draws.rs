@@ -63,6 +63,11 @@ pub fn best_of_draws(
         ..climb.params.clone()
     };
     let sized = has_lengths(climb);
+    let count = draws(climb, filled.template.tets.len());
+    let may_keep = sized && may_keep(climb, &filled.template);
+    if count == 0 && !may_keep {
+        return (first, false);
+    }
     let enough = match sized {
         true => angle,
         false => strict.angle().unwrap_or(angle),
@@ -79,7 +84,7 @@ pub fn best_of_draws(
     };
     // Refinement to stricter bounds may not come to an end.
     let room = score(&first).room(filled.template.vertices.len(), enough);
-    let mut ways: Vec<(&Params, Attempt)> = (0..draws(climb, filled.template.tets.len()))
+    let mut ways: Vec<(&Params, Attempt)> = (0..count)
         .map(|draw| {
             let (params, asks) = match sized {
                 true => (climb.params, Asks::Eased(EASING)),
@@ -104,7 +109,7 @@ pub fn best_of_draws(
         (climb.params, attempt)
     };
     let usual = Asks::Eased(EASING);
-    let kept = may_keep(climb, &filled.template)
+    let kept = may_keep
         .then(|| fill(keeping(Attempt::new(usual))))
         .flatten()
         .filter(|kept| !score(kept).is_hopeless());
@@ -115,14 +120,14 @@ pub fn best_of_draws(
     let others: Vec<Option<Done>> = ways.into_par_iter().map(fill).collect();
     let others = kept.into_iter().chain(others.into_iter().flatten());
     let failed = first.failed;
-    let (mut best, mut count) = (first, 1);
+    let (mut best, mut made) = (first, 1);
     let mut is_another = false;
     for other in others {
         let is_better = match sized {
             true => score(&other).costs_less_than(&score(&best)),
             false => score(&other).is_better_than(&score(&best)),
         };
-        count += 1;
+        made += 1;
         if is_better {
             best = other;
             is_another = true;
@@ -130,7 +135,7 @@ pub fn best_of_draws(
     }
     if is_another {
         climb.log.detail(&format!(
-            "template {}: the best of {count} meshes has {} tetrahedra, none with an angle below {:.1} degrees",
+            "template {}: the best of {made} meshes has {} tetrahedra, none with an angle below {:.1} degrees",
             climb.piece.index,
             best.filled.template.tets.len(),
             score(&best).angle,

@@ -8,7 +8,7 @@ mod orbits;
 mod sharp;
 mod triangle;
 
-pub use change::Change;
+pub use change::{Change, Sample};
 pub use fit::UPRIGHT;
 pub use images::Images;
 pub use orbits::Orbit;
@@ -16,7 +16,6 @@ pub use triangle::quality;
 
 use crate::input::{Rules, Surface};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
-use change::Sample;
 use geom::flat::Plane;
 use geom::measure::double_area_vector;
 use geom::sets::DisjointSets;
@@ -179,6 +178,11 @@ impl<'a> Mesh<'a> {
             }
         }
         borders
+    }
+
+    /// Points of the input that a triangle is near to.
+    pub fn samples(&self, t: u32) -> &[Sample] {
+        &self.samples[t as usize]
     }
 
     /// The triangles around a vertex.

@@ -4,6 +4,7 @@ mod collapse;
 mod flip;
 mod relocate;
 mod remesh;
+mod ridges;
 mod rows;
 mod split;
 mod uncap;

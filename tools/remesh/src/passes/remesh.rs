@@ -3,12 +3,13 @@
 use super::collapse::collapse;
 use super::flip::flip;
 use super::relocate::relocate;
+use super::ridges::sample_folds;
 use super::rows::Rows;
 use super::split::split;
 use super::uncap::uncap;
 use super::worth::{DETAIL, FINE, GOOD, LONG, SHORT};
 use crate::input::{MOST_LINKS, Rules, Surface};
-use crate::mesh::{Mesh, NONE};
+use crate::mesh::{Mesh, NONE, Sample};
 use crate::shape::{Allowance, Curves, Envelope, Ground, Patches};
 use geom::contacts::contacts;
 use geom::measure::double_area_vector;
@@ -31,6 +32,8 @@ pub struct Remeshed {
     pub links: Vec<Vec<[u32; 2]>>,
     /// Patch of each triangle, `u32::MAX` for those of flat faces.
     pub patches: Vec<u32>,
+    /// Points of the input that each of these triangles is near to; none for those of flat faces.
+    pub samples: Vec<Vec<Sample>>,
     /// What these are patches of.
     pub ground: Option<Arc<Ground>>,
     /// What was done.
@@ -220,6 +223,7 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
         return None;
     }
     let mut remeshed = taken(surface, mesh, told);
+    sample_folds(&mut remeshed, (surface, rules), &patches, &allowance);
     remeshed.ground = Some(Arc::new(Ground::new(envelope)));
     Some((remeshed, cost))
 }
@@ -464,9 +468,12 @@ fn taken(surface: &Surface, mesh: Mesh<'_>, told: Told) -> Remeshed {
             remeshed.surface.triangles.push(corners);
             remeshed.surface.labels.push(label_of[&mesh.patch[t]]);
             let is_flat = mesh.planes[mesh.patch[t] as usize].is_some();
-            remeshed
-                .patches
-                .push(if is_flat { NONE } else { mesh.patch[t] });
+            let (patch, samples) = match is_flat {
+                true => (NONE, Vec::new()),
+                false => (mesh.patch[t], mesh.samples(t as u32).to_vec()),
+            };
+            remeshed.patches.push(patch);
+            remeshed.samples.push(samples);
         }
     }
     remeshed.links = (0..mesh.rules.links.len())

@@ -7,7 +7,7 @@ use super::orientations::orientations;
 use geom::flat::FACE_FOLD_SINE;
 use geom::measure::corners;
 use glam::DVec3;
-use improve::{Curved, Flats, Freedoms, Improved, NO_PATCH, Wish, improve};
+use improve::{Curved, Flats, Freedoms, Improved, NO_PATCH, Point, Wish, improve};
 use mesher::{Climb, Error, NO_FACE, Plc};
 use periodic_surf::{Footing, crosses_itself};
 use rustc_hash::FxHashSet;
@@ -30,12 +30,17 @@ pub fn finish(
     };
     let input = climb.piece.template;
     let patches = footing.map(|footing| patches(plc, footing));
+    let points = footing
+        .map(|footing| points(plc, footing))
+        .unwrap_or_default();
     let curved = footing
         .zip(patches.as_deref())
         .map(|(footing, patches)| Curved {
             shape: footing.shape(plc.scale),
             patches,
             feature: libm::cos(climb.piece.document.wishes.feature_angle().to_radians()),
+            points: &points,
+            scale: plc.scale,
         });
     let mut refined = None;
     if let Some((curved, footing)) = curved.zip(footing) {
@@ -94,6 +99,15 @@ fn patches(plc: &Plc, footing: &Footing) -> Vec<u32> {
     }
     let known = patches.into_iter();
     known.map(|patch| patch.unwrap_or(NO_PATCH)).collect()
+}
+
+/// The points of the shape that each facet is near to.
+fn points(plc: &Plc, footing: &Footing) -> Vec<Vec<Point>> {
+    let mut points = vec![Vec::new(); plc.facets.facets.len()];
+    for (&facet, near) in plc.facets.of_triangle.iter().zip(&footing.points) {
+        points[facet as usize].extend_from_slice(near);
+    }
+    points
 }
 
 /// Whether triangles that are curved are others, or elsewhere.
