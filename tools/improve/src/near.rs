@@ -79,3 +79,104 @@ pub fn are_near(points: &[Point], triangles: impl Iterator<Item = [DVec3; 3]> + 
         distances.any(|distance| distance <= point.reach)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{NO_PATCH, Shape};
+    use std::sync::Arc;
+    use tmesh::Triangle;
+
+    /// Nothing is asked of it.
+    struct Nothing;
+
+    impl Shape for Nothing {
+        fn nearest(&self, _: u32, _: DVec3) -> Option<(DVec3, DVec3)> {
+            None
+        }
+
+        fn holds(&self, _: u32, _: [DVec3; 3]) -> bool {
+            false
+        }
+    }
+
+    /// A square of two triangles in one facet, and another one in a facet of its own.
+    fn square() -> Template {
+        let vertices = [[0, 0], [1, 0], [1, 1], [0, 1], [2, 0]];
+        let vertices = vertices.map(|[x, y]| DVec3::new(f64::from(x), f64::from(y), 0.0));
+        let triangle = |vertices| Triangle {
+            vertices,
+            marker: 0,
+            front: 0,
+            back: 1,
+        };
+        Template {
+            vertices: vertices.to_vec(),
+            triangles: [[0, 1, 2], [0, 2, 3], [1, 4, 2]].map(triangle).to_vec(),
+            ..Template::default()
+        }
+    }
+
+    #[test]
+    fn points_are_with_the_nearest_triangle_of_their_facet() {
+        let point = |x: f64, y: f64| Point {
+            at: DVec3::new(x, y, 0.1),
+            reach: 0.2,
+        };
+        let points = [
+            vec![point(0.8, 0.2), point(0.2, 0.8), point(1.9, 0.0)],
+            Vec::new(),
+        ];
+        let template = square();
+        let curved = Curved {
+            shape: Arc::new(Nothing),
+            patches: &[0, NO_PATCH],
+            feature: 1.0,
+            points: &points,
+            scale: 4.0,
+        };
+        let mut near = Near::new(&template, &[0, 0, 1], &curved);
+        let at = |near: &Near, t: u32| -> Vec<DVec3> {
+            near.of(&[t]).iter().map(|p| p.at / 4.0).collect()
+        };
+        // Not with another facet's, though that is nearer.
+        assert_eq!(at(&near, 0), [points[0][0].at, points[0][2].at]);
+        assert_eq!(at(&near, 1), [points[0][1].at]);
+        assert_eq!(at(&near, 2), []);
+        assert!(near.of(&[0, 1, 2]).iter().all(|p| p.reach == 0.8));
+        // None is lost where triangles are divided, and new ones get theirs.
+        let taken = near.take(&[0, 1]);
+        assert_eq!((taken.len(), near.of(&[0, 1, 2, 9])), (3, Vec::new()));
+        let far = [DVec3::X, DVec3::Y, DVec3::Z].map(|d| 100.0 * d);
+        let corners = template.triangles[1]
+            .vertices
+            .map(|v| 4.0 * template.vertices[v as usize]);
+        near.give(taken, &[(0, far), (9, corners)]);
+        assert_eq!((near.of(&[0]).len(), near.of(&[9]).len()), (0, 3));
+    }
+
+    #[test]
+    fn points_are_near_to_one_triangle_at_least() {
+        let template = square();
+        let corners = |t: usize| {
+            template.triangles[t]
+                .vertices
+                .map(|v| template.vertices[v as usize])
+        };
+        let point = |x: f64, z: f64| Point {
+            at: DVec3::new(x, 0.1, z),
+            reach: 0.2,
+        };
+        let both = [corners(0), corners(2)];
+        assert!(are_near(
+            &[point(0.5, 0.19), point(1.5, -0.19)],
+            both.into_iter()
+        ));
+        assert!(!are_near(
+            &[point(0.5, 0.19), point(1.5, -0.21)],
+            both.into_iter()
+        ));
+        assert!(!are_near(&[point(1.5, 0.0)], [corners(0)].into_iter()));
+        assert!(are_near(&[], [corners(0)].into_iter()));
+    }
+}

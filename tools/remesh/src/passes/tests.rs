@@ -7,7 +7,7 @@ use crate::shape::{Allowance, Curves, Envelope, Patches};
 use crate::{Link, Remeshed, Rules, Sizes, Surface, remesh};
 use geom::contacts::contacts;
 use geom::measure::volume_of_region;
-use geom::tree::Tree;
+use geom::tree::{Tree, closest_point};
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
@@ -176,6 +176,33 @@ fn a_remeshed_surface_stands_on_the_patches_of_the_input() {
         let small = [a, b, c].map(|p| p * (1.0 - 2.0 * deviation));
         assert!(!ground.holds(patch, small));
     }
+}
+
+/// Who moves the surface further has points all along folds that are longer than edges are to be, as far off as they may be at most, or are.
+#[test]
+fn folds_that_are_long_have_points_all_along() {
+    let globe = globe(40, 4);
+    let held = vec![false; globe.points.len()];
+    let deviation = 0.02;
+    let made = sized(&globe, deviation, (&held, Some(0.2))).expect("long facets");
+    let triangles = made.surface.triangles.len() as u32;
+    assert_eq!(made.samples.len() as u32, triangles);
+    let on_meridian = |p: DVec3| p.y.abs() < 1e-12 && p.x > 0.0 && p.z > 0.01;
+    let mut heights = Vec::new();
+    for (t, samples) in (0..triangles).zip(&made.samples) {
+        let corners = made.surface.corners(t);
+        for sample in samples {
+            let off = closest_point(sample.point, &corners).distance(sample.point);
+            assert!(off <= sample.reach, "{off} {}", sample.reach);
+            heights.extend(on_meridian(sample.point).then_some(sample.point.z));
+        }
+    }
+    heights.sort_by(f64::total_cmp);
+    assert!(heights.len() > 12, "{heights:?}");
+    assert!(
+        heights.windows(2).all(|pair| pair[1] - pair[0] < 0.1),
+        "{heights:?}"
+    );
 }
 
 #[test]
