@@ -3,8 +3,8 @@
 //! An edge goes with the ring of tetrahedra around it, which is filled by the best triangulation
 //! of the ring (G. Klincsek, "Minimal triangulations of polygonal domains", 1980; J. Shewchuk, "Two
 //! discrete optimization algorithms for the topological improvement of tetrahedral meshes", 2002); the face
-//! between two tetrahedra goes for an edge. Around an edge inside of a flat facet or a seam, the
-//! ring is open, and there may be another one on the other side.
+//! between two tetrahedra goes for an edge. Around an edge inside of a flat facet, of what stands for a
+//! curved shape, or of a seam, the ring is open, and there may be another one on the other side.
 
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};

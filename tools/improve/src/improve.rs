@@ -73,7 +73,7 @@ pub struct Improved {
 ///
 /// At first elements past the radius-edge bound are worth little less than good ones, and they and slivers get vertices. What is still
 /// past a bound after that is worth any angle down to the smallest one asked for. From the start, that would spoil
-/// elements whose neighbours a vertex can mend. And at last as at first, for angles that are [`FURTHER`] away: what stands in the way of the
+/// elements whose neighbours a vertex can mend. And at last as at first, for angles that are `FURTHER` away: what stands in the way of the
 /// worst elements is often a neighbour that was good enough. What is worth a vertex is so by the angle asked for.
 pub fn improve(
     template: &mut Template,

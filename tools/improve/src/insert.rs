@@ -28,7 +28,8 @@ pub struct Insertion {
     at: DVec3,
     parts: Vec<Part>,
     least: f64,
-    /// Triangles of the surface that it divides, by patch, the edge that it is on, the patch of a curved shape that it is inside of, and what it may do there.
+    /// Triangles of the surface that it divides, by patch, the edge that it is on, the patch of a curved shape that it is inside
+    /// of, and what it may do there.
     divided: Vec<Vec<[u32; 3]>>,
     edge: Option<[u32; 2]>,
     patch: Option<u32>,

@@ -3,8 +3,8 @@
 //! The mesher sees a wedge with a surface that it must keep where copies meet, and cannot do there what it
 //! does inside. Here a seam is the inside that it is in the assembled mesh: the star of a vertex on it
 //! is what is at the vertex together with what is at its partner, turned back, and both move as one.
-//! Vertices on facets, walls and straight edges move along them, so shape and walls stay; those inside of what stands for a curved shape move along that, in
-//! its envelope; what is inside of a flat
+//! Vertices on facets, walls and straight edges move along them, so shape and walls stay; those inside of
+//! what stands for a curved shape move along that, in its envelope; what is inside of a flat
 //! facet, a wall or a seam is triangulated as the elements there want it. What templates share stays as it is.
 
 mod ahead;

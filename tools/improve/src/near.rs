@@ -1,6 +1,6 @@
 //! Points of a curved shape, and the triangles of the surface that they are near to.
 
-use crate::shape::{Curved, Point};
+use crate::shape::{Curved, NO_PATCH, Point};
 use geom::tree::closest_point;
 use glam::DVec3;
 use tmesh::Template;
@@ -11,12 +11,13 @@ use tmesh::Template;
 pub struct Near(Vec<Vec<Point>>);
 
 impl Near {
-    /// Gives the points of each facet to its triangles. A facet has few, so that all are looked at for each point.
+    /// Gives the points of each facet that stands for a patch to its triangles. Such a facet has few, so that all are looked at for each point; what
+    /// stands for none, may be of any size, and stays.
     pub fn new(template: &Template, of_triangle: &[u32], curved: &Curved<'_>) -> Self {
         let mut near = Self(vec![Vec::new(); template.triangles.len()]);
         let mut members: Vec<Vec<u32>> = vec![Vec::new(); curved.points.len()];
         for (t, &facet) in (0..).zip(of_triangle) {
-            if !curved.points[facet as usize].is_empty() {
+            if curved.patches[facet as usize] != NO_PATCH {
                 members[facet as usize].push(t);
             }
         }
@@ -83,7 +84,7 @@ pub fn are_near(points: &[Point], triangles: impl Iterator<Item = [DVec3; 3]> + 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::{NO_PATCH, Shape};
+    use crate::shape::Shape;
     use std::sync::Arc;
     use tmesh::Triangle;
 
@@ -125,7 +126,7 @@ mod tests {
         };
         let points = [
             vec![point(0.8, 0.2), point(0.2, 0.8), point(1.9, 0.0)],
-            Vec::new(),
+            vec![point(1.5, 0.2)],
         ];
         let template = square();
         let curved = Curved {
@@ -139,7 +140,7 @@ mod tests {
         let at = |near: &Near, t: u32| -> Vec<DVec3> {
             near.of(&[t]).iter().map(|p| p.at / 4.0).collect()
         };
-        // Not with another facet's, though that is nearer.
+        // Not with another facet's, though that is nearer, and none where there is no patch.
         assert_eq!(at(&near, 0), [points[0][0].at, points[0][2].at]);
         assert_eq!(at(&near, 1), [points[0][1].at]);
         assert_eq!(at(&near, 2), []);

@@ -5,6 +5,7 @@
 //! have the other diagonal of the quadrilateral that they are (J. Shewchuk, "Two discrete optimization algorithms for the
 //! topological improvement of tetrahedral meshes", 2002). Where there is material on the other side, the ring is closed there.
 //! Where there is none, a vertex may be put into triangles of a facet, which it divides.
+//! What stands for a curved shape has other triangles where that allows it, and keeps near to its points ([`Near`]).
 
 use crate::flats::Flats;
 use crate::near::Near;

@@ -41,7 +41,8 @@ impl Params {
         }
     }
 
-    /// The smallest dihedral angle that improvement is to reach, degrees: that beside the largest one, and the one asked for at least. `None` where elements stay as the mesher makes them.
+    /// The smallest dihedral angle that improvement is to reach, degrees: that beside the largest one, and the one asked for at
+    /// least. `None` where elements stay as the mesher makes them.
     pub fn angle(&self) -> Option<f64> {
         let largest = self.optimize.filter(|_| self.quality)?;
         Some(Wishes::smallest_beside(largest).max(self.min_dihedral))
