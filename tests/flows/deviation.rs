@@ -713,6 +713,60 @@ fn barrel(with_needles: bool) -> Vec<u8> {
     (text + "endsolid barrel\n").into_bytes()
 }
 
+/// A square post of half width 1 and height 3 with rounded edges of so many strips each, drawn with coordinates that are exactly symmetric.
+fn rounded_post(radius: f64, strips: u32) -> Vec<u8> {
+    let step = std::f64::consts::FRAC_PI_2 / f64::from(strips);
+    let rim = |z: f64| -> Vec<DVec3> {
+        let quarters = (0..4).flat_map(|turns| (0..=strips).map(move |k| (turns, k)));
+        let points = quarters.map(|(turns, k)| {
+            let (sin, cos) = (step * f64::from(k)).sin_cos();
+            let p = [1.0 - radius + radius * cos, 1.0 - radius + radius * sin];
+            let [x, y] = (0..turns).fold(p, |[x, y], _| [-y, x]);
+            DVec3::new(x, y, z)
+        });
+        points.collect()
+    };
+    written(&[rim(-1.5), rim(1.5)], 1.0)
+}
+
+/// Narrow strips of rounded edges are what the file says of them, not the shape: where they would be most of the mesh, they go, even if
+/// every copy of them is exact.
+#[test]
+fn exact_drawings_of_narrow_strips_follow_the_shape() {
+    let meshed = |post: &[u8], options: &[&str]| {
+        let found = run("symdetect", &["-q"], post).success();
+        let cut = run("wedgecut", &[&["-q"], options].concat(), &found).success();
+        let filled = run("tetwedge", &["-q"], &cut).success();
+        let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+        let checked = run("meshqual", &["-q", "--check", "--json", "-"], &whole).success();
+        let quality: Value = serde_json::from_slice(&checked).expect("JSON");
+        let tetrahedra = quality["tetrahedra"].as_u64().expect("a number");
+        (read(&cut), read(&filled), tetrahedra)
+    };
+    let narrow = rounded_post(0.06, 16);
+    let (cut, filled, count) = meshed(&narrow, &[]);
+    let (_, _, kept) = meshed(&narrow, &["--deviation", "0"]);
+    assert!(kept > 2 * count, "{kept} {count}");
+    let symmetry = cut.symmetry.as_ref().expect("a symmetry");
+    let allowed = symmetry.tolerance * symmetry.radius;
+    let [old, new] = [&cut, &filled].map(|document| outer(&document.templates[0]));
+    let distances = [farthest(&new, &old), farthest(&old, &new)];
+    assert!(
+        distances.iter().all(|d| *d <= allowed) && distances[0] > 0.0,
+        "{distances:?} {allowed}"
+    );
+
+    // Wide strips stay, and so do narrow ones of a wedge that takes several steps of the symmetry.
+    for (post, options) in [
+        (rounded_post(0.3, 4), vec![]),
+        (narrow, vec!["--order", "2"]),
+    ] {
+        let (_, auto, _) = meshed(&post, &options);
+        let (_, kept, _) = meshed(&post, &[&options[..], &["--deviation", "0"]].concat());
+        assert_eq!(auto.templates, kept.templates);
+    }
+}
+
 #[test]
 fn exact_bodies_are_remeshed_for_their_needles_only() {
     let quality = |stl: &[u8], deviation: &str| {

@@ -51,7 +51,7 @@ pub fn follow_shape(
         return Ok(followed);
     }
     let within = match exact {
-        true => for_needles(document, &tolerance).into_iter().collect(),
+        true => for_drawing(document, &tolerance).into_iter().collect(),
         false => attempts(document, &tolerance, deviation),
     };
     if within.is_empty() && !document.moves_for_lengths() {
@@ -185,10 +185,15 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
     }
 }
 
-/// What is tried where the input has its symmetry exactly, but needles that no mesh of good elements can have: its copies were
-/// copied, and say nothing of how well it was drawn. As far as without a symmetry, then.
-fn for_needles(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
+/// What is tried where the input has its symmetry exactly, but is drawn with facets that cost more than the shape does: its copies were
+/// copied, and say nothing of how well it was drawn. As far as without a symmetry, then. All of it where there are needles that no mesh of good elements
+/// can have; otherwise where narrow facets are most of what it costs, and none are there because of the symmetry, as those of a
+/// wedge that takes several steps of it are.
+fn for_drawing(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
     let found = document.symmetry.as_ref()?;
+    if document.wishes.deviation() != Deviation::Auto {
+        return None;
+    }
     let deviation = found.tolerance * tolerance.extent().radius;
     let needle = Needle {
         narrow: deviation,
@@ -196,12 +201,17 @@ fn for_needles(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
         flat: tolerance.flat(),
     };
     let mut templates = 0..document.templates.len();
-    let is_wanted = document.wishes.deviation() == Deviation::Auto;
-    (is_wanted && templates.any(|t| needle.is_in(document, t))).then(|| Attempt {
+    let has_needles = templates.any(|t| needle.is_in(document, t));
+    let turns = document.instances.iter().filter(|i| {
+        let placed = i.isometry;
+        i.template == 0 && !placed.mirrored() && !placed.flipped()
+    });
+    let is_one_step = turns.count() == found.group.order as usize;
+    (has_needles || is_one_step).then(|| Attempt {
         deviation,
         noise: tolerance.equal(),
         drift: None,
-        exact: false,
+        exact: !has_needles,
     })
 }
 

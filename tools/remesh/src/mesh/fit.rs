@@ -140,6 +140,28 @@ impl Mesh<'_> {
         })
     }
 
+    /// The cosine of the angle between a triangle and the shape of its patch; `None` where that has no direction.
+    fn uprightness(&self, [a, b, c]: [DVec3; 3], patch: u32) -> Option<f64> {
+        let normal = self.envelope.at(patch, (a + b + c) / 3.0)?.0;
+        Some(double_area_vector(a, b, c).normalize_or_zero().dot(normal))
+    }
+
+    /// The cosine that triangles of a patch have to be above which a change leaves though they are not upright: that of the worst of those that go,
+    /// where a vertex inside of a patch does. Needles narrower than the surface may be off its shape lean as they like, and what
+    /// takes the place of some may lean as well; a curve that moves with them would fold what is beyond it.
+    fn least_upright(&self, change: &Change, patch: u32) -> f64 {
+        if change.new.len() >= change.gone.len() || !change.chords_gone.is_empty() {
+            return UPRIGHT;
+        }
+        let gone = change.gone.iter().map(|&t| t as usize);
+        let of_patch = gone.filter(|&t| self.patch[t] == patch);
+        let upright = of_patch.filter_map(|t| {
+            let corners = self.triangles[t].map(|v| self.before(change, v));
+            self.uprightness(corners, patch)
+        });
+        upright.fold(UPRIGHT, f64::min).max(0.0)
+    }
+
     /// Where a vertex was before a change.
     pub fn before(&self, change: &Change, v: u32) -> DVec3 {
         match change.moved {
@@ -184,9 +206,8 @@ impl Mesh<'_> {
                     && plane.off([a, b, c]) <= self.off[patch as usize]
             }
             None => {
-                let middle = (a + b + c) / 3.0;
-                let normal = self.envelope.at(patch, middle).map(|at| at.0);
-                normal.is_some_and(|n| vector.dot(n) >= UPRIGHT * area)
+                let upright = self.uprightness([a, b, c], patch);
+                upright.is_some_and(|u| u >= UPRIGHT || u > self.least_upright(change, patch))
                     || self.faces_as_before(change, vector, patch)
             }
         };

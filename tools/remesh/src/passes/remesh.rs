@@ -75,6 +75,9 @@ const SETTLING: usize = 2;
 /// is 14.4 to 21 degrees, with two 16.6 to 24 for 2 % more elements over all parts tried; with four, an impeller whose blades end in strips of
 /// a thousandth of its radius gets 3.5 times as many.
 const HALVINGS: usize = 2;
+/// What narrow facets may cost at most, next to what they do as they are drawn, where the drawing is given up for it though it is
+/// exact: half, so that most of the elements would be there for its sake.
+const WORTH: f64 = 0.5;
 /// Attempts at a surface without self-intersections, each with more around those of the one before left as it was.
 const ATTEMPTS: u32 = 4;
 
@@ -165,6 +168,7 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     if rules.exact && !fine(&mesh).contains(&true) {
         return None;
     }
+    let drawn = triangles_wanted(&mesh);
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
     let none = vec![false; patches.planes.len()];
     told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL], Rows::unknown());
@@ -219,6 +223,9 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     told.flipped += flip_all(&mut mesh, &active);
     told.joined = mesh.joined;
     let cost = slenderness(&mesh);
+    if rules.exact && !is_sized && triangles_wanted(&mesh) > WORTH * drawn {
+        return None;
+    }
     if told.is_nothing() {
         return None;
     }
@@ -241,6 +248,19 @@ fn corners_of_facets(mesh: &Mesh<'_>, facets: &[u32]) -> FxHashMap<(u32, u32), f
         }
     }
     angles
+}
+
+/// About how many triangles as wide as long the curved patches take: as many as are as high as each of theirs, along its longest side.
+fn triangles_wanted(mesh: &Mesh<'_>) -> f64 {
+    let there = (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32));
+    let curved = there.filter(|&t| mesh.planes[mesh.patch[t] as usize].is_none());
+    let each = curved.map(|t| {
+        let [a, b, c] = mesh.triangles[t].map(|v| mesh.points[v as usize]);
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let height = double_area_vector(a, b, c).length() / longest;
+        0.75_f64.sqrt() * longest / height
+    });
+    each.sum()
 }
 
 /// What narrow facets cost: elements as wide as they are, along all of their borders. The sum over all facets of the square

@@ -1,5 +1,6 @@
 //! Surfaces that are remeshed, without any document.
 
+use super::collapse::collapse;
 use super::remesh::slenderness;
 use super::split::split;
 use crate::mesh::Mesh;
@@ -649,6 +650,63 @@ fn half_cylinder(strips: u32) -> Surface {
     add([low(0), high(0), low(strips)], 3);
     add([low(strips), high(0), high(strips)], 3);
     surface
+}
+
+/// What is drawn exactly is given up where strips are far longer than wide, so that they would be most of the mesh, and not where they are
+/// about as long as wide, or as wide as edges are wanted.
+#[test]
+fn an_exact_drawing_is_given_up_where_its_strips_cost_more_than_the_shape() {
+    let done = |strips: u32, longer: f64| {
+        let mut surface = half_cylinder(strips);
+        surface.points.iter_mut().for_each(|p| p.z *= longer);
+        let none = vec![false; surface.points.len()];
+        let bound = vec![0; surface.points.len()];
+        let rules = Rules {
+            noise: 1e-9,
+            exact: true,
+            ..rules(0.02, (&none, &[]), (&bound, &[]))
+        };
+        remesh(&surface, &rules)
+    };
+    assert!(done(64, 4.0).is_some());
+    assert!(done(64, 0.05).is_none());
+    assert!(done(8, 4.0).is_none());
+}
+
+/// Needles that lean, because their vertices are off the shape by as much as they are wide, go one by one: what takes their place leans as well.
+#[test]
+fn needles_that_lean_go_though_others_like_them_stay() {
+    let columns = [-1.0, 0.0, 0.01, 1.0];
+    let points = columns
+        .into_iter()
+        .flat_map(|x: f64| [0.0, 1.0, 2.0].map(|y| DVec3::new(x, y, 0.05 * x * x + 0.01 * y * x)));
+    let quads = (0..3).flat_map(|i| [0, 1].map(|j| 3 * i + j));
+    let surface = Surface {
+        points: points.collect(),
+        triangles: quads
+            .flat_map(|v| [[v, v + 3, v + 4], [v, v + 4, v + 1]])
+            .collect(),
+        labels: vec![0; 12],
+    };
+    let bound = vec![0; surface.points.len()];
+    let held = vec![false; surface.points.len()];
+    let rules = rules(0.05, (&held, &[]), (&bound, &[]));
+    let patches = Patches::new(&surface, &rules);
+    assert_eq!(patches.planes, [None]);
+    let curves = Curves::new(&surface, &rules, &patches);
+    let allowance = Allowance::new(&surface, &rules, &patches, &curves);
+    let envelope = Envelope::new(&surface, &patches, &curves, &allowance);
+    let mut mesh = Mesh::new(
+        &surface,
+        rules,
+        (&patches, &curves),
+        (&envelope, &allowance),
+    );
+    // The middle of the second column of two that are next to each other; its ends, which are on the border, are less far off.
+    for (v, off) in [(6, 0.012), (7, 0.016), (8, 0.012)] {
+        mesh.points[v].z += off;
+    }
+    assert!(collapse(&mut mesh, [7, 4], false));
 }
 
 #[test]
