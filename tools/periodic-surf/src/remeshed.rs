@@ -32,7 +32,7 @@ pub struct Remeshing<'a> {
     pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
     pub flat: f64,
-    /// Whether all facets stay, unless some are far finer than the edges asked for.
+    /// Whether all facets stay, unless some are far finer than the edges asked for, or cost more than the shape does.
     pub exact: bool,
     /// How long edges are to be.
     pub sizes: &'a mesher::Sizes,

@@ -29,7 +29,7 @@ pub struct Followed {
 }
 
 /// Remeshes the surfaces of all templates within the deviation that the wishes allow. Where the input is as symmetric as its coordinates can be and no deviation is asked for, nothing changes but templates
-/// that are drawn far finer than edges are asked for, or all of them where there are needles. Where the deviation is left to the length of edges that is asked for, or to
+/// that are drawn far finer than edges are asked for, or in strips that cost far more than the shape does, or all of them where there are needles. Where the deviation is left to the length of edges that is asked for, or to
 /// the tolerance of a body without symmetry, the document's wishes say afterwards how far surfaces have moved.
 ///
 /// # Errors
@@ -126,7 +126,7 @@ struct Attempt {
     noise: f64,
     /// Volumes and areas stay what they are within what comes of a surface that is off by this, model units.
     drift: Option<f64>,
-    /// Whether all facets stay, unless some are far finer than the edges asked for.
+    /// Whether all facets stay, unless some are far finer than the edges asked for, or cost more than the shape does.
     exact: bool,
 }
 

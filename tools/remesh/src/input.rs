@@ -62,7 +62,8 @@ pub struct Rules<'a> {
     /// The smallest angle asked of elements, radians: no change leaves triangles that meet at an edge in a smaller one where there was none, as no
     /// element at the edge has a larger one, and no vertex is moved so that a corner of a facet gets sharper than that.
     pub sharp: f64,
-    /// Whether all stays as it is drawn, unless some facets of curved patches are detail beside the edges asked for.
+    /// Whether all stays as it is drawn, unless some facets of curved patches are detail beside the edges wanted, and, where no lengths are
+    /// asked for, curved patches take less than half the triangles then.
     pub exact: bool,
     /// How long edges are to be.
     pub sizes: Sizes<'a>,
