@@ -729,7 +729,7 @@ fn rounded_post(radius: f64, strips: u32) -> Vec<u8> {
     written(&[rim(-1.5), rim(1.5)], 1.0)
 }
 
-/// Narrow strips of rounded edges are what the file says of them, not the shape: where they would be most of the mesh, they go, even if
+/// Narrow strips of rounded edges are what the file says of them, not the shape: where they cost far more than it, they go, even if
 /// every copy of them is exact.
 #[test]
 fn exact_drawings_of_narrow_strips_follow_the_shape() {
@@ -743,10 +743,10 @@ fn exact_drawings_of_narrow_strips_follow_the_shape() {
         let tetrahedra = quality["tetrahedra"].as_u64().expect("a number");
         (read(&cut), read(&filled), tetrahedra)
     };
-    let narrow = rounded_post(0.06, 16);
+    let narrow = rounded_post(0.06, 32);
     let (cut, filled, count) = meshed(&narrow, &[]);
     let (_, _, kept) = meshed(&narrow, &["--deviation", "0"]);
-    assert!(kept > 2 * count, "{kept} {count}");
+    assert!(kept > 4 * count, "{kept} {count}");
     let symmetry = cut.symmetry.as_ref().expect("a symmetry");
     let allowed = symmetry.tolerance * symmetry.radius;
     let [old, new] = [&cut, &filled].map(|document| outer(&document.templates[0]));

@@ -187,7 +187,7 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
 
 /// What is tried where the input has its symmetry exactly, but is drawn with facets that cost more than the shape does: its copies were
 /// copied, and say nothing of how well it was drawn. As far as without a symmetry, then. All of it where there are needles that no mesh of good elements
-/// can have; otherwise where narrow facets are most of what it costs, and none are there because of the symmetry, as those of a
+/// can have; otherwise where narrow facets are nearly all of what it costs, and none are there because of the symmetry, as those of a
 /// wedge that takes several steps of it are.
 fn for_drawing(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
     let found = document.symmetry.as_ref()?;
