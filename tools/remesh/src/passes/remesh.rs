@@ -169,12 +169,13 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     if rules.exact && !fine(&mesh).contains(&true) {
         return None;
     }
-    let drawn = triangles_wanted(&mesh);
+    let is_sized = rules.sizes.are_asked();
+    // Of what is drawn exactly, and asked for no lengths.
+    let drawn = (rules.exact && !is_sized).then(|| triangles_wanted(&mesh));
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
     let none = vec![false; patches.planes.len()];
     told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL], Rows::unknown());
     told.flipped += uncap_all(&mut mesh);
-    let is_sized = rules.sizes.are_asked();
     let rows = |mesh: &Mesh<'_>| match is_sized {
         true => Rows::new(mesh),
         false => Rows::unknown(),
@@ -223,13 +224,10 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     }
     told.flipped += flip_all(&mut mesh, &active);
     told.joined = mesh.joined;
+    if told.is_nothing() || drawn.is_some_and(|drawn| triangles_wanted(&mesh) > WORTH * drawn) {
+        return None;
+    }
     let cost = slenderness(&mesh);
-    if rules.exact && !is_sized && triangles_wanted(&mesh) > WORTH * drawn {
-        return None;
-    }
-    if told.is_nothing() {
-        return None;
-    }
     let mut remeshed = taken(surface, mesh, told);
     sample_folds(&mut remeshed, (surface, rules), &patches, &allowance);
     remeshed.ground = Some(Arc::new(Ground::new(envelope)));

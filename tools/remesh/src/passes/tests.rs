@@ -107,6 +107,20 @@ fn linked(
     )
 }
 
+/// What `look` finds in the mesh of a surface that nothing has been done to.
+fn with_mesh<T>(surface: &Surface, rules: Rules<'_>, look: impl FnOnce(&mut Mesh<'_>) -> T) -> T {
+    let patches = Patches::new(surface, &rules);
+    let curves = Curves::new(surface, &rules, &patches);
+    let allowance = Allowance::new(surface, &rules, &patches, &curves);
+    let envelope = Envelope::new(surface, &patches, &curves, &allowance);
+    look(&mut Mesh::new(
+        surface,
+        rules,
+        (&patches, &curves),
+        (&envelope, &allowance),
+    ))
+}
+
 /// The largest distance of points of one surface from another.
 fn farthest(from: &Surface, to: &Surface) -> f64 {
     let all = |s: &Surface| -> Vec<[DVec3; 3]> {
@@ -601,20 +615,12 @@ fn needles_that_do_not_face_as_the_shape_are_halved() {
         feature: -1.0,
         ..rules(0.05, (&held, &[]), (&bound, &[]))
     };
-    let patches = Patches::new(&surface, &rules);
-    assert_eq!(patches.planes.len(), 1);
-    let curves = Curves::new(&surface, &rules, &patches);
-    let allowance = Allowance::new(&surface, &rules, &patches, &curves);
-    let envelope = Envelope::new(&surface, &patches, &curves, &allowance);
-    let mut mesh = Mesh::new(
-        &surface,
-        rules,
-        (&patches, &curves),
-        (&envelope, &allowance),
-    );
-    // The diagonal of the step, between its two needles.
-    assert!(split(&mut mesh, [2, 5]));
-    assert_eq!(mesh.at_edge(2, 5), []);
+    with_mesh(&surface, rules, |mesh| {
+        assert_eq!(mesh.planes.len(), 1);
+        // The diagonal of the step, between its two needles.
+        assert!(split(mesh, [2, 5]));
+        assert_eq!(mesh.at_edge(2, 5), []);
+    });
 }
 
 /// Half a cylinder of strips, a power of two, whose ends are drawn with ears cut off their rims, and off what is left, and so on.
@@ -652,7 +658,7 @@ fn half_cylinder(strips: u32) -> Surface {
     surface
 }
 
-/// What is drawn exactly is given up where strips are far longer than wide, so that they would be most of the mesh, and not where they are
+/// What is drawn exactly is given up where strips are far longer than wide, so that they would be nearly all of the mesh, and not where they are
 /// about as long as wide, or as wide as edges are wanted.
 #[test]
 fn an_exact_drawing_is_given_up_where_its_strips_cost_more_than_the_shape() {
@@ -691,22 +697,14 @@ fn needles_that_lean_go_though_others_like_them_stay() {
     let bound = vec![0; surface.points.len()];
     let held = vec![false; surface.points.len()];
     let rules = rules(0.05, (&held, &[]), (&bound, &[]));
-    let patches = Patches::new(&surface, &rules);
-    assert_eq!(patches.planes, [None]);
-    let curves = Curves::new(&surface, &rules, &patches);
-    let allowance = Allowance::new(&surface, &rules, &patches, &curves);
-    let envelope = Envelope::new(&surface, &patches, &curves, &allowance);
-    let mut mesh = Mesh::new(
-        &surface,
-        rules,
-        (&patches, &curves),
-        (&envelope, &allowance),
-    );
-    // The middle of the second column of two that are next to each other; its ends, which are on the border, are less far off.
-    for (v, off) in [(6, 0.012), (7, 0.016), (8, 0.012)] {
-        mesh.points[v].z += off;
-    }
-    assert!(collapse(&mut mesh, [7, 4], false));
+    with_mesh(&surface, rules, |mesh| {
+        assert_eq!(mesh.planes, [None]);
+        // The middle of the second column of two that are next to each other; its ends, which are on the border, are less far off.
+        for (v, off) in [(6, 0.012), (7, 0.016), (8, 0.012)] {
+            mesh.points[v].z += off;
+        }
+        assert!(collapse(mesh, [7, 4], false));
+    });
 }
 
 #[test]
@@ -840,16 +838,7 @@ fn a_facet_that_is_narrow_only_at_its_end_costs_more_than_a_strip() {
         let held = vec![false; surface.points.len()];
         let bound = vec![0; surface.points.len()];
         let rules = rules(1e-3, (&held, &[]), (&bound, &[]));
-        let patches = Patches::new(&surface, &rules);
-        let curves = Curves::new(&surface, &rules, &patches);
-        let allowance = Allowance::new(&surface, &rules, &patches, &curves);
-        let envelope = Envelope::new(&surface, &patches, &curves, &allowance);
-        slenderness(&Mesh::new(
-            &surface,
-            rules,
-            (&patches, &curves),
-            (&envelope, &allowance),
-        ))
+        with_mesh(&surface, rules, |mesh| slenderness(mesh))
     };
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     // As large, and as long around.
