@@ -21,6 +21,10 @@ const LEAST: f64 = 5e4;
 /// for heaps, a larger one lets heaps grow.
 const FAR: f64 = 20.0;
 
+/// Points that TetGen takes for one, in the mesher's unit (the diagonal is from 1 to 2): its tolerance, switch `T`, which is not
+/// set. Refinement that comes as near has not ended by itself, and what it leaves has no interior to speak of.
+const RESOLUTION: f64 = 1e-8;
+
 /// Points that may be added to a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Room(f64);
@@ -65,19 +69,19 @@ impl Room {
         self.0.min(f64::from(i32::MAX))
     }
 
-    /// How the attempt ended, if it used all points.
+    /// How the attempt ended, if it used all points, or was stopped by nothing but the mesher's resolution.
     pub fn ending(self, plc: &Plc, mesh: &dyn Elements) -> Option<Ending> {
         let added = mesh.points().len().saturating_sub(plc.points.len());
-        if (added as f64) < self.most() {
+        let used_all = added as f64 >= self.most();
+        let of_mesh = shortest(mesh.points(), mesh.tetrahedra());
+        if !used_all && of_mesh > FAR * RESOLUTION {
             return None;
         }
-        let of_surface = shortest(&plc.points, &plc.triangles);
-        let heaped = FAR * shortest(mesh.points(), mesh.tetrahedra()) < of_surface;
-        Some(if heaped {
-            Ending::Heaped
+        if FAR * of_mesh < shortest(&plc.points, &plc.triangles) {
+            Some(Ending::Heaped)
         } else {
-            Ending::Large
-        })
+            used_all.then_some(Ending::Large)
+        }
     }
 }
 

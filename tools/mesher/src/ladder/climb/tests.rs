@@ -9,6 +9,8 @@ struct Scripted {
     endings: Vec<FailureKind>,
     /// The step in which it fails.
     step: &'static str,
+    /// How far a point is from the first one that it adds, in the mesher's unit.
+    adds: Option<f64>,
     asked: Mutex<Vec<(Task, Vec<u32>)>>,
 }
 
@@ -17,6 +19,7 @@ impl Scripted {
         Self {
             endings: endings.to_vec(),
             step: "Refining mesh",
+            adds: None,
             asked: Mutex::default(),
         }
     }
@@ -37,7 +40,14 @@ impl Mesher for Scripted {
                 what: format!("run {run} failed"),
                 step: self.step.to_owned(),
             }),
-            None => Ok(Box::new(One(plc.points.clone()))),
+            None => {
+                let mut points = plc.points.clone();
+                if let Some(near) = self.adds {
+                    let [x, y, z] = points[0];
+                    points.insert(1, [x + near, y, z]);
+                }
+                Ok(Box::new(One(points)))
+            }
         }
     }
 
@@ -135,6 +145,23 @@ fn the_first_mesh_as_asked_for_is_taken() {
     let asked = mesher.asked.lock().unwrap();
     let [radius_edge, angle] = asked[0].0.bounds.unwrap();
     assert!((radius_edge - 1.54).abs() < 1e-12 && angle == 5.0);
+}
+
+#[test]
+fn points_that_come_as_near_as_the_mesher_can_tell_are_a_heap() {
+    let bounds = |near: f64| -> Vec<[f64; 2]> {
+        let mesher = Scripted {
+            adds: Some(near),
+            ..Scripted::new(&[])
+        };
+        climb(&mesher, &LADDER, None).unwrap();
+        let asked = mesher.asked.into_inner().unwrap();
+        asked.iter().map(|(task, _)| task.bounds.unwrap()).collect()
+    };
+    // Looser bounds, then a limit of points, then it is taken.
+    let asked = bounds(1e-8);
+    assert_eq!((asked.len(), &asked[1..]), (3, &[[2.0, 0.0]; 2][..]));
+    assert_eq!(bounds(1e-6).len(), 1);
 }
 
 #[test]
