@@ -514,6 +514,31 @@ fn thin_walls_get_the_edges_asked_for() {
     }
 }
 
+/// As many elements come of any drawing of a tube with a wall as thin as edges are to be long. Flat faces that were fans of needles, as
+/// mirror planes are once their outlines have other vertices, got several times as many, as what is filled with its surface kept has to
+/// have all of them.
+#[test]
+fn drawings_of_a_thin_wall_get_as_many_elements() {
+    let made = [64, 142, 201, 449].map(|corners| {
+        let circle = |radius: f64| Circle {
+            radius,
+            corners,
+            phase: 0.0,
+        };
+        let facets = tube(circle(0.8), circle(1.0), [-2.0, 2.0]);
+        let found = run("symdetect", &["-q"], &binary_stl(b"tube", &facets)).success();
+        let options = ["-q", "--edge-length", "0.24", "--segments-per-turn", "6"];
+        let cut = run("wedgecut", &options, &found).success();
+        let filled = run("tetwedge", &["-q"], &cut).success();
+        let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+        run("meshqual", &["-q", "--check"], &whole).success();
+        assert!(first_percentile(&whole) > 25.0, "{corners}");
+        read(&whole).templates[0].tets.len()
+    });
+    let [least, most] = [made.iter().min(), made.iter().max()].map(|n| *n.expect("some") as f64);
+    assert!(most < 1.3 * least, "{made:?}");
+}
+
 /// The order is chosen for the edges that are asked for: narrow wedges of a fine drawing would ask for shorter ones.
 #[test]
 fn fine_drawings_are_cut_as_coarse_ones_where_edges_are_asked_for() {

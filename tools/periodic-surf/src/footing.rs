@@ -34,6 +34,18 @@ impl Footing {
             .is_none_or(|drift| same_size(given, template, drift).is_ok())
     }
 
+    /// That of a surface with other triangles, each of which is a part of the given one: the first as many are in the place of those that were
+    /// there.
+    pub fn with_parts(&self, parents: &[u32]) -> Self {
+        let mut points = self.points.clone();
+        points.resize(parents.len(), Vec::new());
+        Self {
+            patches: parents.iter().map(|&t| self.patches[t as usize]).collect(),
+            points,
+            ..self.clone()
+        }
+    }
+
     /// By how much a surface may be farther from the given one than the remeshed one is, model units: what is measured at some places, and what
     /// the envelope leaves. n log n.
     pub fn farther(&self, surface: &Template, remeshed: &Template) -> f64 {

@@ -1,9 +1,10 @@
 //! Templates of few elements are filled several times, and the best is taken.
 
 use crate::done::Done;
-use crate::kept::may_keep;
+use crate::kept::{lengths, to_keep};
 use crate::score::Score;
-use mesher::{Asks, Attempt, Climb, Description, EASING, Kept, Log, Order, Params};
+use mesher::{Asks, Attempt, Climb, Description, EASING, Kept, Log, Order, Params, Piece};
+use periodic_surf::Footing;
 use rayon::prelude::*;
 
 /// Up to so many elements the first percentile of the angles is the smallest one, which is that of a single element and a matter of
@@ -48,9 +49,9 @@ pub fn has_lengths(climb: &Climb<'_>) -> bool {
 /// Where edges have a length that was asked for, angles beyond those of good elements are no reason for shorter ones, and all draws
 /// have the usual bounds; some have no vertices added to their surface where that may bring longer edges.
 pub fn best_of_draws(
-    climb: &Climb<'_>,
+    (climb, footing): (&Climb<'_>, Option<&Footing>),
     first: Done,
-    again: impl Fn(&Climb<'_>, Attempt) -> Option<Done> + Sync,
+    again: impl Fn(&Climb<'_>, Option<&Footing>, Attempt) -> Option<Done> + Sync,
 ) -> (Done, bool) {
     let filled = &first.filled;
     let is_as_asked =
@@ -64,23 +65,40 @@ pub fn best_of_draws(
     };
     let sized = has_lengths(climb);
     let count = draws(climb, filled.template.tets.len());
-    let may_keep = sized && may_keep(climb, &filled.template);
-    if count == 0 && !may_keep {
+    let to_keep = sized.then(|| to_keep(climb, &filled.template)).flatten();
+    if count == 0 && to_keep.is_none() {
         return (first, false);
     }
     let enough = match sized {
         true => angle,
         false => strict.angle().unwrap_or(angle),
     };
-    let score = |done: &Done| Score::new(done, enough);
+    let lengths = lengths(climb);
+    let asked = !climb.params.default_bounds;
+    let score = |done: &Done| match &lengths {
+        Some(lengths) => Score::of_lengths(done, enough, lengths, asked),
+        None => Score::new(done, enough),
+    };
+    let footing_kept = footing
+        .zip(to_keep.as_ref())
+        .map(|(footing, kept)| footing.with_parts(&kept.parents));
     let fill = |(params, attempt): (&Params, Attempt)| {
+        let kept = (to_keep.as_ref()).filter(|_| attempt.keeps_surface.is_some());
+        let (template, footing) = match kept {
+            Some(kept) => (&kept.template, footing_kept.as_ref()),
+            None => (climb.piece.template, footing),
+        };
         let quiet = Climb {
+            piece: Piece {
+                template,
+                ..climb.piece
+            },
             params,
             rungs: &[],
             log: Log::new(&|_| ()),
             ..*climb
         };
-        again(&quiet, attempt)
+        again(&quiet, footing, attempt)
     };
     // Refinement to stricter bounds may not come to an end.
     let room = score(&first).room(filled.template.vertices.len(), enough);
@@ -109,9 +127,8 @@ pub fn best_of_draws(
         (climb.params, attempt)
     };
     let usual = Asks::Eased(EASING);
-    let kept = may_keep
-        .then(|| fill(keeping(Attempt::new(usual))))
-        .flatten()
+    let kept = (to_keep.as_ref())
+        .and_then(|_| fill(keeping(Attempt::new(usual))))
         .filter(|kept| !score(kept).is_hopeless());
     if let Some(kept) = &kept {
         let draws = 0..draws(climb, kept.filled.template.tets.len());

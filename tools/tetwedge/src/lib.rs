@@ -15,6 +15,7 @@ mod follow;
 mod forecast;
 mod kept;
 mod leads;
+mod lengths;
 mod score;
 mod settle;
 mod template;

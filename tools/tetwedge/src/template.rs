@@ -65,10 +65,10 @@ pub fn template<B: Send>(
     let (first, made) = climb.climb(Attempt::new(asks), |answer| {
         done((climb, footing), answer, beside)
     })?;
-    let again = |climb: &Climb<'_>, attempt| {
+    let again = |climb: &Climb<'_>, footing: Option<&Footing>, attempt| {
         let done = climb.climb(attempt, |answer| done::<()>((climb, footing), answer, None));
         Some(done.ok()?.0)
     };
-    let (best, is_another) = best_of_draws(climb, first, again);
+    let (best, is_another) = best_of_draws((climb, footing), first, again);
     Ok((best, made.filter(|_| !is_another)))
 }

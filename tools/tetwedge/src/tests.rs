@@ -1,5 +1,6 @@
 use crate::done::done;
 use crate::fill::{fill, finish};
+use crate::lengths::divided;
 use crate::{Meshed, tetrahedralize};
 use bodies::wedges::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
 use geom::measure::{tet_volume, volume_of_region};
@@ -7,8 +8,8 @@ use glam::DVec3;
 use improve::Leaves;
 use kit::Failure;
 use mesher::{
-    Answer, Asks, Attempt, Change, Climb, Deadline, Description, Error, LADDER, Log, Params, Piece,
-    Sizes, TetGen,
+    Answer, Asks, Attempt, Change, Climb, Deadline, Description, Error, LADDER, Log, NO_FACE,
+    Params, Piece, Plc, Sizes, TetGen,
 };
 use periodic_surf::failure;
 use std::time::Duration;
@@ -341,6 +342,85 @@ fn a_surface_that_cannot_be_settled_stays_as_it_was_cut() {
     let told = &done.advice[0];
     assert!(told.contains("stay as they were cut"), "{told}");
     assert!(!told.contains("--order"), "{told}");
+}
+
+/// The surface with the lengths asked for is the same surface: regions keep their volumes, walls and axis their points, and what other
+/// templates share is as it was.
+#[test]
+fn a_surface_gets_the_lengths_asked_for() {
+    let length = 0.2;
+    for (before, index) in [
+        (prism(3), 0),
+        (prism(16), 0),
+        (coated_ring(8, 0.15), 0),
+        (with_hub(6), 0),
+        (with_hub(6), 1),
+    ] {
+        let piece = Piece::of(&before, index);
+        let sizes = Sizes::of_regions(&before);
+        let plc = Plc::new(piece, &sizes, Description::PLAIN).unwrap();
+        let lengths = before.regions.iter().map(|r| (r.id, length)).collect();
+        let made = divided(piece, &plc, &lengths).unwrap();
+        let (old, new) = (piece.template, &made.template);
+        assert!(new.triangles.len() > old.triangles.len());
+        let mut after = before.clone();
+        after.templates[index] = new.clone();
+        assert_eq!(validate(&after), []);
+        for region in &before.regions {
+            let [was, is] = [old, new].map(|t| volume_of_region(&t.vertices, t.faces(), region.id));
+            assert!((was - is).abs() <= 1e-12 * was.abs(), "{was} {is}");
+        }
+        assert_eq!(new.vertices[..old.vertices.len()], old.vertices[..]);
+        let normal = |t: &Template, triangle: usize| {
+            let [a, b, c] = corners_of(t, triangle);
+            (b - a).cross(c - a).normalize()
+        };
+        for (t, &parent) in made.parents.iter().enumerate() {
+            let like = |t: &tmesh::Triangle| (t.marker, t.front, t.back);
+            let parent = parent as usize;
+            assert_eq!(like(&new.triangles[t]), like(&old.triangles[parent]));
+            assert!(normal(new, t).dot(normal(old, parent)) > 1.0 - 1e-12);
+        }
+        let shared: Vec<usize> = (0..old.triangles.len())
+            .filter(|&t| plc.faces.of_triangle[t] != NO_FACE)
+            .filter(|&t| !plc.faces.is_glued_to_itself(plc.faces.of_triangle[t]))
+            .collect();
+        for &t in &shared {
+            assert_eq!(new.triangles[t], old.triangles[t]);
+        }
+        let is_shared = |edge: [u32; 2]| {
+            let has = |&t: &usize| {
+                let corners = old.triangles[t].vertices;
+                edge.iter().all(|v| corners.contains(v))
+            };
+            shared.iter().any(has)
+        };
+        for (t, triangle) in new.triangles.iter().enumerate() {
+            let corners = corners_of(new, t);
+            for i in 0..3 {
+                let j = (i + 1) % 3;
+                let edge = [i, j].map(|i| triangle.vertices[i]);
+                // Between two edges of 4/3 that stay whole.
+                let is_long = corners[i].distance(corners[j]) > 1.89 * length;
+                assert!(!is_long || is_shared(edge), "{t}: {corners:?}");
+            }
+        }
+        for (v, p) in new.vertices.iter().enumerate() {
+            let on_axis = !old.axis.is_empty() && p.x == 0.0 && p.y == 0.0;
+            assert_eq!(new.axis.contains(&(v as u32)), on_axis, "{p}");
+            for gluing in &new.gluings {
+                let plane = gluing.mirror_plane(index);
+                let is_near = plane.is_some_and(|plane| plane.distance(*p).abs() <= 1e-15);
+                let is_on = gluing.vertices_here().any(|on| on as usize == v);
+                assert!(plane.is_none() || is_near == is_on, "{p} {}", gluing.name);
+            }
+        }
+    }
+}
+
+fn corners_of(template: &Template, triangle: usize) -> [DVec3; 3] {
+    let corners = template.triangles[triangle].vertices;
+    corners.map(|v| template.vertices[v as usize])
 }
 
 #[test]

@@ -21,6 +21,8 @@ pub struct Patch {
     pub outline: Vec<[u32; 2]>,
     /// A point that is no farther from the line between its neighbours is on it.
     pub rounding: f64,
+    /// Circumradius above which triangles get points, too.
+    pub largest: f64,
 }
 
 /// What goes wrong in a plane: the point it happens at.
@@ -210,7 +212,7 @@ impl Patch {
     fn centres(&self, mesh: &Mesh, hopeless: &FxHashSet<[u32; 3]>) -> Vec<([u32; 3], DVec2)> {
         let mut bad = Vec::new();
         for mut key in mesh.triangles() {
-            let found = narrow(key.map(|v| self.points[v as usize]));
+            let found = bad_circle(key.map(|v| self.points[v as usize]), self.largest);
             key.sort_unstable();
             if let Some((ratio, centre)) = found
                 && !hopeless.contains(&key)
@@ -239,7 +241,12 @@ impl Patch {
 }
 
 /// Circumradius over shortest side, and circumcentre, of a triangle that a patch improves where its outline allows it.
-pub fn narrow([a, b, c]: [DVec2; 3]) -> Option<(f64, DVec2)> {
+pub fn narrow(corners: [DVec2; 3]) -> Option<(f64, DVec2)> {
+    bad_circle(corners, f64::INFINITY)
+}
+
+/// The same where triangles with a larger circumradius than `largest` are improved, too.
+fn bad_circle([a, b, c]: [DVec2; 3], largest: f64) -> Option<(f64, DVec2)> {
     let limit = 0.5 / libm::sin(MIN_ANGLE.to_radians());
     let (u, v) = (b - a, c - a);
     let shortest = u
@@ -252,7 +259,8 @@ pub fn narrow([a, b, c]: [DVec2; 3]) -> Option<(f64, DVec2)> {
         u.x * v.length_squared() - v.x * u.length_squared(),
     ) / twice;
     let ratio = (offset.length_squared() / shortest).sqrt();
-    (ratio > limit && ratio.is_finite()).then(|| (ratio, a + offset))
+    let is_bad = ratio > limit || offset.length() > largest;
+    (is_bad && ratio.is_finite()).then(|| (ratio, a + offset))
 }
 
 /// Where a triangulation of these points fails.
@@ -307,6 +315,7 @@ mod tests {
             fixed,
             outline,
             rounding: 1e-10,
+            largest: f64::INFINITY,
         };
         let triangles = patch.triangulate().unwrap();
         assert!(patch.points.len() > fixed + 1);
@@ -328,6 +337,33 @@ mod tests {
     }
 
     #[test]
+    fn wide_triangles_get_points_where_a_size_is_asked_for() {
+        let corners =
+            [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| DVec2::new(x, y));
+        let widest = |largest: f64| {
+            let (mut points, mut outline) = (Vec::new(), Vec::new());
+            ring(&mut points, &mut outline, &corners, 10);
+            let mut patch = Patch {
+                fixed: points.len(),
+                points,
+                outline,
+                rounding: 1e-10,
+                largest,
+            };
+            let triangles = patch.triangulate().unwrap();
+            let radii = triangles.iter().map(|t| {
+                let [a, b, c] = t.map(|v| patch.points[v as usize]);
+                let sides = [a.distance(b), b.distance(c), c.distance(a)];
+                let product: f64 = sides.iter().product();
+                product / (2.0 * (b - a).perp_dot(c - a))
+            });
+            radii.fold(0.0, f64::max)
+        };
+        assert!(widest(f64::INFINITY) > 0.2);
+        assert!(widest(0.16) <= 0.16);
+    }
+
+    #[test]
     fn points_on_a_straight_edge_make_no_triangle() {
         // A square whose sides are divided, in a frame where nothing is exactly straight.
         let turn = DVec2::from_angle(0.3);
@@ -341,6 +377,7 @@ mod tests {
             fixed,
             outline,
             rounding: 1e-10,
+            largest: f64::INFINITY,
         };
         let triangles = patch.triangulate().unwrap();
         // Points come side by side, each with its first corner.
@@ -365,6 +402,7 @@ mod tests {
             fixed: 4,
             outline: vec![[0, 1], [1, 2], [2, 3], [3, 0]],
             rounding: 1e-10,
+            largest: f64::INFINITY,
         };
         assert!(patch.triangulate().is_err());
     }

@@ -1,8 +1,8 @@
 //! Divides the feature edges, those that are images of each other alike.
 
+use super::division::{merged, reversed, same, symmetric};
 use super::maker::Maker;
 use super::orbits::{Link, Orbit, links, orbits};
-use super::pieces::{merged, reversed, same, symmetric};
 use glam::DVec3;
 use tmesh::FixedSet;
 

@@ -3,9 +3,8 @@
 use super::features::NONE;
 use super::maker::Maker;
 use super::pairing::facing;
-use super::pieces::Frame;
 use crate::SurfaceError;
-use geom::cdt::Patch;
+use geom::cdt::{Frame, Patch};
 use glam::{DVec2, DVec3};
 use mesher::face_key;
 use rustc_hash::FxHashMap;
@@ -249,6 +248,7 @@ impl Maker<'_> {
                 .map(|e| e.map(|v| local[&v]))
                 .collect(),
             rounding: guide.rounding,
+            largest: f64::INFINITY,
         };
         let triangles = patch.triangulate().map_err(|broken| {
             let p = patch.points[broken.0 as usize];

@@ -14,6 +14,7 @@
 
 mod check;
 mod divide;
+mod division;
 mod features;
 mod fill;
 mod gluings;
@@ -23,7 +24,6 @@ mod make;
 mod maker;
 mod orbits;
 mod pairing;
-mod pieces;
 
 pub use check::{same_body, same_size};
 pub use impose::{Other, impose};

@@ -240,6 +240,7 @@ impl<'a> Look<'a> {
             points: places,
             outline,
             rounding: f64::EPSILON.sqrt() * size,
+            largest: f64::INFINITY,
         };
         let triangles = patch.triangulate()?;
         let inner = triangles
