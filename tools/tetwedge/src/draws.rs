@@ -75,8 +75,13 @@ pub fn best_of_draws(
     };
     let lengths = lengths(climb);
     let asked = !climb.params.default_bounds;
+    let regions = climb.piece.document.regions.iter();
+    let limits = regions.zip(&climb.sizes.of_region);
+    let limits = limits
+        .filter_map(|(r, &limit)| Some((r.id, limit?)))
+        .collect();
     let score = |done: &Done| match &lengths {
-        Some(lengths) => Score::of_lengths(done, enough, lengths, asked),
+        Some(lengths) => Score::of_lengths(done, enough, (lengths, &limits), asked),
         None => Score::new(done, enough),
     };
     let footing_kept = footing

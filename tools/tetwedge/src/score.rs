@@ -3,9 +3,12 @@
 use crate::done::Done;
 use crate::kept::mean_edge;
 use crate::lengths::Lengths;
+use geom::measure::tet_volume;
 use geom::tet::TetMeasures;
 use mesher::Room;
+use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
+use tmesh::Tet;
 
 /// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where
 /// one in a hundred fails, these weigh as much as all others.
@@ -48,10 +51,28 @@ impl Score {
         Self::of(done, enough, FAILING, None)
     }
 
-    /// The same where lengths are asked for; `asked`: whether the bounds are the user's own, too.
-    pub fn of_lengths(done: &Done, enough: f64, lengths: &Lengths, asked: bool) -> Self {
+    /// The same where lengths are asked for; `asked`: whether the bounds are the user's own, too. Elements that are larger than the lengths
+    /// let them be fail as well; `limits` has the volumes by region, model units cubed.
+    pub fn of_lengths(
+        done: &Done,
+        enough: f64,
+        (lengths, limits): (&Lengths, &FxHashMap<u32, f64>),
+        asked: bool,
+    ) -> Self {
         let of_past = if asked { FAILING } else { PAST };
-        Self::of(done, enough, of_past, Some(lengths))
+        let template = &done.filled.template;
+        let is_large = |tet: &&Tet| {
+            let [a, b, c, d] = tet.vertices.map(|v| template.vertices[v as usize]);
+            let limit = limits.get(&tet.region);
+            limit.is_some_and(|&limit| tet_volume(a, b, c, d) > limit)
+        };
+        let large = template.tets.iter().filter(is_large).count();
+        let score = Self::of(done, enough, of_past, Some(lengths));
+        Self {
+            failing: score.failing + large,
+            weight: score.weight + FAILING * large,
+            ..score
+        }
     }
 
     fn of(done: &Done, enough: f64, of_past: usize, lengths: Option<&Lengths>) -> Self {
