@@ -113,7 +113,7 @@ fn a_file_without_bounds_is_said_to_have_none() {
     assert_eq!(run("meshqual", &[], &vtk).stderr, "");
 }
 
-/// Faces that are kept as they are leave elements as large as themselves.
+/// At faces that are kept as they are, the mesher leaves elements that are larger than asked for.
 #[test]
 fn sizes_that_are_not_kept_are_said() {
     let body = Antiprism {
@@ -126,12 +126,35 @@ fn sizes_that_are_not_kept_are_said() {
     let wedge = run("wedgecut", &["-q", "--edge-length", "0.1"], &found).success();
     said(
         "tetwedge",
-        &["--keep-surface", "--edge-length", "0.05"],
+        &[
+            "--keep-surface",
+            "--edge-length",
+            "0.07",
+            "--optimize",
+            "off",
+        ],
         &wedge,
-        &["volume ", " asked for by edges of 0.05: ", " above, most "],
+        &["volume ", " asked for by edges of 0.07: ", " above, most "],
     );
-    let own = ["--keep-surface", "--region", "body:max-volume=1e-5"];
-    said("tetwedge", &own, &wedge, &["of 1e-5 asked for in 'body'"]);
+    let own = [
+        "--keep-surface",
+        "--region",
+        "body:max-volume=8.575e-5",
+        "--optimize",
+        "off",
+    ];
+    said(
+        "tetwedge",
+        &own,
+        &wedge,
+        &["of 8.575e-5 asked for in 'body'"],
+    );
+    // Improvement divides them.
+    for keep in [&own[..3], &["--keep-surface", "--edge-length", "0.07"]] {
+        let improved = run("tetwedge", keep, &wedge);
+        assert_eq!(improved.code, 0, "{}", improved.stderr);
+        assert!(!improved.stderr.contains("volume"), "{}", improved.stderr);
+    }
 }
 
 /// A wedge of 180/64 degrees on the axis: no element there has a larger angle, which is known before there is one.

@@ -100,7 +100,9 @@ pub fn improve(
     work.mesh.set_surface(surface);
     work.done.bad = work.bad().len();
     work.pursue(asked.lenient());
+    work.divide_large();
     work.pursue(asked);
+    work.divide_large();
     work.pursue(asked.lenient().towards(wish.angle + FURTHER));
     work.mesh.change_goal(asked);
     work.count_what_is_left();
@@ -263,13 +265,51 @@ impl Work<'_> {
             if last.is_some_and(|time| corners.iter().all(|&v| !mesh.is_touched(v, time))) {
                 continue;
             }
-            let found = insert::find(mesh, &self.freedoms, tet);
+            let found = insert::find(mesh, &self.freedoms, tet, None);
             if let Some(insertion) = found.filter(|i| goal.is_worth_it(i.least())) {
                 insertion.apply(mesh, &mut self.freedoms);
                 self.done.inserted += 1;
             }
         }
         self.done.inserted - before
+    }
+
+    /// Gives tetrahedra that are larger than asked for new vertices, where all there are worth none then; as many are looked at as
+    /// elsewhere. The mesher leaves such ones at a surface that it has to keep.
+    fn divide_large(&mut self) {
+        let goal = *self.mesh.goal();
+        let mut left = SEARCHES * self.mesh.len().isqrt();
+        let mut before = usize::MAX;
+        while self.done.inserted != before {
+            before = self.done.inserted;
+            let all = 0..self.mesh.len() as u32;
+            let volumes = all.map(|t| (self.mesh.grade(t).six_volume, t));
+            let mut large: Vec<(f64, Corners)> = volumes
+                .filter(|&(volume, t)| !self.mesh.fits(self.mesh.region(t), volume, 0.0))
+                .map(|(volume, t)| (volume, self.mesh.corners(t)))
+                .collect();
+            large.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            large.truncate(left);
+            left -= large.len();
+            for (_, corners) in large {
+                if self.is_stopped() {
+                    return;
+                }
+                let mesh = &mut self.mesh;
+                let Some(tet) = mesh.number(corners) else {
+                    continue;
+                };
+                let found = insert::find(mesh, &self.freedoms, tet, Some(goal.worth_none()));
+                let halves = |insertion: &insert::Insertion| {
+                    let [before, after] = insertion.too_large(mesh);
+                    2.0 * after <= before
+                };
+                if let Some(insertion) = found.filter(halves) {
+                    insertion.apply(mesh, &mut self.freedoms);
+                    self.done.inserted += 1;
+                }
+            }
+        }
     }
 
     fn count_what_is_left(&mut self) {

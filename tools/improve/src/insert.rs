@@ -49,6 +49,25 @@ impl Insertion {
         self.parts.iter().map(|p| p.old.len()).sum::<usize>() <= count
     }
 
+    /// Volume of what is larger than it may be, before and after, six times.
+    pub fn too_large(&self, mesh: &Mesh<'_>) -> [f64; 2] {
+        let of = |region, six_volume| match mesh.fits(region, six_volume, 0.0) {
+            true => 0.0,
+            false => six_volume,
+        };
+        let (mut before, mut after) = (0.0, 0.0);
+        for part in &self.parts {
+            for tet in part.old.iter().filter_map(|&c| mesh.number(c)) {
+                before += of(mesh.region(tet), mesh.grade(tet).six_volume);
+            }
+            let region = part.old.first().and_then(|&c| mesh.number(c));
+            for (_, grade) in &part.new {
+                after += region.map_or(0.0, |t| of(mesh.region(t), grade.six_volume));
+            }
+        }
+        [before, after]
+    }
+
     /// The smallest quality of the tetrahedra at the vertex.
     pub fn least(&self) -> f64 {
         self.least
@@ -85,8 +104,14 @@ struct Place {
     least: f64,
 }
 
-/// The new vertex in or at a tetrahedron that makes the worst one there better, and as good as possible.
-pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> Option<Insertion> {
+/// The new vertex in or at a tetrahedron that makes the worst one there better, and as good as possible; or, given a quality, one that leaves
+/// all there better than that.
+pub fn find(
+    mesh: &Mesh<'_>,
+    freedoms: &Freedoms,
+    tet: u32,
+    above: Option<f64>,
+) -> Option<Insertion> {
     let corners = mesh.corners(tet);
     let points = corners.map(|v| mesh.positions[v as usize]);
     let inside = places(points).map(|p| (p, None));
@@ -99,14 +124,14 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, tet: u32) -> Option<Insertion>
     let on_surface = on_surface.flat_map(|s| s.places(mesh).map(move |p| (p, Some(s.clone()))));
     let all = inside.chain(on_surface);
     let mut places: Vec<Place> = all
-        .filter_map(|(start, support)| place(mesh, tet, start, support))
+        .filter_map(|(start, support)| place(mesh, (tet, above), start, support))
         .collect();
     // The vertex is moved from there, which takes time.
     places.sort_by(|a, b| b.least.total_cmp(&a.least));
     places.truncate(TRIED);
     let mut best: Option<Insertion> = None;
     for place in places {
-        let found = fill(mesh, freedoms, place);
+        let found = fill(mesh, freedoms, (place, above));
         if let Some(found) = found
             && best.as_ref().is_none_or(|b| b.least < found.least)
         {
@@ -133,8 +158,13 @@ fn places(points: [DVec3; 4]) -> impl Iterator<Item = DVec3> {
 }
 
 /// The cavities that suit a vertex at `start` for a tetrahedron.
-fn place(mesh: &Mesh<'_>, tet: u32, start: DVec3, support: Option<Rc<Support>>) -> Option<Place> {
-    let (above, _) = mesh.bounds(&[tet], GAIN, HALF_DIGITS);
+fn place(
+    mesh: &Mesh<'_>,
+    (tet, above): (u32, Option<f64>),
+    start: DVec3,
+    support: Option<Rc<Support>>,
+) -> Option<Place> {
+    let above = above.unwrap_or_else(|| mesh.bounds(&[tet], GAIN, HALF_DIGITS).0);
     let cavities = match &support {
         None => vec![Cavity::new(mesh, vec![tet], (start, above), |_| false)?],
         Some(support) => {
@@ -161,13 +191,20 @@ fn place(mesh: &Mesh<'_>, tet: u32, start: DVec3, support: Option<Rc<Support>>) 
     })
 }
 
-/// Fills cavities from a vertex that is moved to the best place, if that makes the worst tetrahedron better.
-fn fill(mesh: &Mesh<'_>, freedoms: &Freedoms, place: Place) -> Option<Insertion> {
+/// Fills cavities from a vertex that is moved to the best place, if that makes the worst tetrahedron better, or all better than asked for.
+fn fill(
+    mesh: &Mesh<'_>,
+    freedoms: &Freedoms,
+    (place, above): (Place, Option<f64>),
+) -> Option<Insertion> {
     let support = place.support.as_deref();
     let within = support.map_or((Freedom::Free, Exact::default()), |s| s.within);
     let edge = support.and_then(Support::ends);
     let all_old = place.cavities.iter().flat_map(|c| c.old.iter().copied());
-    let (above, _) = mesh.bounds(&all_old.collect::<Vec<_>>(), GAIN, HALF_DIGITS);
+    let above = above.unwrap_or_else(|| {
+        mesh.bounds(&all_old.collect::<Vec<_>>(), GAIN, HALF_DIGITS)
+            .0
+    });
     let vertex = mesh.positions.len() as u32;
     let mut star = Newcomer::default();
     for cavity in &place.cavities {

@@ -96,6 +96,11 @@ impl Goal {
         quality < self.step
     }
 
+    /// The quality from which on an element is worth no vertex.
+    pub fn worth_none(&self) -> f64 {
+        self.step
+    }
+
     /// Whether a vertex is worth it if this is the smallest quality then.
     pub fn is_worth_it(&self, quality: f64) -> bool {
         quality >= self.after

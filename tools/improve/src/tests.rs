@@ -363,7 +363,7 @@ fn new_vertices_come_where_nothing_else_helps() {
     let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
     let worst = mesh.grade(0).quality;
     assert!(worst < 1.0);
-    let found = insert::find(&mesh, &freedoms, 0).expect("a place");
+    let found = insert::find(&mesh, &freedoms, 0, None).expect("a place");
     found.apply(&mut mesh, &mut freedoms);
     assert!((0..mesh.len() as u32).all(|t| mesh.grade(t).quality >= 1.0));
     assert!(mesh.positions[6].length() < 0.2, "{}", mesh.positions[6]);
@@ -389,9 +389,43 @@ fn new_vertices_come_where_nothing_else_helps() {
     for (other, most) in [(divided, 2), (regions, 2)] {
         let mesh = Mesh::of_template(&other, 1.0, goal, &limits);
         for tet in 0..4 {
-            let found = insert::find(&mesh, &freedoms, tet);
+            let found = insert::find(&mesh, &freedoms, tet, None);
             assert!(found.is_none_or(|f| f.replaces_at_most(most)), "{tet}");
         }
+    }
+}
+
+/// Good elements that are larger than asked for get vertices, as long as what comes of that is good enough; within what is asked for nothing
+/// changes.
+#[test]
+fn elements_larger_than_asked_for_get_vertices() {
+    for (part, is_divided) in [(1.1, false), (0.9, true), (0.7, true)] {
+        let mut template = octahedron(DVec3::ZERO);
+        let (of_triangle, normals) = facets(&template);
+        let before = freedoms(&template, &of_triangle, &normals);
+        let whole = volume(&template, &template.tets);
+        let count = template.tets.len();
+        let limit = part * whole / count as f64;
+        let wish = Wish {
+            angle: 25.0,
+            radius_edge: 1.4,
+            min_dihedral: 10.0,
+            max_volume: &[(template.tets[0].region, limit)].into_iter().collect(),
+            scale: 1.0,
+            stop: &|| false,
+        };
+        let (done, _) = improve(&mut template, &before, &wish);
+        assert_eq!(done.inserted > 0, is_divided, "{part}: {done:?}");
+        assert!((volume(&template, &template.tets) - whole).abs() < 1e-12);
+        let volumes = template.tets.iter().map(|&tet| volume(&template, &[tet]));
+        let largest = volumes.fold(0.0, f64::max);
+        assert!(largest <= limit, "{part}: {}", largest / limit);
+        let angles = template.tets.iter().map(|tet| {
+            let corners = tet.vertices.map(|v| template.vertices[v as usize]);
+            TetMeasures::of(corners).min_dihedral().to_degrees()
+        });
+        let least = angles.fold(180.0, f64::min);
+        assert!(least > 20.0 && done.past == 0, "{part}: {least} {done:?}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! The command line of `periodic-surf`.
 
-use crate::{MemoryArgs, prepare, watched};
 use kit::{Command, CommonArgs, Failure, Session, StrictArgs, WishArgs};
+use tetwedge::{MemoryArgs, surfaces, watched};
 
 const EXAMPLES: &str = "Examples:
   symdetect fan.stl | wedgecut | periodic-surf | tetwedge | rotassemble > fan.vtk
@@ -40,12 +40,13 @@ impl Command for Cli {
         let notes = self.wishes.apply(&mut document)?;
         notes.iter().for_each(|note| session.note(note));
         let params = self.memory.params(&document.wishes);
-        let made = watched(session, None, |log| prepare(document, &params, log));
-        let (mut document, report) = made.map_err(|error| error.failure())?;
-        report.facts.iter().for_each(|fact| session.info(fact));
-        report.advice.iter().for_each(|advice| session.note(advice));
+        let made = watched(session, None, |log| surfaces(document, &params, log));
+        let made = made.map_err(|error| error.failure())?;
+        made.facts.iter().for_each(|fact| session.info(fact));
+        made.advice.iter().for_each(|advice| session.note(advice));
+        let mut document = made.document;
         let short = self.strict.judge(session, &document)?;
-        let notes = [report.advice, report.facts, short].concat();
+        let notes = [made.advice, made.facts, short].concat();
         document.history.push(session.history_entry(notes));
         session.write(&document)
     }

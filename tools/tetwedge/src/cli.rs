@@ -1,12 +1,12 @@
 //! The command line of `tetwedge`.
 
 use crate::forecast::{Forecast, forecast};
-use crate::tetrahedralize;
+use crate::{MemoryArgs, tetrahedralize, watched};
 use kit::{
     Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs, about, duration,
 };
 use mesher::Params;
-use periodic_surf::{MemoryArgs, failure, watched};
+use surface::failure;
 use tmesh::{Document, Wishes};
 
 /// Fills a wedge, or any closed surface, with tetrahedra

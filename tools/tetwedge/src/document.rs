@@ -1,17 +1,15 @@
 //! The whole document: every template meshed, walls between templates renumbered.
 
 use crate::done::Done;
-use crate::fill::{Filled, NONE};
-use crate::follow::{Follow, Followed, Led, follower};
+use crate::fill::NONE;
+use crate::filling::Filling;
 use crate::leads::leader;
-use crate::settle::{Settled, settle};
-use crate::template::{Job, template};
-use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
-use periodic_surf::{Footing, apart, note_moved};
-use rayon::prelude::*;
+use crate::settle::{Settled, Shaped};
+use mesher::{Error, Log, Params, Progress};
+use surface::{Guide, SurfaceError, apart, note_moved};
 use tmesh::{Deviation, Document, Template};
 
-/// A document that was filled, and what there is to say about it.
+/// A document that was meshed, and what there is to say about it.
 pub struct Meshed {
     /// The document; its history is as it was.
     pub document: Document,
@@ -49,33 +47,36 @@ pub fn tetrahedralize(document: Document, params: &Params, log: Log<'_>) -> Resu
 
 /// The same, remeshed or not; an error says which.
 fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (Error, bool)> {
-    let Settled {
-        mut document,
-        advice: unsettled,
-        facts: settled,
-        remeshed,
-        footings,
-    } = settle(document, params, log).map_err(|error| (error, true))?;
-    let sizes = Sizes::new(&document).map_err(|error| (error.into(), remeshed))?;
-    let leaders: Vec<Option<usize>> = (0..document.templates.len())
-        .map(|index| leader(&document, index))
-        .collect();
-    let failed = |error| (error, remeshed);
-    let given = document.templates.clone();
-    let mut done =
-        templates(&mut document, &leaders, params, (&sizes, &footings), log).map_err(failed)?;
+    let filled = document.templates.iter().any(|t| !t.tets.is_empty());
+    let (shaped, settled) = of_surface(log, |log| {
+        let shaped = match document.wishes.keep_surface() || filled {
+            true => Shaped::kept(document),
+            false => Shaped::new(document, params, log)?,
+        };
+        let settled = settled(&shaped, log)?;
+        Ok((shaped, settled))
+    })
+    .map_err(|error| (error, true))?;
+    let failed = |error| (error, shaped.is_remeshed());
+    let first = Filling::new(settled, params, log).map_err(failed)?;
+    let Filling {
+        settled,
+        surfaces: given,
+        mut done,
+    } = first.or_longer(&shaped, params, log);
+    let facts = [settled.facts(), facts(&done)].concat();
     let advices = done.iter().filter_map(|d| d.advice.clone());
-    let advice = unsettled.into_iter().chain(advices).collect();
-    let facts = [settled, facts(&done)].concat();
+    let advice = settled.advice().into_iter().chain(advices).collect();
+    let mut document = settled.document;
     let mut moved = 0.0_f64;
     for index in 0..done.len() {
         let mut template = std::mem::take(&mut done[index].filled.template);
         // A follower has the new numbers already.
-        if leaders[index].is_none() {
+        if leader(&document, index).is_none() {
             renumber(index, &mut template, &done).map_err(failed)?;
         }
         if done[index].is_off {
-            let footing = footings.get(index).and_then(Option::as_ref);
+            let footing = settled.footings.get(index).and_then(Option::as_ref);
             moved = moved.max(match footing {
                 Some(footing) => footing.farther(&template, &given[index]),
                 None => apart(&given[index], &template),
@@ -91,66 +92,34 @@ fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (
     })
 }
 
-/// Meshes all templates, those that lead before those that follow them; followers get their new surfaces.
-fn templates(
-    document: &mut Document,
-    leaders: &[Option<usize>],
-    params: &Params,
-    (sizes, footings): (&Sizes, &[Option<Footing>]),
-    log: Log<'_>,
-) -> Result<Vec<Done>, Error> {
-    let count = document.templates.len();
-    let job = Job {
-        document,
-        params,
-        sizes,
-        log,
+/// Does something about surfaces whose progress is said to be just that.
+fn of_surface<T>(log: Log<'_>, work: impl FnOnce(Log<'_>) -> T) -> T {
+    let detail = |text: &str| log.detail(text);
+    let progress = |progress: &Progress<'_>| {
+        let step = &format!("surface mesh, {}", progress.step);
+        log.progress(&Progress { step, ..*progress });
     };
-    let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
-    let mesh = |&index: &usize| {
-        let followers: Vec<usize> = (0..count).filter(|&i| leaders[i] == Some(index)).collect();
-        let follow = |lead: &Filled| -> Vec<Followed> {
-            let each = followers.iter();
-            each.map(|&i| (i, follower(&job, i, lead))).collect()
-        };
-        let beside: Option<Follow<'_>> = match followers.is_empty() {
-            true => None,
-            false => Some(&follow),
-        };
-        let deadline = Deadline::start(params.timeout);
-        let footing = footings.get(index).and_then(Option::as_ref);
-        let climb = job.climb(Piece::of(document, index), deadline);
-        template(&climb, footing, beside)
-    };
-    let meshed: Vec<Led> = first.par_iter().map(mesh).collect();
-    let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
-    let mut followed: Vec<Followed> = Vec::new();
-    for (&index, done) in first.iter().zip(meshed) {
-        let (done, beside) = done?;
-        followed.extend(beside.into_iter().flatten());
-        slots[index] = Some(done);
+    match log.has_progress() {
+        true => work(Log::new(&detail).with_progress(&progress)),
+        false => work(log),
     }
-    for (index, lead) in leaders.iter().enumerate() {
-        if let Some(lead) = lead.and_then(|l| slots[l].as_ref()) {
-            let known = followed.iter().position(|(follower, _)| *follower == index);
-            let (surface, done) = match known {
-                Some(known) => followed.swap_remove(known).1?,
-                None => {
-                    let job = Job {
-                        document,
-                        params,
-                        sizes,
-                        log,
-                    };
-                    follower(&job, index, &lead.filled)?
-                }
-            };
-            document.templates[index] = surface;
-            slots[index] = Some(done);
-        }
+}
+
+/// The surface that is to be filled. Faces of a seam that cannot be divided stay as they were cut.
+///
+/// # Errors
+/// What another attempt would not change: time, memory, what is asked for.
+fn settled(shaped: &Shaped, log: Log<'_>) -> Result<Settled, Error> {
+    match shaped.settled(Guide::Mesher, log) {
+        Err(SurfaceError::Mesher(error)) if !error.is_chance() => Err(error),
+        Err(error) => Ok(Settled {
+            advice: vec![format!(
+                "the faces that copies share stay as they were cut, which costs elements or their quality: {error}"
+            )],
+            ..shaped.as_it_is()
+        }),
+        Ok(settled) => Ok(settled),
     }
-    // Every slot is filled: a leader has no leader.
-    Ok(slots.into_iter().flatten().collect())
 }
 
 /// What was made.

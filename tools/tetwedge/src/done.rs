@@ -4,7 +4,7 @@ use crate::fill::{Filled, fill, finish};
 use crate::score::{FAILING, is_hopeless};
 use improve::Leaves;
 use mesher::{Answer, Climb, EASING, Error, Progress};
-use periodic_surf::Footing;
+use surface::Footing;
 
 /// A filled template, and what there is to say about it.
 pub struct Done {

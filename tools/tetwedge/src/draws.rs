@@ -1,11 +1,11 @@
 //! Templates of few elements are filled several times, and the best is taken.
 
 use crate::done::Done;
-use crate::kept::{lengths, to_keep};
-use crate::score::Score;
+use crate::kept::to_keep;
+use crate::score::Judge;
 use mesher::{Asks, Attempt, Climb, Description, EASING, Kept, Log, Order, Params, Piece};
-use periodic_surf::Footing;
 use rayon::prelude::*;
+use surface::Footing;
 
 /// Up to so many elements the first percentile of the angles is the smallest one, which is that of a single element and a matter of
 /// luck; and another mesh takes a few milliseconds.
@@ -65,7 +65,7 @@ pub fn best_of_draws(
     };
     let sized = has_lengths(climb);
     let count = draws(climb, filled.template.tets.len());
-    let to_keep = sized.then(|| to_keep(climb, &filled.template)).flatten();
+    let to_keep = to_keep(climb, &filled.template);
     if count == 0 && to_keep.is_none() {
         return (first, false);
     }
@@ -73,17 +73,11 @@ pub fn best_of_draws(
         true => angle,
         false => strict.angle().unwrap_or(angle),
     };
-    let lengths = lengths(climb);
-    let asked = !climb.params.default_bounds;
-    let regions = climb.piece.document.regions.iter();
-    let limits = regions.zip(&climb.sizes.of_region);
-    let limits = limits
-        .filter_map(|(r, &limit)| Some((r.id, limit?)))
-        .collect();
-    let score = |done: &Done| match &lengths {
-        Some(lengths) => Score::of_lengths(done, enough, (lengths, &limits), asked),
-        None => Score::new(done, enough),
-    };
+    let Piece {
+        document, index, ..
+    } = climb.piece;
+    let judge = Judge::new(document, (climb.sizes, index), climb.params, enough);
+    let score = |done: &Done| judge.score(done);
     let footing_kept = footing
         .zip(to_keep.as_ref())
         .map(|(footing, kept)| footing.with_parts(&kept.parents));

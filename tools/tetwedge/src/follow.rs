@@ -4,7 +4,7 @@ use crate::done::Done;
 use crate::fill::Filled;
 use crate::template::{Job, template};
 use mesher::{Deadline, Error, Piece};
-use periodic_surf::{Other, impose, make};
+use surface::{Other, impose, make};
 use tmesh::Template;
 
 /// A follower, its surface, and what became of it.
@@ -55,7 +55,7 @@ fn surface_of(
         template: &imposed,
         ..Piece::of(job.document, index)
     };
-    match make(&job.climb(piece, deadline)) {
+    match make(&job.climb(piece, deadline), job.guide) {
         Ok(made) => Ok(made.template),
         Err(error) => {
             job.log.detail(&format!(

@@ -2,7 +2,7 @@
 //!
 //! The surface's triangles say by their two sides where which region is, so no seeds are asked of
 //! anybody. Mirror walls are refined freely: both neighbours of such a wall are images of the same
-//! face. Seams get a surface that the elements need, with the library of `periodic-surf`, unless that was done before;
+//! face. Seams get a surface that the elements need, by `surface`, unless that was done before;
 //! then they and faces shared with another template are preserved. Afterwards every wall, volume and orientation is
 //! checked again.
 
@@ -11,17 +11,23 @@ mod document;
 mod done;
 mod draws;
 mod fill;
+mod filling;
 mod follow;
 mod forecast;
 mod kept;
 mod leads;
-mod lengths;
+mod memory;
 mod score;
 mod settle;
+mod status;
+mod surfaces;
 mod template;
 
 pub use cli::Cli;
 pub use document::{Meshed, tetrahedralize};
+pub use memory::MemoryArgs;
+pub use status::watched;
+pub use surfaces::surfaces;
 
 #[cfg(test)]
 mod tests;

@@ -1,14 +1,13 @@
 //! How good a mesh of a template is, next to another one.
 
 use crate::done::Done;
-use crate::kept::mean_edge;
-use crate::lengths::Lengths;
 use geom::measure::tet_volume;
 use geom::tet::TetMeasures;
-use mesher::Room;
+use mesher::{Params, Room, Sizes};
 use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
-use tmesh::Tet;
+use surface::{Lengths, lengths, mean_edge};
+use tmesh::{Document, Tet};
 
 /// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where
 /// one in a hundred fails, these weigh as much as all others.
@@ -40,58 +39,112 @@ pub struct Score {
     /// What that is worth in elements: its cube, as edges that are shorter by a part make as many more elements. Whole degrees count, up
     /// to those that are enough.
     worth: f64,
-    /// Mean length of edges over the one asked for, at least one. Edges that are longer by a part are as far from what was asked for as ones that are
-    /// shorter by it, which take its cube more elements: that many fewer are no merit, and as many count against it.
-    longer: f64,
+    /// Mean length of edges over the one asked for; one where none is.
+    mean: f64,
 }
 
-impl Score {
-    /// Grades a mesh; larger angles than `enough` degrees are worth no more.
-    pub fn new(done: &Done, enough: f64) -> Self {
-        Self::of(done, enough, FAILING, None)
-    }
+/// What meshes of a template are judged by.
+pub struct Judge {
+    /// Larger dihedral angles are worth no more, degrees.
+    enough: f64,
+    /// Lengths asked for.
+    lengths: Option<Lengths>,
+    /// Volumes by region that the lengths let elements have, model units cubed.
+    limits: FxHashMap<u32, f64>,
+    /// What an element past the radius-edge bound weighs.
+    of_past: usize,
+}
 
-    /// The same where lengths are asked for; `asked`: whether the bounds are the user's own, too. Elements that are larger than the lengths
-    /// let them be fail as well; `limits` has the volumes by region, model units cubed.
-    pub fn of_lengths(
-        done: &Done,
+impl Judge {
+    /// By what is asked for of a document's template.
+    pub fn new(
+        document: &Document,
+        (sizes, template): (&Sizes, usize),
+        params: &Params,
         enough: f64,
-        (lengths, limits): (&Lengths, &FxHashMap<u32, f64>),
-        asked: bool,
     ) -> Self {
-        let of_past = if asked { FAILING } else { PAST };
-        let template = &done.filled.template;
-        let is_large = |tet: &&Tet| {
-            let [a, b, c, d] = tet.vertices.map(|v| template.vertices[v as usize]);
-            let limit = limits.get(&tet.region);
-            limit.is_some_and(|&limit| tet_volume(a, b, c, d) > limit)
-        };
-        let large = template.tets.iter().filter(is_large).count();
-        let score = Self::of(done, enough, of_past, Some(lengths));
+        let lengths = lengths(document, sizes, template);
+        let limits = document.regions.iter().zip(&sizes.of_region);
+        let limits = limits.filter_map(|(r, &limit)| Some((r.id, limit?)));
         Self {
-            failing: score.failing + large,
-            weight: score.weight + FAILING * large,
-            ..score
+            enough,
+            limits: match lengths {
+                Some(_) => limits.collect(),
+                None => FxHashMap::default(),
+            },
+            of_past: match lengths {
+                Some(_) if params.default_bounds => PAST,
+                _ => FAILING,
+            },
+            lengths,
         }
     }
 
-    fn of(done: &Done, enough: f64, of_past: usize, lengths: Option<&Lengths>) -> Self {
+    /// Whether lengths are asked for.
+    pub fn has_lengths(&self) -> bool {
+        self.lengths.is_some()
+    }
+
+    /// Grades a mesh. Where lengths are asked for, elements that are larger than these let them be fail, too.
+    pub fn score(&self, done: &Done) -> Score {
         let template = &done.filled.template;
         let angles = template.tets.iter().map(|tet| {
             let corners = tet.vertices.map(|v| template.vertices[v as usize]);
             TetMeasures::of(corners).min_dihedral().to_degrees()
         });
         let angle = angles.fold(f64::INFINITY, f64::min);
-        let mean = lengths.and_then(|lengths| mean_edge(lengths, template));
+        let is_large = |tet: &&Tet| {
+            let [a, b, c, d] = tet.vertices.map(|v| template.vertices[v as usize]);
+            let limit = self.limits.get(&tet.region);
+            limit.is_some_and(|&limit| tet_volume(a, b, c, d) > limit)
+        };
+        let large = template.tets.iter().filter(is_large).count();
+        let lengths = self.lengths.as_ref();
+        let mean =
+            lengths.and_then(|lengths| mean_edge(lengths, &template.vertices, &template.tets));
         let [past, low] = done.filled.improved.map_or([0; 2], |i| [i.past, i.low]);
-        Self {
-            failing: past + low,
-            weight: of_past * past + FAILING * low,
+        Score {
+            failing: past + low + large,
+            weight: self.of_past * past + FAILING * (low + large),
             elements: template.tets.len(),
             angle,
-            worth: angle.min(enough).floor().powi(3),
-            longer: mean.map_or(1.0, |mean| mean.max(1.0)),
+            worth: angle.min(self.enough).floor().powi(3),
+            mean: mean.unwrap_or(1.0),
         }
+    }
+}
+
+impl Score {
+    /// That of several meshes that belong together, each with how often there are copies of it.
+    pub fn together<'a>(scores: impl Iterator<Item = (usize, &'a Self)>) -> Self {
+        let mut all = Self {
+            failing: 0,
+            elements: 0,
+            weight: 0,
+            angle: f64::INFINITY,
+            worth: f64::INFINITY,
+            mean: 0.0,
+        };
+        for (copies, score) in scores {
+            all.failing += copies * score.failing;
+            all.weight += copies * score.weight;
+            all.elements += copies * score.elements;
+            all.angle = all.angle.min(score.angle);
+            all.worth = all.worth.min(score.worth);
+            all.mean += (copies * score.elements) as f64 * score.mean;
+        }
+        all.mean /= all.elements as f64;
+        all
+    }
+
+    /// Whether edges are nearer to what was asked for in the mean.
+    pub fn is_nearer_than(&self, other: &Self) -> bool {
+        self.mean.ln().abs() < other.mean.ln().abs()
+    }
+
+    /// Whether edges are shorter than asked for in the mean.
+    pub fn is_short(&self) -> bool {
+        self.mean < 1.0
     }
 
     /// Whether it has fewer elements that fail, or as many and fewer elements for what the smallest angle is worth.
@@ -109,10 +162,12 @@ impl Score {
     }
 
     /// Whether it has fewer elements for what the smallest angle is worth, where one that fails weighs as much as others, and edges that are
-    /// longer than asked for as much as ones that are shorter.
+    /// longer than asked for as much as ones that are shorter: edges that are longer by a part are as far from what was asked for as ones that
+    /// are shorter by it, which take its cube more elements. That many fewer are no merit, and as many count against it.
     pub fn costs_less_than(&self, other: &Self) -> bool {
         let price = |one: &Self, other: &Self| {
-            (one.elements + one.weight) as f64 * one.longer.powi(6) * other.worth
+            let longer = one.mean.max(1.0).powi(6);
+            (one.elements + one.weight) as f64 * longer * other.worth
         };
         price(self, other) < price(other, self)
     }

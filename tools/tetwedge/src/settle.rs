@@ -1,77 +1,121 @@
 //! Surfaces remeshed within the deviation, and the faces that copies share divided as the elements need, before a template is
 //! filled.
 
-use mesher::{Error, Log, Params, Progress};
-use periodic_surf::{Followed, Footing, SurfaceError, follow_shape, settle_faces};
+use mesher::{Error, Log, Params};
+use surface::{Followed, Footing, Guide, Report, SurfaceError, follow_shape, settle_faces};
 use tmesh::Document;
 
 /// A document whose surface is to stay, and what there is to say about it.
+#[derive(Clone)]
 pub struct Settled {
     /// The document.
     pub document: Document,
-    /// What the user should know, a sentence each.
-    pub advice: Vec<String>,
-    /// What was made, a sentence for each template.
-    pub facts: Vec<String>,
-    /// Whether surfaces were remeshed.
-    pub remeshed: bool,
     /// Of each template, what its surface stands on if it was remeshed; empty for none.
     pub footings: Vec<Option<Footing>>,
+    /// What surfaces with seams are divided by.
+    pub guide: Guide,
+    /// Of each template, what was made of faces that copies share; empty for none.
+    pub report: Report,
+    /// What the user should know, a sentence each.
+    pub advice: Vec<String>,
+    /// What was remeshed, a sentence for each template.
+    pub facts: Vec<String>,
 }
 
-/// Remeshes surfaces and makes those of templates with seams, as `periodic-surf` does, unless that was done before or is
-/// not wanted. Faces of a seam that cannot be divided stay as they were cut.
-///
-/// # Errors
-/// What another attempt would not change: time, memory, what is asked for.
-pub fn settle(mut document: Document, params: &Params, log: Log<'_>) -> Result<Settled, Error> {
-    let kept = |document, advice, followed: Followed| Settled {
-        document,
-        advice,
-        remeshed: !followed.facts.is_empty(),
-        facts: followed.facts,
-        footings: followed.footings,
-    };
-    let filled = document.templates.iter().any(|t| !t.tets.is_empty());
-    if document.wishes.keep_surface() || filled {
-        return Ok(kept(document, Vec::new(), Followed::default()));
+impl Settled {
+    /// What the user should know, a sentence each.
+    pub fn advice(&self) -> Vec<String> {
+        let remade = self.report.iter().flatten();
+        let advice = remade.filter_map(|remade| remade.advice.clone());
+        self.advice.iter().cloned().chain(advice).collect()
     }
-    // Switches are meant for the tetrahedra.
-    let surface = Params {
-        switches: String::new(),
-        ..params.clone()
-    };
-    let detail = |text: &str| log.detail(text);
-    let progress = |progress: &Progress<'_>| {
-        let step = &format!("surface mesh, {}", progress.step);
-        log.progress(&Progress { step, ..*progress });
-    };
-    let of_surface = match log.has_progress() {
-        true => Log::new(&detail).with_progress(&progress),
-        false => log,
-    };
-    let followed = follow_shape(&mut document, &surface, of_surface)?;
-    followed.facts.iter().for_each(|fact| log.detail(fact));
-    match settle_faces(document.clone(), &surface, of_surface) {
-        Ok((settled, report)) => {
-            let mut kept = kept(settled, report.advice, followed);
-            if report.remade > 0 {
-                kept.facts.extend(report.facts);
-            }
-            // What was made anew has other triangles.
-            let templates = document.templates.iter().zip(&kept.document.templates);
-            for ((before, after), footing) in templates.zip(&mut kept.footings) {
-                footing.take_if(|_| before.triangles != after.triangles);
-            }
-            Ok(kept)
-        }
-        Err(SurfaceError::Mesher(error)) if !error.is_chance() => Err(error),
-        Err(error) => Ok(kept(
+
+    /// What was made, a sentence for each template.
+    pub fn facts(&self) -> Vec<String> {
+        let remade = self.report.iter().flatten();
+        let facts = remade.map(|remade| remade.fact.clone());
+        self.facts.iter().cloned().chain(facts).collect()
+    }
+}
+
+/// A document whose surface follows the shape behind it, and whose shared faces are as they were cut.
+pub struct Shaped {
+    document: Document,
+    followed: Followed,
+    /// What is asked for, if shared faces are to be divided.
+    params: Option<Params>,
+}
+
+impl Shaped {
+    /// A document whose surface is to stay.
+    pub fn kept(document: Document) -> Self {
+        Self {
             document,
-            vec![format!(
-                "the faces that copies share stay as they were cut, which costs elements or their quality: {error}"
-            )],
+            followed: Followed::default(),
+            params: None,
+        }
+    }
+
+    /// Remeshes surfaces.
+    ///
+    /// # Errors
+    /// What another attempt would not change: time, memory, what is asked for.
+    pub fn new(mut document: Document, params: &Params, log: Log<'_>) -> Result<Self, Error> {
+        // Switches are meant for the tetrahedra.
+        let params = Params {
+            switches: String::new(),
+            ..params.clone()
+        };
+        let followed = follow_shape(&mut document, &params, log)?;
+        followed.facts.iter().for_each(|fact| log.detail(fact));
+        Ok(Self {
+            document,
             followed,
-        )),
+            params: Some(params),
+        })
+    }
+
+    /// Whether surfaces were remeshed.
+    pub fn is_remeshed(&self) -> bool {
+        !self.followed.facts.is_empty()
+    }
+
+    /// With shared faces as they are.
+    pub fn as_it_is(&self) -> Settled {
+        Settled {
+            document: self.document.clone(),
+            footings: self.followed.footings.clone(),
+            guide: Guide::Mesher,
+            report: Report::default(),
+            advice: Vec::new(),
+            facts: self.followed.facts.clone(),
+        }
+    }
+
+    /// With new surfaces of templates with seams, unless all stay.
+    ///
+    /// # Errors
+    /// See [`SurfaceError`].
+    pub fn settled(&self, guide: Guide, log: Log<'_>) -> Result<Settled, SurfaceError> {
+        let Some(params) = &self.params else {
+            return Ok(Settled {
+                guide,
+                ..self.as_it_is()
+            });
+        };
+        let (document, report) = settle_faces(self.document.clone(), params, log, guide)?;
+        let mut footings = self.followed.footings.clone();
+        // What was made anew has other triangles.
+        let templates = self.document.templates.iter().zip(&document.templates);
+        for ((before, after), footing) in templates.zip(&mut footings) {
+            footing.take_if(|_| before.triangles != after.triangles);
+        }
+        Ok(Settled {
+            document,
+            footings,
+            guide,
+            report,
+            ..self.as_it_is()
+        })
     }
 }

@@ -6,7 +6,7 @@ use crate::fill::Filled;
 use mesher::{
     Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
 };
-use periodic_surf::Footing;
+use surface::{Footing, Guide};
 use tmesh::Document;
 
 /// What all templates have in common.
@@ -18,6 +18,8 @@ pub struct Job<'a> {
     pub params: &'a Params,
     /// Sizes by region.
     pub sizes: &'a Sizes,
+    /// What the surfaces of followers are divided by.
+    pub guide: Guide,
     /// Receives details.
     pub log: Log<'a>,
 }

@@ -1,7 +1,6 @@
 use crate::done::done;
 use crate::fill::{fill, finish};
-use crate::lengths::divided;
-use crate::{Meshed, tetrahedralize};
+use crate::{Meshed, surfaces, tetrahedralize};
 use bodies::wedges::{Grid, LEVEL, SIDE, WALL, coated_ring, prism, with_hub};
 use geom::measure::{tet_volume, volume_of_region};
 use glam::DVec3;
@@ -11,8 +10,9 @@ use mesher::{
     Answer, Asks, Attempt, Change, Climb, Deadline, Description, Error, LADDER, Log, NO_FACE,
     Params, Piece, Plc, Sizes, TetGen,
 };
-use periodic_surf::failure;
 use std::time::Duration;
+use surface::failure;
+use surface::{Guide, Shared, divided, mean_edge, settle_faces};
 use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
 
 /// Fills a document as these wishes ask, its surface as it is.
@@ -314,7 +314,9 @@ fn seams_that_nobody_settled_are_divided_as_the_elements_need() {
     assert!(pairs(&done.document) > pairs(&before));
     // Just what is made of it in two steps.
     let params = Params::new(&before.wishes);
-    let (surface, _) = periodic_surf::prepare(before, &params, Log::new(&|_| ())).unwrap();
+    let surface = surfaces(before, &params, Log::new(&|_| ()))
+        .unwrap()
+        .document;
     let again = tetrahedralize(surface, &params, Log::new(&|_| ()))
         .unwrap()
         .document;
@@ -344,6 +346,42 @@ fn a_surface_that_cannot_be_settled_stays_as_it_was_cut() {
     assert!(!told.contains("--order"), "{told}");
 }
 
+/// Where lengths of edges are asked for, faces of a seam and what is beside them have these rather than what the mesher makes of them, in one step as in
+/// two.
+#[test]
+fn surfaces_with_seams_get_the_lengths_asked_for() {
+    for (order, length) in [(7, 0.2), (12, 0.15)] {
+        let mut before = ratchet(order);
+        before.wishes.size = Some(Size::EdgeLength(length));
+        let params = Params::new(&before.wishes);
+        let log = Log::new(&|_| ());
+        let done = tetrahedralize(before.clone(), &params, log).unwrap();
+        assert_eq!(validate(&done.document), []);
+        for region in &before.regions {
+            let of = |d: &Document| {
+                let t = &d.templates[0];
+                volume_of_region(&t.vertices, t.faces(), region.id)
+            };
+            let (was, is) = (of(&before), of(&done.document));
+            assert!((was - is).abs() <= 1e-12 * was.abs(), "{was} {is}");
+        }
+        let (mesher, _) = settle_faces(before.clone(), &params, log, Guide::Mesher).unwrap();
+        let mesher = tetrahedralize(mesher, &params, log).unwrap();
+        let surface = surfaces(before.clone(), &params, log).unwrap();
+        assert_eq!(validate(&surface.document), []);
+        let again = tetrahedralize(surface.document, &params, log).unwrap();
+        assert_eq!(again.document.templates, done.document.templates);
+        let means = [&mesher, &done].map(|meshed| {
+            let template = &meshed.document.templates[0];
+            let lengths = before.regions.iter().map(|r| (r.id, length)).collect();
+            mean_edge(&lengths, &template.vertices, &template.tets).unwrap()
+        });
+        let counts = [&mesher, &done].map(|meshed| meshed.document.templates[0].tets.len());
+        assert!(means[0] < means[1] && means[1] < 1.1, "{order}: {means:?}");
+        assert!(counts[0] > counts[1], "{order}: {counts:?}");
+    }
+}
+
 /// The surface with the lengths asked for is the same surface: regions keep their volumes, walls and axis their points, and what other
 /// templates share is as it was.
 #[test]
@@ -360,7 +398,7 @@ fn a_surface_gets_the_lengths_asked_for() {
         let sizes = Sizes::of_regions(&before);
         let plc = Plc::new(piece, &sizes, Description::PLAIN).unwrap();
         let lengths = before.regions.iter().map(|r| (r.id, length)).collect();
-        let made = divided(piece, &plc, &lengths).unwrap();
+        let made = divided(piece, &plc, &lengths, Shared::Stay).unwrap();
         let (old, new) = (piece.template, &made.template);
         assert!(new.triangles.len() > old.triangles.len());
         let mut after = before.clone();

@@ -1,11 +1,11 @@
 //! Wedges whose walls are glued by half turns and rotary reflections, made in code, and their whole way to a mesh.
 
-use crate::tetrahedralize;
+use crate::{surfaces, tetrahedralize};
 use bodies::wedges::{Grid, name_regions};
 use geom::measure::tet_volume;
 use glam::DVec3;
 use mesher::{Log, Params};
-use periodic_surf::prepare;
+
 use tmesh::{Document, Gluing, Instance, Isometry, Size, Template, Triangle, Wishes, validate};
 
 /// How a wall of a wedge is glued.
@@ -167,8 +167,10 @@ fn through(mut document: Document, volume_of_wedge: f64) {
     };
     let before = seams(&document);
     let params = Params::new(&document.wishes);
-    let (settled, report) = prepare(document, &params, Log::new(&|_| ())).unwrap();
-    assert_eq!(report.remade, 1);
+    let made = surfaces(document, &params, Log::new(&|_| ())).unwrap();
+    let settled = made.document;
+    let of_seams = made.facts.iter().filter(|fact| fact.contains("seam of"));
+    assert_eq!(of_seams.count(), 1, "{:?}", made.facts);
     assert_eq!(validate(&settled), []);
     let after = seams(&settled);
     assert!(

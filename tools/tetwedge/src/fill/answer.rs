@@ -6,7 +6,7 @@ use super::walls::{on_shifted_facets, restore_walls};
 use glam::DVec3;
 use improve::Leaves;
 use mesher::{Answer, Climb, Elements, Error, Piece, Place, Plc, Surface, face_key, label};
-use periodic_surf::{Left, coarsened};
+use surface::{Left, coarsened};
 use tmesh::{OUTSIDE, Template, Tet, Triangle};
 
 /// What is known of a filled template that is not finished.

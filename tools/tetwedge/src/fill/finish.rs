@@ -9,8 +9,8 @@ use geom::measure::corners;
 use glam::DVec3;
 use improve::{Curved, Flats, Freedoms, Improved, NO_PATCH, Point, Wish, improve};
 use mesher::{Climb, Error, NO_FACE, Plc};
-use periodic_surf::{Footing, crosses_itself};
 use rustc_hash::FxHashSet;
+use surface::{Footing, crosses_itself};
 use tmesh::Template;
 
 /// Improves the tetrahedra of a filled template, and checks all of it. Where its surface stands on a shape, vertices are moved along that,

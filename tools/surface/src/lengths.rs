@@ -7,9 +7,9 @@
 
 use geom::cdt::{Frame, Patch};
 use glam::DVec3;
-use mesher::{Facet, NO_FACE, Piece, Plc};
+use mesher::{Facet, NO_FACE, Piece, Plc, Sizes};
 use rustc_hash::{FxHashMap, FxHashSet};
-use tmesh::{FixedSet, Template};
+use tmesh::{Document, FixedSet, Template, Tet};
 
 /// Length of an edge, over the one asked for, up to which it stays whole: halves would miss it by more (as in remeshing, after
 /// M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004).
@@ -17,6 +17,32 @@ const LONGEST: f64 = 4.0 / 3.0;
 
 /// Lengths of edges asked for, model units, by region.
 pub type Lengths = FxHashMap<u32, f64>;
+
+/// Length asked for in each region, model units, unless sizes change from place to place in a template, which may want the surface divided.
+pub fn lengths(document: &Document, sizes: &Sizes, template: usize) -> Option<Lengths> {
+    let each = document.regions.iter().zip(&sizes.lengths);
+    let known: Lengths = each
+        .filter_map(|(r, &length)| Some((r.id, length?)))
+        .collect();
+    let is_even = sizes.local[template].is_none();
+    (is_even && !known.is_empty()).then_some(known)
+}
+
+/// Mean length of edges over the one asked for, where all regions have one; elements count their six edges.
+pub fn mean_edge(lengths: &Lengths, vertices: &[DVec3], tets: &[Tet]) -> Option<f64> {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for tet in tets {
+        let length = lengths.get(&tet.region)?;
+        let corners = tet.vertices.map(|v| vertices[v as usize]);
+        for i in 0..4 {
+            for j in 0..i {
+                sum += corners[i].distance(corners[j]) / length;
+                count += 1.0;
+            }
+        }
+    }
+    (count > 0.0).then(|| sum / count)
+}
 
 /// A template with other triangles on the same surface.
 pub struct Divided {
@@ -26,10 +52,19 @@ pub struct Divided {
     pub parents: Vec<u32>,
 }
 
-/// Divides the surface of a template for the shorter one of the lengths on both sides. Faces that other templates share stay as they are, and what
-/// is curved, and so do edges there. `None` where facets cannot be triangulated.
+/// What becomes of faces that are images of each other, and of those that other templates are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shared {
+    /// They stay as they are.
+    Stay,
+    /// They are divided as others are. What is made is a guide for a surface whose faces fit together, and has no gluings that do.
+    Follow,
+}
+
+/// Divides the surface of a template for the shorter one of the lengths on both sides. What is curved stays as it is, and faces that another template
+/// gives, and so do edges there; shared ones, if they are to. `None` where facets cannot be triangulated.
 /// n log n in what comes of it.
-pub fn divided(piece: Piece<'_>, plc: &Plc, lengths: &Lengths) -> Option<Divided> {
+pub fn divided(piece: Piece<'_>, plc: &Plc, lengths: &Lengths, shared: Shared) -> Option<Divided> {
     let facets = &plc.facets;
     let mut of_facet: Vec<Vec<u32>> = vec![Vec::new(); facets.facets.len()];
     for (t, &facet) in (0_u32..).zip(&facets.of_triangle) {
@@ -39,6 +74,7 @@ pub fn divided(piece: Piece<'_>, plc: &Plc, lengths: &Lengths) -> Option<Divided
         piece,
         plc,
         lengths,
+        shared,
         walls: walls(piece),
         template: piece.template.clone(),
         parents: (0..piece.template.triangles.len() as u32).collect(),
@@ -89,6 +125,7 @@ struct Maker<'a> {
     piece: Piece<'a>,
     plc: &'a Plc,
     lengths: &'a Lengths,
+    shared: Shared,
     walls: Vec<Wall>,
     template: Template,
     parents: Vec<u32>,
@@ -97,11 +134,20 @@ struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// Whether a facet may have other triangles: it is flat, and no other template has it, too.
+    /// Whether a facet may have other triangles: it is flat, and if something else has it, too, that follows.
     fn is_flat(&self, facet: usize) -> bool {
         let facet = &self.plc.facets.facets[facet];
-        let is_own = facet.attributes.face == NO_FACE || self.wall(facet).is_some();
+        let face = facet.attributes.face;
+        let is_own = face == NO_FACE || self.wall(facet).is_some() || self.follows(face);
         is_own && facet.normal != DVec3::ZERO && facet.deviation <= self.plc.rounding
+    }
+
+    /// Whether what has a face, too, follows what becomes of it.
+    fn follows(&self, face: u32) -> bool {
+        let gluings = &self.piece.template.gluings;
+        let gluing = gluings.get((face - 1) as usize / 2);
+        let is_given = gluing.is_some_and(|g| g.other_than(self.piece.index).is_some());
+        self.shared == Shared::Follow && !is_given
     }
 
     /// The mirror plane that a facet is in.

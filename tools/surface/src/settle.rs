@@ -1,43 +1,24 @@
-//! The whole document: what stands for a curved surface is remeshed, every template with a seam gets a new surface, and what follows it the shared face.
+//! The whole document: every template with a seam gets a new surface, and what follows it the shared face.
 
 use crate::SurfaceError;
 use crate::apart::{apart, note_moved};
-use crate::shape::follow_shape;
-use crate::surface::{Other, impose, make};
+use crate::seams::{Guide, Made, Other, impose, make};
 use mesher::{Climb, Deadline, LADDER, Log, Params, Piece, Sizes, TetGen};
 use tmesh::{Document, Template};
 
-/// Sentences about what was done, for the history and the user.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Report {
-    /// A sentence for each template.
-    pub facts: Vec<String>,
-    /// What the user should know or do otherwise, a sentence each.
-    pub advice: Vec<String>,
-    /// Templates that got a new surface.
-    pub remade: usize,
+/// What was made of a template's surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remade {
+    /// A sentence about it.
+    pub fact: String,
+    /// What the user should know or do otherwise.
+    pub advice: Option<String>,
 }
 
-/// Remeshes all surfaces within the deviation, and makes those of templates with a seam. `log` receives details while the work goes on.
-///
-/// # Errors
-/// See [`SurfaceError`].
-pub fn prepare(
-    mut document: Document,
-    params: &Params,
-    log: Log<'_>,
-) -> Result<(Document, Report), SurfaceError> {
-    let tets = document.templates.iter().map(|t| t.tets.len()).sum();
-    if tets > 0 {
-        return Err(SurfaceError::AlreadyFilled(tets));
-    }
-    let mut facts = follow_shape(&mut document, params, log)?.facts;
-    let (document, report) = settle_faces(document, params, log)?;
-    facts.extend(report.facts);
-    Ok((document, Report { facts, ..report }))
-}
+/// What was made of all of them; `None` for those that stay.
+pub type Report = Vec<Option<Remade>>;
 
-/// Makes the surfaces of all templates with a seam.
+/// Makes the surfaces of all templates with a seam. `log` receives details while the work goes on.
 ///
 /// # Errors
 /// See [`SurfaceError`].
@@ -45,8 +26,9 @@ pub fn settle_faces(
     mut document: Document,
     params: &Params,
     log: Log<'_>,
+    guide: Guide,
 ) -> Result<(Document, Report), SurfaceError> {
-    let mut report = Report::default();
+    let mut report: Report = vec![None; document.templates.len()];
     let seams: Vec<bool> = document
         .templates
         .iter()
@@ -59,7 +41,7 @@ pub fn settle_faces(
         false => Sizes::of_regions(&document),
     };
     let remake = |document: &Document, template: usize| {
-        make(&Climb {
+        let climb = Climb {
             piece: Piece::of(document, template),
             params,
             sizes: &sizes,
@@ -68,7 +50,8 @@ pub fn settle_faces(
             deadline: Deadline::start(params.timeout),
             mesher: &TetGen,
             log,
-        })
+        };
+        make(&climb, guide)
     };
     // How far surfaces have moved that have uneven faces, model units.
     let mut moved = 0.0_f64;
@@ -84,10 +67,9 @@ pub fn settle_faces(
         if made.is_uneven {
             moved = moved.max(apart(&document.templates[index], &made.template));
         }
+        report[index] = Some(Remade::of(index, &made));
         document.templates[index] = made.template;
-        report.advice.extend(made.advice);
-        report.add(index, &document.templates[index]);
-        for follower in 0..document.templates.len() {
+        for (follower, told) in report.iter_mut().enumerate() {
             if others(&document.templates[follower], follower).any(|o| o == index) {
                 let other = Other {
                     template: &document.templates[index],
@@ -104,21 +86,12 @@ pub fn settle_faces(
                 if made.is_uneven {
                     moved = moved.max(apart(&document.templates[follower], &made.template));
                 }
+                *told = Some(Remade::of(follower, &made));
                 document.templates[follower] = made.template;
-                report.advice.extend(made.advice);
-                report.add(follower, &document.templates[follower]);
             }
         }
     }
     note_moved(&mut document, moved);
-    if report.remade == 0 {
-        let why = if seams.contains(&true) {
-            "surface kept as cut, no quality is asked for"
-        } else {
-            "no seam, the mesher may refine all walls"
-        };
-        report.facts.push(why.to_owned());
-    }
     if seams.contains(&true) {
         document.wishes.keep_surface = Some(true);
     }
@@ -130,20 +103,33 @@ fn has_seam(template: &Template, own: usize) -> bool {
 }
 
 /// Other templates that a template shares a face with.
-fn others(template: &Template, own: usize) -> impl Iterator<Item = usize> {
+pub fn others(template: &Template, own: usize) -> impl Iterator<Item = usize> {
     let gluings = template.gluings.iter();
     gluings.filter_map(move |gluing| gluing.other_than(own))
 }
 
-impl Report {
-    fn add(&mut self, index: usize, made: &Template) {
-        let seams = || made.gluings.iter().filter(|gluing| gluing.is_seam(index));
-        self.facts.push(format!(
+impl Remade {
+    fn of(
+        index: usize,
+        Made {
+            template, advice, ..
+        }: &Made,
+    ) -> Self {
+        let seams = || {
+            template
+                .gluings
+                .iter()
+                .filter(|gluing| gluing.is_seam(index))
+        };
+        let fact = format!(
             "template {index}: {} triangles, seam of {} vertex pairs and {} triangle pairs",
-            made.triangles.len(),
+            template.triangles.len(),
             seams().map(|s| s.vertex_pairs.len()).sum::<usize>(),
             seams().map(|s| s.triangle_pairs.len()).sum::<usize>(),
-        ));
-        self.remade += 1;
+        );
+        Self {
+            fact,
+            advice: advice.clone(),
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! What the surface of a template that was remeshed stands on.
 
 use crate::apart::apart;
-use crate::surface::same_size;
+use crate::seams::same_size;
 use glam::DVec3;
 use improve::{Point, Shape};
 use remesh::{Ground, Sample};

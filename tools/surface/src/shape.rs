@@ -5,7 +5,7 @@ use crate::footing::Footing;
 use crate::joined::groups;
 use crate::needles::Needle;
 use crate::remeshed::{Remeshing, Smoothed, remeshed};
-use crate::surface::{same_body, same_size};
+use crate::seams::{same_body, same_size};
 use geom::tolerance::Tolerance;
 use kit::tolerance;
 use mesher::{Error, Log, Params, Progress, Sizes, thickness};

@@ -8,6 +8,15 @@ use mesher::{
 };
 use std::convert::Infallible;
 
+/// What a surface is divided by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Guide {
+    /// A free pass of the mesher.
+    Mesher,
+    /// The lengths of edges asked for, where they can be had.
+    Lengths,
+}
+
 /// A refined surface.
 pub struct Refined {
     /// Positions, canonical frame, model units: those of the template's vertices that its triangles

@@ -2,8 +2,9 @@
 //! refined.
 
 use super::check;
+use super::even::even;
 use super::features::Features;
-use super::guide::refine;
+use super::guide::{Guide, Refined, refine};
 use super::maker::Maker;
 use super::pairing::Pairing;
 use crate::SurfaceError;
@@ -26,16 +27,23 @@ pub struct Made {
 }
 
 /// Makes the surface of a template: its seam's faces become images of each other, its own hub
-/// walls stay as they are, everything else is as fine as a free pass of the mesher has it.
+/// walls stay as they are, everything else is as fine as the guide has it.
 ///
 /// Where the surface crosses itself because facets are uneven (two that meet at a small angle are filled as if they were flat), it is
 /// made again without uneven facets.
 ///
 /// # Errors
 /// See [`SurfaceError`].
-pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
-    let made = make_as(climb, Description::PLAIN)?;
-    if !made.is_uneven || !crosses_itself(&made.template) {
+pub fn make(climb: &Climb<'_>, guide: Guide) -> Result<Made, SurfaceError> {
+    let is_sound = |made: &Made| !made.is_uneven || !crosses_itself(&made.template);
+    let evenly = || made_by(climb, even(climb)?).ok().filter(is_sound);
+    if guide == Guide::Lengths
+        && let Some(made) = evenly()
+    {
+        return Ok(made);
+    }
+    let made = made_by(climb, refine(climb, Description::PLAIN)?)?;
+    if is_sound(&made) {
         return Ok(made);
     }
     climb.log.detail(&format!(
@@ -46,7 +54,7 @@ pub fn make(climb: &Climb<'_>) -> Result<Made, SurfaceError> {
         apart: true,
         ..Description::PLAIN
     };
-    make_as(climb, apart)
+    made_by(climb, refine(climb, apart)?)
 }
 
 /// Whether triangles of a template meet anywhere but in common vertices and edges. n log n.
@@ -65,15 +73,14 @@ pub fn crosses_itself(template: &Template) -> bool {
     crosses
 }
 
-/// Makes the surface, described in one way first.
-fn make_as(climb: &Climb<'_>, description: Description) -> Result<Made, SurfaceError> {
+/// Makes the surface by a guide.
+fn made_by(climb: &Climb<'_>, guide: Refined) -> Result<Made, SurfaceError> {
     let Piece {
         index,
         template: input,
         ..
     } = climb.piece;
     let pairings = Pairing::of(input, index);
-    let guide = refine(climb, description)?;
     let features = Features::new(input, index, &guide)?;
     let mut maker = Maker::new((input, index), &pairings, &guide, &features);
     maker.divide_edges();

@@ -1,0 +1,205 @@
+//! All templates of a document filled, and what of it is better by another surface.
+
+use crate::done::Done;
+use crate::fill::Filled;
+use crate::follow::{Follow, Followed, Led, follower};
+use crate::leads::leader;
+use crate::score::{Judge, Score};
+use crate::settle::{Settled, Shaped};
+use crate::template::{Job, template};
+use geom::sets::DisjointSets;
+use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
+use rayon::prelude::*;
+use surface::{Guide, others};
+use tmesh::{Document, Template};
+
+/// A document whose templates are filled.
+pub struct Filling {
+    /// The document, with the surfaces that were filled, and what was made of it before.
+    pub settled: Settled,
+    /// The surfaces as they were settled, before those that follow others did.
+    pub surfaces: Vec<Template>,
+    /// What became of each template.
+    pub done: Vec<Done>,
+}
+
+impl Filling {
+    /// Fills all templates.
+    ///
+    /// # Errors
+    /// See [`Error`].
+    pub fn new(mut settled: Settled, params: &Params, log: Log<'_>) -> Result<Self, Error> {
+        let sizes = Sizes::new(&settled.document)?;
+        let surfaces = settled.document.templates.clone();
+        let mut document = std::mem::take(&mut settled.document);
+        let done = templates(&mut document, (params, &sizes), &settled, log)?;
+        settled.document = document;
+        Ok(Self {
+            settled,
+            surfaces,
+            done,
+        })
+    }
+
+    /// The better one of this and what becomes of surfaces with the lengths asked for, where edges end up shorter; for templates that share
+    /// faces, together.
+    pub fn or_longer(mut self, shaped: &Shaped, params: &Params, log: Log<'_>) -> Self {
+        let Some(first) = self.scores(params).filter(|_| params.switches.is_empty()) else {
+            return self;
+        };
+        let mut each = first.iter().enumerate();
+        if !each.any(|(index, score)| self.is_made(index) && score.is_short()) {
+            return self;
+        }
+        let settled = shaped.settled(Guide::Lengths, log);
+        let other = settled
+            .ok()
+            .and_then(|settled| Self::new(settled, params, log).ok());
+        let Some((mut other, second)) = other.and_then(|other| {
+            let scores = other.scores(params)?;
+            Some((other, scores))
+        }) else {
+            return self;
+        };
+        for group in groups(&self.surfaces) {
+            let of = |scores: &[Score]| {
+                let each = group.iter().map(|&i| (self.copies(i), &scores[i]));
+                Score::together(each)
+            };
+            let [there, here] = [&second, &first].map(|scores| of(scores));
+            if there.is_nearer_than(&here) && there.costs_less_than(&here) {
+                for &index in &group {
+                    if self.is_made(index) {
+                        log.detail(&format!(
+                            "template {index}: its surface has the lengths asked for, and the mesher leaves them"
+                        ));
+                    }
+                    self.swap(&mut other, index);
+                }
+            }
+        }
+        self
+    }
+
+    /// Whether the surface of a template was made here, and might have been made in another way.
+    fn is_made(&self, index: usize) -> bool {
+        let report = self.settled.report.get(index);
+        report.is_some_and(Option::is_some) || leader(&self.settled.document, index).is_some()
+    }
+
+    /// Puts what another filling has of a template in the place of what is here.
+    fn swap(&mut self, other: &mut Self, index: usize) {
+        let (here, there) = (&mut self.settled, &mut other.settled);
+        let templates = (&mut here.document.templates, &mut there.document.templates);
+        std::mem::swap(&mut templates.0[index], &mut templates.1[index]);
+        std::mem::swap(&mut self.surfaces[index], &mut other.surfaces[index]);
+        std::mem::swap(&mut self.done[index], &mut other.done[index]);
+        std::mem::swap(&mut here.report[index], &mut there.report[index]);
+        if let (Some(here), Some(there)) =
+            (here.footings.get_mut(index), there.footings.get_mut(index))
+        {
+            std::mem::swap(here, there);
+        }
+    }
+
+    /// How often a template is placed.
+    fn copies(&self, index: usize) -> usize {
+        let instances = self.settled.document.instances.iter();
+        instances.filter(|i| i.template as usize == index).count()
+    }
+
+    /// How good the meshes are; `None` where no lengths are asked for or elements are not improved.
+    fn scores(&self, params: &Params) -> Option<Vec<Score>> {
+        let sizes = Sizes::new(&self.settled.document).ok()?;
+        let angle = params.angle()?;
+        let each = self.done.iter().enumerate().map(|(index, done)| {
+            let judge = Judge::new(&self.settled.document, (&sizes, index), params, angle);
+            (judge.has_lengths() && done.filled.improved.is_some()).then(|| judge.score(done))
+        });
+        each.collect()
+    }
+}
+
+/// Templates that share faces, in groups.
+fn groups(templates: &[Template]) -> Vec<Vec<usize>> {
+    let mut sets = DisjointSets::new(templates.len());
+    for (index, template) in templates.iter().enumerate() {
+        for other in others(template, index) {
+            sets.join(index as u32, other as u32);
+        }
+    }
+    let (of_template, count) = sets.numbered();
+    let mut groups = vec![Vec::new(); count];
+    for (index, &group) in of_template.iter().enumerate() {
+        groups[group as usize].push(index);
+    }
+    groups
+}
+
+/// Meshes all templates, those that lead before those that follow them; followers get their new surfaces.
+fn templates(
+    document: &mut Document,
+    (params, sizes): (&Params, &Sizes),
+    settled: &Settled,
+    log: Log<'_>,
+) -> Result<Vec<Done>, Error> {
+    let Settled {
+        footings, guide, ..
+    } = settled;
+    let guide = *guide;
+    let count = document.templates.len();
+    let leaders: Vec<Option<usize>> = (0..count).map(|index| leader(document, index)).collect();
+    let job = Job {
+        document,
+        params,
+        sizes,
+        guide,
+        log,
+    };
+    let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
+    let mesh = |&index: &usize| {
+        let followers: Vec<usize> = (0..count).filter(|&i| leaders[i] == Some(index)).collect();
+        let follow = |lead: &Filled| -> Vec<Followed> {
+            let each = followers.iter();
+            each.map(|&i| (i, follower(&job, i, lead))).collect()
+        };
+        let beside: Option<Follow<'_>> = match followers.is_empty() {
+            true => None,
+            false => Some(&follow),
+        };
+        let deadline = Deadline::start(params.timeout);
+        let footing = footings.get(index).and_then(Option::as_ref);
+        let climb = job.climb(Piece::of(document, index), deadline);
+        template(&climb, footing, beside)
+    };
+    let meshed: Vec<Led> = first.par_iter().map(mesh).collect();
+    let mut slots: Vec<Option<Done>> = (0..count).map(|_| None).collect();
+    let mut followed: Vec<Followed> = Vec::new();
+    for (&index, done) in first.iter().zip(meshed) {
+        let (done, beside) = done?;
+        followed.extend(beside.into_iter().flatten());
+        slots[index] = Some(done);
+    }
+    for (index, lead) in leaders.iter().enumerate() {
+        if let Some(lead) = lead.and_then(|l| slots[l].as_ref()) {
+            let known = followed.iter().position(|(follower, _)| *follower == index);
+            let (surface, done) = match known {
+                Some(known) => followed.swap_remove(known).1?,
+                None => {
+                    let job = Job {
+                        document,
+                        params,
+                        sizes,
+                        guide,
+                        log,
+                    };
+                    follower(&job, index, &lead.filled)?
+                }
+            };
+            document.templates[index] = surface;
+            slots[index] = Some(done);
+        }
+    }
+    // Every slot is filled: a leader has no leader.
+    Ok(slots.into_iter().flatten().collect())
+}

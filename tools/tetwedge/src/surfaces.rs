@@ -1,0 +1,53 @@
+//! Surfaces alone, as they are to be filled.
+
+use crate::document::Meshed;
+use crate::filling::Filling;
+use crate::settle::{Settled, Shaped};
+use mesher::{Log, Params, Sizes};
+use surface::{Guide, SurfaceError, lengths};
+use tmesh::Document;
+
+/// Remeshes all surfaces within the deviation, and makes those of templates with seams, just as they are to be filled: where lengths of edges
+/// are asked for, they are filled in both ways to see which is better. `log` receives details while the work goes on.
+///
+/// # Errors
+/// See [`SurfaceError`].
+pub fn surfaces(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, SurfaceError> {
+    let tets = document.templates.iter().map(|t| t.tets.len()).sum();
+    if tets > 0 {
+        return Err(SurfaceError::AlreadyFilled(tets));
+    }
+    let shaped = Shaped::new(document, params, log)?;
+    let mut settled = shaped.settled(Guide::Mesher, log)?;
+    if has_choice(&settled)
+        && let Ok(first) = Filling::new(settled.clone(), params, log)
+    {
+        let best = first.or_longer(&shaped, params, log);
+        settled = best.settled;
+        settled.document.templates = best.surfaces;
+    }
+    let mut facts = settled.facts();
+    if settled.report.iter().all(Option::is_none) {
+        let mut gluings = (0_usize..).zip(&settled.document.templates);
+        let why = match gluings.any(|(i, t)| t.gluings.iter().any(|gluing| gluing.is_seam(i))) {
+            true => "surface kept as cut, no quality is asked for",
+            false => "no seam, the mesher may refine all walls",
+        };
+        facts.push(why.to_owned());
+    }
+    Ok(Meshed {
+        advice: settled.advice(),
+        facts,
+        document: settled.document,
+    })
+}
+
+/// Whether a surface that was made might have the lengths asked for instead.
+fn has_choice(settled: &Settled) -> bool {
+    let Ok(sizes) = Sizes::new(&settled.document) else {
+        return false;
+    };
+    let remade = settled.report.iter().enumerate();
+    let mut remade = remade.filter(|(_, remade)| remade.is_some());
+    remade.any(|(index, _)| lengths(&settled.document, &sizes, index).is_some())
+}
