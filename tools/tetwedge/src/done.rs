@@ -1,7 +1,7 @@
 //! A filled template: coarsened, improved, checked, with what there is to say about it.
 
+use crate::failing::{FAILING, is_hopeless};
 use crate::fill::{Filled, fill, finish};
-use crate::score::{FAILING, is_hopeless};
 use improve::Leaves;
 use mesher::{Answer, Climb, EASING, Error, Progress};
 use surface::Footing;

@@ -44,7 +44,9 @@ impl Filling {
     /// The better one of this and what becomes of surfaces with the lengths asked for, where edges end up shorter; for templates that share
     /// faces, together.
     pub fn or_longer(mut self, shaped: &Shaped, params: &Params, log: Log<'_>) -> Self {
-        let Some(first) = self.scores(params).filter(|_| params.switches.is_empty()) else {
+        // What could not be divided and stays as it was cut is said to.
+        let has_choice = params.switches.is_empty() && self.settled.advice.is_empty();
+        let Some(first) = self.scores(params).filter(|_| has_choice) else {
             return self;
         };
         let mut each = first.iter().enumerate();
@@ -83,8 +85,7 @@ impl Filling {
 
     /// Whether the surface of a template was made here, and might have been made in another way.
     fn is_made(&self, index: usize) -> bool {
-        let report = self.settled.report.get(index);
-        report.is_some_and(Option::is_some) || leader(&self.settled.document, index).is_some()
+        self.settled.report[index].is_some() || leader(&self.settled.document, index).is_some()
     }
 
     /// Puts what another filling has of a template in the place of what is here.

@@ -10,6 +10,7 @@ mod cli;
 mod document;
 mod done;
 mod draws;
+mod failing;
 mod fill;
 mod filling;
 mod follow;

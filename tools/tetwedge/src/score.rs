@@ -1,6 +1,7 @@
 //! How good a mesh of a template is, next to another one.
 
 use crate::done::Done;
+use crate::failing::{FAILING, is_hopeless};
 use geom::measure::tet_volume;
 use geom::tet::TetMeasures;
 use mesher::{Params, Room, Sizes};
@@ -9,22 +10,9 @@ use std::cmp::Ordering;
 use surface::{Lengths, lengths, mean_edge};
 use tmesh::{Document, Tet};
 
-/// What an element that fails what is asked for weighs against others. A choice: the first percentile is what is asked of a mesh, and where
-/// one in a hundred fails, these weigh as much as all others.
-pub const FAILING: usize = 100;
-
 /// What an element past a radius-edge bound that nobody asked for weighs, where lengths are: the elements around an inner vertex, which a vertex there
 /// would replace. It has no angle that is too small; the bound is what ends refinement.
 const PAST: usize = 20;
-
-/// Where one in so many elements fails, it is the shape, and no coarsening helps: a thin layer drawn with needles takes a minute to improve, and
-/// another one for nothing. Impellers have one in thirty.
-const HOPELESS: usize = 10;
-
-/// Whether so many elements fail that nothing else is worth trying.
-pub fn is_hopeless(failing: usize, elements: usize) -> bool {
-    HOPELESS * failing > elements
-}
 
 /// How good a mesh is.
 pub struct Score {

@@ -86,7 +86,7 @@ impl Shaped {
             document: self.document.clone(),
             footings: self.followed.footings.clone(),
             guide: Guide::Mesher,
-            report: Report::default(),
+            report: vec![None; self.document.templates.len()],
             advice: Vec::new(),
             facts: self.followed.facts.clone(),
         }

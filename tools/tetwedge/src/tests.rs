@@ -332,18 +332,23 @@ fn seams_that_nobody_settled_are_divided_as_the_elements_need() {
 
 #[test]
 fn a_surface_that_cannot_be_settled_stays_as_it_was_cut() {
-    let mut document = ratchet(5);
-    document.wishes = sized(1e-3);
-    // Two masters of one flat facet whose images are not alike.
-    let [image, _] = document.templates[0].gluings[0].triangle_pairs[0];
-    let before = document.templates[0].gluings[0].triangle_pairs.len();
-    document.templates[0].triangles[image as usize].marker += 1;
-    let done = settled_and_filled(document, &sized(1e-3)).unwrap();
-    let seam = &done.document.templates[0].gluings[0];
-    assert_eq!(seam.triangle_pairs.len(), before);
-    let told = &done.advice[0];
-    assert!(told.contains("stay as they were cut"), "{told}");
-    assert!(!told.contains("--order"), "{told}");
+    let by_length = Wishes {
+        size: Some(Size::EdgeLength(0.2)),
+        ..sized(1e-3)
+    };
+    for wishes in [sized(1e-3), by_length] {
+        let mut document = ratchet(7);
+        // Two masters of one flat facet whose images are not alike.
+        let [image, _] = document.templates[0].gluings[0].triangle_pairs[0];
+        let before = document.templates[0].gluings[0].triangle_pairs.len();
+        document.templates[0].triangles[image as usize].marker += 1;
+        let done = settled_and_filled(document, &wishes).unwrap();
+        let seam = &done.document.templates[0].gluings[0];
+        assert_eq!(seam.triangle_pairs.len(), before);
+        let told = &done.advice[0];
+        assert!(told.contains("stay as they were cut"), "{told}");
+        assert!(!told.contains("--order"), "{told}");
+    }
 }
 
 /// Where lengths of edges are asked for, faces of a seam and what is beside them have these rather than what the mesher makes of them, in one step as in
