@@ -12,6 +12,7 @@ const EXAMPLES: &str = "Examples:
 ///
 /// The surface is refined as size and quality ask for, thin layers included, and the two faces of a
 /// seam stay images of each other; tetwedge then keeps it, and inherits what was asked of the elements.
+/// Where lengths of edges are asked for, the wedge is filled to see whether the surface may have just these.
 /// Wedges between mirror walls pass as they are.
 #[derive(clap::Parser, Debug)]
 #[command(name = "periodic-surf", version, after_help = EXAMPLES)]

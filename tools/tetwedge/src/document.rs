@@ -63,6 +63,7 @@ fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (
         settled,
         surfaces: given,
         mut done,
+        ..
     } = first.or_longer(&shaped, params, log);
     let facts = [settled.facts(), facts(&done)].concat();
     let advices = done.iter().filter_map(|d| d.advice.clone());

@@ -10,6 +10,7 @@ use crate::template::{Job, template};
 use geom::sets::DisjointSets;
 use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
 use rayon::prelude::*;
+use std::time::Instant;
 use surface::{Guide, others};
 use tmesh::{Document, Template};
 
@@ -21,6 +22,8 @@ pub struct Filling {
     pub surfaces: Vec<Template>,
     /// What became of each template.
     pub done: Vec<Done>,
+    /// When it was begun.
+    begun: Instant,
 }
 
 impl Filling {
@@ -29,6 +32,7 @@ impl Filling {
     /// # Errors
     /// See [`Error`].
     pub fn new(mut settled: Settled, params: &Params, log: Log<'_>) -> Result<Self, Error> {
+        let begun = Instant::now();
         let sizes = Sizes::new(&settled.document)?;
         let surfaces = settled.document.templates.clone();
         let mut document = std::mem::take(&mut settled.document);
@@ -38,14 +42,17 @@ impl Filling {
             settled,
             surfaces,
             done,
+            begun,
         })
     }
 
     /// The better one of this and what becomes of surfaces with the lengths asked for, where edges end up shorter; for templates that share
     /// faces, together.
     pub fn or_longer(mut self, shaped: &Shaped, params: &Params, log: Log<'_>) -> Self {
-        // What could not be divided and stays as it was cut is said to.
-        let has_choice = params.switches.is_empty() && self.settled.advice.is_empty();
+        // As with draws: what cannot be as asked is not a matter of the way.
+        let is_as_asked =
+            self.settled.is_as_asked() && self.done.iter().all(|done| done.advice.is_none());
+        let has_choice = is_as_asked && params.switches.is_empty();
         let Some(first) = self.scores(params).filter(|_| has_choice) else {
             return self;
         };
@@ -53,10 +60,20 @@ impl Filling {
         if !each.any(|(index, score)| self.is_made(index) && score.is_short()) {
             return self;
         }
+        // Both share the time that there is.
+        let limited = Params {
+            timeout: params
+                .timeout
+                .map(|t| t.saturating_sub(self.begun.elapsed())),
+            ..params.clone()
+        };
+        if limited.timeout.is_some_and(|left| left.is_zero()) {
+            return self;
+        }
         let settled = shaped.settled(Guide::Lengths, log);
         let other = settled
             .ok()
-            .and_then(|settled| Self::new(settled, params, log).ok());
+            .and_then(|settled| Self::new(settled, &limited, log).ok());
         let Some((mut other, second)) = other.and_then(|other| {
             let scores = other.scores(params)?;
             Some((other, scores))

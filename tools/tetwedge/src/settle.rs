@@ -30,6 +30,11 @@ impl Settled {
         self.advice.iter().cloned().chain(advice).collect()
     }
 
+    /// Whether there is nothing that the user should know.
+    pub fn is_as_asked(&self) -> bool {
+        self.advice().is_empty()
+    }
+
     /// What was made, a sentence for each template.
     pub fn facts(&self) -> Vec<String> {
         let remade = self.report.iter().flatten();

@@ -19,7 +19,8 @@ pub fn surfaces(document: Document, params: &Params, log: Log<'_>) -> Result<Mes
     }
     let shaped = Shaped::new(document, params, log)?;
     let mut settled = shaped.settled(Guide::Mesher, log)?;
-    if has_choice(&settled)
+    if settled.is_as_asked()
+        && has_choice(&settled)
         && let Ok(first) = Filling::new(settled.clone(), params, log)
     {
         let best = first.or_longer(&shaped, params, log);
