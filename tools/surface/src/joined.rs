@@ -60,9 +60,19 @@ pub struct Joined<'a> {
 /// Groups of templates whose surfaces can be joined: those that are glued to each other, if they have no more walls than
 /// can be told apart; others one by one. `sizes_differ`: whether each has sizes of its own from place to place.
 pub fn groups(document: &Document, sizes_differ: bool) -> Vec<Vec<usize>> {
-    let count = document.templates.len();
+    let groups = glued(&document.templates);
+    let apart = |group: Vec<usize>| match fits(document, &group) && !sizes_differ {
+        true => vec![group],
+        false => group.into_iter().map(|index| vec![index]).collect(),
+    };
+    groups.into_iter().flat_map(apart).collect()
+}
+
+/// Templates that are glued to each other, also by way of others, in groups; increasing.
+pub fn glued(templates: &[Template]) -> Vec<Vec<usize>> {
+    let count = templates.len();
     let mut sets = geom::sets::DisjointSets::new(count);
-    for (index, template) in document.templates.iter().enumerate() {
+    for (index, template) in templates.iter().enumerate() {
         for other in template.gluings.iter().filter_map(|g| g.other_than(index)) {
             sets.join(index as u32, other as u32);
         }
@@ -73,11 +83,7 @@ pub fn groups(document: &Document, sizes_differ: bool) -> Vec<Vec<usize>> {
     }
     groups.retain(|group| !group.is_empty());
     groups.sort_unstable();
-    let apart = |group: Vec<usize>| match fits(document, &group) && !sizes_differ {
-        true => vec![group],
-        false => group.into_iter().map(|index| vec![index]).collect(),
-    };
-    groups.into_iter().flat_map(apart).collect()
+    groups
 }
 
 /// Whether a group has no more walls than can be told apart.

@@ -103,7 +103,7 @@ fn has_seam(template: &Template, own: usize) -> bool {
 }
 
 /// Other templates that a template shares a face with.
-pub fn others(template: &Template, own: usize) -> impl Iterator<Item = usize> {
+fn others(template: &Template, own: usize) -> impl Iterator<Item = usize> {
     let gluings = template.gluings.iter();
     gluings.filter_map(move |gluing| gluing.other_than(own))
 }

@@ -7,11 +7,10 @@ use crate::leads::leader;
 use crate::score::{Judge, Score};
 use crate::settle::{Settled, Shaped};
 use crate::template::{Job, template};
-use geom::sets::DisjointSets;
 use mesher::{Deadline, Error, Log, Params, Piece, Sizes};
 use rayon::prelude::*;
 use std::time::Instant;
-use surface::{Guide, others};
+use surface::{Guide, glued};
 use tmesh::{Document, Template};
 
 /// A document whose templates are filled.
@@ -22,6 +21,8 @@ pub struct Filling {
     pub surfaces: Vec<Template>,
     /// What became of each template.
     pub done: Vec<Done>,
+    /// Sizes by region.
+    sizes: Sizes,
     /// When it was begun.
     begun: Instant,
 }
@@ -42,6 +43,7 @@ impl Filling {
             settled,
             surfaces,
             done,
+            sizes,
             begun,
         })
     }
@@ -80,7 +82,7 @@ impl Filling {
         }) else {
             return self;
         };
-        for group in groups(&self.surfaces) {
+        for group in glued(&self.surfaces) {
             let of = |scores: &[Score]| {
                 let each = group.iter().map(|&i| (self.copies(i), &scores[i]));
                 Score::together(each)
@@ -128,30 +130,13 @@ impl Filling {
 
     /// How good the meshes are; `None` where no lengths are asked for or elements are not improved.
     fn scores(&self, params: &Params) -> Option<Vec<Score>> {
-        let sizes = Sizes::new(&self.settled.document).ok()?;
         let angle = params.angle()?;
         let each = self.done.iter().enumerate().map(|(index, done)| {
-            let judge = Judge::new(&self.settled.document, (&sizes, index), params, angle);
+            let judge = Judge::new(&self.settled.document, (&self.sizes, index), params, angle);
             (judge.has_lengths() && done.filled.improved.is_some()).then(|| judge.score(done))
         });
         each.collect()
     }
-}
-
-/// Templates that share faces, in groups.
-fn groups(templates: &[Template]) -> Vec<Vec<usize>> {
-    let mut sets = DisjointSets::new(templates.len());
-    for (index, template) in templates.iter().enumerate() {
-        for other in others(template, index) {
-            sets.join(index as u32, other as u32);
-        }
-    }
-    let (of_template, count) = sets.numbered();
-    let mut groups = vec![Vec::new(); count];
-    for (index, &group) in of_template.iter().enumerate() {
-        groups[group as usize].push(index);
-    }
-    groups
 }
 
 /// Meshes all templates, those that lead before those that follow them; followers get their new surfaces.
@@ -161,32 +146,28 @@ fn templates(
     settled: &Settled,
     log: Log<'_>,
 ) -> Result<Vec<Done>, Error> {
-    let Settled {
-        footings, guide, ..
-    } = settled;
-    let guide = *guide;
-    let count = document.templates.len();
-    let leaders: Vec<Option<usize>> = (0..count).map(|index| leader(document, index)).collect();
     let job = Job {
-        document,
         params,
         sizes,
-        guide,
+        guide: settled.guide,
         log,
     };
+    let count = document.templates.len();
+    let leaders: Vec<Option<usize>> = (0..count).map(|index| leader(document, index)).collect();
     let first: Vec<usize> = (0..count).filter(|&i| leaders[i].is_none()).collect();
     let mesh = |&index: &usize| {
         let followers: Vec<usize> = (0..count).filter(|&i| leaders[i] == Some(index)).collect();
         let follow = |lead: &Filled| -> Vec<Followed> {
             let each = followers.iter();
-            each.map(|&i| (i, follower(&job, i, lead))).collect()
+            each.map(|&i| (i, follower(&job, (document, i), lead)))
+                .collect()
         };
         let beside: Option<Follow<'_>> = match followers.is_empty() {
             true => None,
             false => Some(&follow),
         };
         let deadline = Deadline::start(params.timeout);
-        let footing = footings.get(index).and_then(Option::as_ref);
+        let footing = settled.footings.get(index).and_then(Option::as_ref);
         let climb = job.climb(Piece::of(document, index), deadline);
         template(&climb, footing, beside)
     };
@@ -203,16 +184,7 @@ fn templates(
             let known = followed.iter().position(|(follower, _)| *follower == index);
             let (surface, done) = match known {
                 Some(known) => followed.swap_remove(known).1?,
-                None => {
-                    let job = Job {
-                        document,
-                        params,
-                        sizes,
-                        guide,
-                        log,
-                    };
-                    follower(&job, index, &lead.filled)?
-                }
+                None => follower(&job, (document, index), &lead.filled)?,
             };
             document.templates[index] = surface;
             slots[index] = Some(done);

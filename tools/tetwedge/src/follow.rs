@@ -5,7 +5,7 @@ use crate::fill::Filled;
 use crate::template::{Job, template};
 use mesher::{Deadline, Error, Piece};
 use surface::{Other, impose, make};
-use tmesh::Template;
+use tmesh::{Document, Template};
 
 /// A follower, its surface, and what became of it.
 pub type Followed = (usize, Result<(Template, Done), Error>);
@@ -20,12 +20,16 @@ pub type Led = Result<(Done, Option<Vec<Followed>>), Error>;
 ///
 /// # Errors
 /// See [`Error`].
-pub fn follower(job: &Job<'_>, index: usize, lead: &Filled) -> Result<(Template, Done), Error> {
+pub fn follower(
+    job: &Job<'_>,
+    (document, index): (&Document, usize),
+    lead: &Filled,
+) -> Result<(Template, Done), Error> {
     let deadline = Deadline::start(job.params.timeout);
-    let surface = surface_of(job, index, lead, deadline)?;
+    let surface = surface_of(job, (document, index), lead, deadline)?;
     let piece = Piece {
         template: &surface,
-        ..Piece::of(job.document, index)
+        ..Piece::of(document, index)
     };
     let (done, _) = template::<()>(&job.climb(piece, deadline), None, None)?;
     Ok((surface, done))
@@ -35,7 +39,7 @@ pub fn follower(job: &Job<'_>, index: usize, lead: &Filled) -> Result<(Template,
 /// its surface fit them.
 fn surface_of(
     job: &Job<'_>,
-    index: usize,
+    (document, index): (&Document, usize),
     lead: &Filled,
     deadline: Deadline,
 ) -> Result<Template, Error> {
@@ -44,7 +48,7 @@ fn surface_of(
         vertices: &lead.vertices,
         triangles: &lead.shared,
     };
-    let imposed = impose(job.document, index, &other).map_err(|what| Error::Unusable {
+    let imposed = impose(document, index, &other).map_err(|what| Error::Unusable {
         template: index,
         what,
     })?;
@@ -53,7 +57,7 @@ fn surface_of(
     }
     let piece = Piece {
         template: &imposed,
-        ..Piece::of(job.document, index)
+        ..Piece::of(document, index)
     };
     match make(&job.climb(piece, deadline), job.guide) {
         Ok(made) => Ok(made.template),

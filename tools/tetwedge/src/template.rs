@@ -7,13 +7,10 @@ use mesher::{
     Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
 };
 use surface::{Footing, Guide};
-use tmesh::Document;
 
 /// What all templates have in common.
 #[derive(Clone, Copy)]
 pub struct Job<'a> {
-    /// The document as it was given.
-    pub document: &'a Document,
     /// What is asked for.
     pub params: &'a Params,
     /// Sizes by region.
