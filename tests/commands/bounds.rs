@@ -123,7 +123,16 @@ fn sizes_that_are_not_kept_are_said() {
         height: 0.8,
     };
     let found = run("symdetect", &["-q"], &encode(&body.build(), EXACT_STL)).success();
-    let wedge = run("wedgecut", &["-q", "--edge-length", "0.1"], &found).success();
+    let cut = [
+        "-q",
+        "--edge-length",
+        "0.1",
+        "--order",
+        "5",
+        "--hub",
+        "0.41",
+    ];
+    let wedge = run("wedgecut", &cut, &found).success();
     said(
         "tetwedge",
         &[

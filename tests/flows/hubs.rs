@@ -259,6 +259,37 @@ fn orders_are_chosen_by_what_they_cost() {
     assert!(order >= 10 && templates == 2, "{order}");
 }
 
+/// What is drawn finer than edges are asked for is remeshed: elements are as large as these then, and a narrow wedge makes them smaller.
+#[test]
+fn lengths_that_are_longer_than_a_wedge_is_wide_get_wider_wedges() {
+    let mut ratchet = Ratchet {
+        order: 24,
+        ..Ratchet::default()
+    }
+    .build();
+    // Not drawn with its symmetry to the last bit.
+    let placement = Placement {
+        rotate: None,
+        scale: 1.0,
+        jitter: 1e-5,
+    };
+    placement.apply(&mut ratchet);
+    let found = found(&ratchet);
+    let meshed = |cut: &[&str]| {
+        let cut = [&["-q", "--edge-length", "0.2"], cut].concat();
+        let wedge = run("wedgecut", &cut, &found).success();
+        let document = read(&run("tetwedge", &["-q"], &wedge).success());
+        let tets = |i: &tmesh::Instance| document.templates[i.template as usize].tets.len();
+        let elements: usize = document.instances.iter().map(tets).sum();
+        (document.instances.len(), elements)
+    };
+    let (copies, elements) = meshed(&[]);
+    assert!(copies <= 4, "{copies}");
+    // With as many copies as there are teeth, the elements are those of narrow wedges.
+    let (_, narrow) = meshed(&["--order", "24"]);
+    assert!(3 * elements < narrow, "{elements} {narrow}");
+}
+
 /// Where a body is taller than it is wide, hubs that are tried are still within it.
 #[test]
 fn hubs_of_tall_bodies_are_within_them() {

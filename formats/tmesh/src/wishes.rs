@@ -197,6 +197,13 @@ impl Wishes {
         std::f64::consts::TAU / segments.unwrap_or(Self::SEGMENTS_PER_TURN)
     }
 
+    /// How far surfaces have to be able to move for edges of a length, model units as that and the `radius` about the axis: a chord on the tightest
+    /// arc that it turns along by the angle wanted, a smaller one gets shorter chords, is its length times that angle over eight
+    /// above it. Twice that, since remeshing takes half of it for the height of its chords.
+    pub fn room_for(&self, length: f64, radius: f64) -> f64 {
+        (0.25 * length * self.turn()).min(Deviation::LARGEST * radius)
+    }
+
     /// How far the surface may be from the input's.
     pub fn deviation(&self) -> Deviation {
         self.deviation.unwrap_or(Deviation::Auto)

@@ -82,7 +82,7 @@ impl Estimate {
         let mut samples = edge_samples(wedge);
         let edges = samples.len();
         for section in &sections {
-            Outline::new(section).thickness(extent, wedge.is_sliced(), &mut samples);
+            Outline::new(section).thickness(extent, wedge.has_open_corners(), &mut samples);
         }
         for across in &mut samples[edges..] {
             across.size /= wedge.layers;

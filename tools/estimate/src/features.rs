@@ -1,6 +1,6 @@
 //! Sizes that the edges of the body and the thickness of its parts ask for.
 
-use crate::coarser::{Edge, coarser};
+use crate::remade::Remade;
 use crate::sum::classes::RESOLUTION;
 use crate::sum::samples::Sample;
 use crate::sum::section::{SectionTriangle, flat};
@@ -26,7 +26,7 @@ pub fn edge_samples(wedge: &Wedge<'_>) -> Vec<Sample> {
         let [a, b, c] = wedge.corners(t);
         geom::measure::double_area_vector(a, b, c).normalize_or_zero()
     };
-    let mut pieces: Vec<Edge> = Vec::new();
+    let mut pieces: Vec<([u32; 2], f64)> = Vec::new();
     // Longest piece of an edge that ends at a vertex of the seam.
     let mut longest: FxHashMap<u32, f64> = FxHashMap::default();
     for e in 0..edges.len() {
@@ -45,28 +45,25 @@ pub fn edge_samples(wedge: &Wedge<'_>) -> Vec<Sample> {
             let known = longest.entry(v).or_default();
             *known = known.max(length);
         }
-        let asked = |t: u32| wedge.asked.as_ref().map(|asked| asked.length[t as usize]);
-        let wanted = around.iter().filter_map(|u| asked(u.triangle));
-        pieces.push(Edge {
-            ends: [a, b],
-            length,
-            wanted: wanted.fold(f64::INFINITY, f64::min),
-        });
+        pieces.push(([a, b], length));
     }
     let made = wedge.asked.as_ref();
-    let made = made.map(|asked| coarser(wedge, &pieces, asked.turn));
+    let made = made.map(|asked| Remade::new(wedge, asked));
     let mut samples = Vec::with_capacity(2 * pieces.len());
-    for (i, Edge { ends, length, .. }) in pieces.into_iter().enumerate() {
+    for (ends, length) in pieces {
         let behind = |v: u32| match partner.get(&v) {
             Some(other) => longest.get(other).copied().unwrap_or(0.0),
             None if on[v as usize] != 0 => length,
             None => 0.0,
         };
-        let size = length + behind(ends[0]).max(behind(ends[1]));
-        let made = made.as_ref().map_or([0.0; 2], |made| made[i]);
+        let made = made.as_ref().and_then(|made| made.lengths(ends));
+        let sizes = made.unwrap_or_else(|| {
+            let drawn = length + behind(ends[0]).max(behind(ends[1]));
+            [drawn; 2]
+        });
         samples.extend([0, 1].map(|k| Sample {
             at: flat(vertices[ends[k] as usize]),
-            size: size.max(made[k]),
+            size: sizes[k],
         }));
     }
     samples
@@ -129,8 +126,8 @@ impl Outline {
     }
 
     /// Thickness of what lies on either side of each edge, at places as far apart as the estimate tells sizes apart, no
-    /// more of them than it has cells; `sliced` for that up to edges next to it not to count.
-    pub fn thickness(&self, extent: f64, sliced: bool, samples: &mut Vec<Sample>) {
+    /// more of them than it has cells; `open` for that up to edges next to it not to count.
+    pub fn thickness(&self, extent: f64, open: bool, samples: &mut Vec<Sample>) {
         let count = self.edges.len().max(1);
         let most = RESOLUTION * RESOLUTION;
         let length: f64 = self.edges.iter().map(|e| e.a.distance(e.b)).sum();
@@ -146,7 +143,7 @@ impl Outline {
                     if edge.material[side]
                         && let Some((size, hit)) =
                             self.nearest(from, direction, f64::EPSILON.sqrt() * extent)
-                        && !(sliced && edge.touches(hit))
+                        && !(open && edge.touches(hit))
                     {
                         samples.push(Sample { at: from, size });
                         samples.push(Sample {

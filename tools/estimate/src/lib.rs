@@ -8,12 +8,12 @@
 //!
 //! Every coefficient is a field of [`CostModel`]; `make calibrate` measures them.
 
-mod coarser;
 mod elements;
 mod features;
 pub mod harm;
 mod model;
 mod needles;
+mod remade;
 mod steep;
 mod sum;
 mod way;
@@ -23,6 +23,7 @@ mod wedge;
 pub use elements::{Estimate, Terms};
 pub use model::{Accepted, CostModel};
 pub use needles::needles;
+pub use remade::Asked;
 pub use way::{Cut, Way};
 pub use ways::{Bounds, Hubs, Ways};
-pub use wedge::{Asked, Wedge, edge_of_volume};
+pub use wedge::{Wedge, edge_of_volume};

@@ -1,5 +1,6 @@
 //! A wedge as the estimate sees it: its surface, and which part of that the cuts have made.
 
+use crate::remade::Asked;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Isometry, Template};
@@ -22,14 +23,6 @@ pub struct Wedge<'a> {
     pub asked: Option<Asked>,
     /// The image of a vertex on the partner of its cut face.
     pub partner: FxHashMap<u32, u32>,
-}
-
-/// What is asked of edges.
-pub struct Asked {
-    /// The angle by which edges turn along a curve, radians.
-    pub turn: f64,
-    /// Of each triangle, the length of edges at it, model units.
-    pub length: Vec<f64>,
 }
 
 impl<'a> Wedge<'a> {
@@ -91,9 +84,10 @@ impl<'a> Wedge<'a> {
         (0..self.is_cut.len() as u32).filter(|&t| !self.is_cut[t as usize])
     }
 
-    /// Whether the sections are where the body has no mirror plane, so that their corners tell nothing.
-    pub fn is_sliced(&self) -> bool {
-        !self.partner.is_empty()
+    /// Whether nothing is thin in the corners of sections: they tell nothing where the body has no mirror plane, and elements that are to have
+    /// some length fit into corners as they are wide. The coefficients are measured with corners of what is drawn exactly.
+    pub fn has_open_corners(&self) -> bool {
+        !self.partner.is_empty() || self.asked.is_some()
     }
 }
 

@@ -107,6 +107,10 @@ impl Support {
             let normal = u.cross(v);
             let sum = u.length_squared() * v.cross(normal) + v.length_squared() * normal.cross(u);
             let centre = a + sum / (2.0 * normal.length_squared());
+            // Triangles of a patch may lean from its plane by what it is uneven by over their width, and centres of narrow ones are far away.
+            let above = self.sheets.iter().find_map(|sheet| sheet.normal);
+            let above = above.unwrap_or_default();
+            let centre = centre - above * (centre - middle).dot(above);
             all.extend(Some(centre).filter(|p| p.is_finite()));
         }
         let exact = self.within.1;

@@ -4,6 +4,7 @@ use super::insert;
 use super::mesh::Mesh;
 use super::quality::Goal;
 use super::smooth;
+use super::support::Support;
 use super::surface::{Diagonal, sorted};
 use super::{Curved, Flats, Freedoms, Shape, Wish, improve};
 use geom::measure::tet_volume;
@@ -954,4 +955,38 @@ fn improvement_stops_when_it_is_told_to() {
     let (some, _) = run(&|| asked.fetch_add(1, Ordering::Relaxed) > 2000);
     assert!(some.stopped && some.moved > 0, "{some:?}");
     assert!(whole.left < some.left, "{some:?}");
+}
+
+#[test]
+fn places_beside_narrow_triangles_are_in_the_plane_of_their_facet() {
+    // A narrow triangle that leans from its facet by as much as that is uneven; its circumscribed circle has a radius of 125.
+    let uneven = 1e-5;
+    let template = Template {
+        vertices: vec![
+            DVec3::ZERO,
+            DVec3::new(0.5, 1e-3, uneven),
+            DVec3::X,
+            DVec3::new(0.5, 0.3, 1.0),
+        ],
+        triangles: vec![Triangle {
+            vertices: [0, 1, 2],
+            marker: 0,
+            front: OUTSIDE,
+            back: 7,
+        }],
+        tets: vec![Tet {
+            vertices: [0, 1, 2, 3],
+            region: 7,
+        }],
+        ..Template::default()
+    };
+    let mut freedoms = freedoms(&template, &[0], &[DVec3::Z]);
+    let goal = Goal::new(20.0, 1.4, 10.0);
+    let limits = FxHashMap::default();
+    let mut mesh = Mesh::of_template(&template, 1.0, goal, &limits);
+    mesh.set_surface(freedoms.take_surface());
+    let support = Support::triangle(&mesh, &freedoms, ([0, 1, 2], 0)).unwrap();
+    let places: Vec<DVec3> = support.places(&mesh).collect();
+    assert!(places.iter().any(|p| p.y < -100.0), "{places:?}");
+    assert!(places.iter().all(|p| p.z.abs() <= uneven), "{places:?}");
 }

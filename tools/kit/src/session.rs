@@ -205,6 +205,11 @@ impl Status {
         !self.0.is_hidden()
     }
 
+    /// Does something that says lines of its own, between which it does not get.
+    pub fn aside(&self, say: impl FnOnce()) {
+        self.0.suspend(say);
+    }
+
     /// Puts a text in place of the one before.
     pub fn show(&self, text: String) {
         self.0.set_message(text);

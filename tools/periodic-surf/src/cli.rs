@@ -41,7 +41,7 @@ impl Command for Cli {
         let notes = self.wishes.apply(&mut document)?;
         notes.iter().for_each(|note| session.note(note));
         let params = self.memory.params(&document.wishes);
-        let made = watched(session, None, |log| surfaces(document, &params, log));
+        let made = watched(session, |log, _| surfaces(document, &params, log));
         let made = made.map_err(|error| error.failure())?;
         made.facts.iter().for_each(|fact| session.info(fact));
         made.advice.iter().for_each(|advice| session.note(advice));

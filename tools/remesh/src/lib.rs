@@ -16,5 +16,5 @@ mod smooth;
 pub use input::{Link, MOST_LINKS, Rules, Sizes, Surface};
 pub use mesh::Sample;
 pub use passes::{Remeshed, Told, remesh};
-pub use shape::Ground;
+pub use shape::{Curve, Ground, Wanted};
 pub use smooth::{Drawing, Reading, Redrawn, Sheets, SmoothShape};

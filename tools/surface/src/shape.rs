@@ -215,9 +215,7 @@ fn for_drawing(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
     })
 }
 
-/// How far surfaces may move for the sake of a length of edges, model units, where nobody says how far: a chord of that length on
-/// the tightest arc that it turns along by the angle wanted, a smaller one gets shorter chords, is its length times that angle
-/// over eight above it. Twice that, since remeshing takes half of the deviation for the height of its chords.
+/// How far surfaces may move for the sake of a length of edges, model units, where nobody says how far.
 fn by_length(document: &Document, sizes: &Sizes, radius: f64) -> Option<f64> {
     let wishes = &document.wishes;
     let field = sizes.local.iter().flatten().filter_map(|l| l.longest);
@@ -233,7 +231,7 @@ fn by_length(document: &Document, sizes: &Sizes, radius: f64) -> Option<f64> {
         }
     };
     let length = length.filter(|_| wishes.deviation() == Deviation::Auto)?;
-    Some((0.25 * length * wishes.turn()).min(Deviation::LARGEST * radius))
+    Some(wishes.room_for(length, radius))
 }
 
 /// How far the surface of a template may move at each of its vertices so that walls stay walls.

@@ -1,13 +1,15 @@
 //! The command line of `tetwedge`.
 
-use crate::forecast::{Forecast, forecast};
-use crate::{MemoryArgs, tetrahedralize, watched};
+use crate::document::tetrahedralize_shaped;
+use crate::forecast::forecast;
+use crate::settle::Shaped;
+use crate::{MemoryArgs, watched};
 use kit::{
     Command, CommonArgs, Failure, Session, StrictArgs, ThreadArgs, WishArgs, about, duration,
 };
 use mesher::Params;
 use surface::failure;
-use tmesh::{Document, Wishes};
+use tmesh::Wishes;
 
 /// Fills a wedge, or any closed surface, with tetrahedra
 ///
@@ -66,27 +68,23 @@ impl Cli {
         }
     }
 
-    /// Says what to expect of the work to those who watch it.
-    fn announce(
+    /// What to expect of the work, in tetrahedra and in words, where somebody watches it.
+    fn expected(
         &self,
         session: &Session,
-        document: &Document,
+        shaped: &Shaped,
         params: &Params,
-    ) -> Option<Forecast> {
+    ) -> Option<(f64, String)> {
         if !session.is_watched() && !session.is_verbose() {
             return None;
         }
-        let expected = forecast(document, params, self.threads.count())?;
+        let expected = forecast(shaped, params, self.threads.count())?;
         let text = format!(
             "about {} tetrahedra, about {}",
             about(expected.tetrahedra),
             duration(expected.time)
         );
-        match session.is_verbose() {
-            true => session.info(&text),
-            false => session.note(&text),
-        }
-        Some(expected)
+        Some((expected.tetrahedra, text))
     }
 }
 
@@ -104,10 +102,14 @@ impl Command for Cli {
             document.wishes.keep_surface = Some(true);
         }
         let params = self.params(&document.wishes);
-        let expected = self.announce(session, &document, &params);
-        let meshed = watched(session, expected.map(|e| e.tetrahedra), |log| {
+        let meshed = watched(session, |log, expect| {
+            let shaped = |shaped: &Shaped| {
+                if let Some((tetrahedra, text)) = self.expected(session, shaped, &params) {
+                    expect(tetrahedra, &text);
+                }
+            };
             on_threads(self.threads.count(), || {
-                tetrahedralize(document, &params, log).map_err(|e| failure(&e))
+                tetrahedralize_shaped(document, &params, log, &shaped).map_err(|e| failure(&e))
             })
         })?;
         for sentence in &meshed.advice {
@@ -138,7 +140,7 @@ fn on_threads<T: Send>(
 mod tests {
     use super::*;
     use clap::{CommandFactory, Parser};
-    use tmesh::Template;
+    use tmesh::{Document, Template};
 
     fn parse(arguments: &[&str]) -> Result<Params, clap::Error> {
         let all = std::iter::once("tetwedge").chain(arguments.iter().copied());

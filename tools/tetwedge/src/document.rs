@@ -28,8 +28,22 @@ pub struct Meshed {
 /// # Errors
 /// See [`Error`].
 pub fn tetrahedralize(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, Error> {
+    tetrahedralize_shaped(document, params, log, &|_| ())
+}
+
+/// The same; `shaped` hears of the surfaces that follow the shape, before anything is filled.
+///
+/// # Errors
+/// See [`Error`].
+pub fn tetrahedralize_shaped(
+    document: Document,
+    params: &Params,
+    log: Log<'_>,
+    shaped: &(dyn Fn(&Shaped) + Sync),
+) -> Result<Meshed, Error> {
     let wished = document.wishes.deviation;
-    let attempt = meshed(document.clone(), params, log);
+    let meshed = |document| meshed(document, params, log, shaped);
+    let attempt = meshed(document.clone());
     match attempt {
         Err((error, true)) if error.is_chance() => {
             log.detail(&format!(
@@ -37,7 +51,7 @@ pub fn tetrahedralize(document: Document, params: &Params, log: Log<'_>) -> Resu
             ));
             let mut document = document;
             document.wishes.deviation = Some(Deviation::Within(0.0));
-            let mut meshed = meshed(document, params, log).map_err(|(error, _)| error)?;
+            let mut meshed = meshed(document).map_err(|(error, _)| error)?;
             meshed.document.wishes.deviation = wished;
             Ok(meshed)
         }
@@ -46,13 +60,19 @@ pub fn tetrahedralize(document: Document, params: &Params, log: Log<'_>) -> Resu
 }
 
 /// The same, remeshed or not; an error says which.
-fn meshed(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (Error, bool)> {
+fn meshed(
+    document: Document,
+    params: &Params,
+    log: Log<'_>,
+    hear: &(dyn Fn(&Shaped) + Sync),
+) -> Result<Meshed, (Error, bool)> {
     let filled = document.templates.iter().any(|t| !t.tets.is_empty());
     let (shaped, settled) = of_surface(log, |log| {
         let shaped = match document.wishes.keep_surface() || filled {
             true => Shaped::kept(document),
             false => Shaped::new(document, params, log)?,
         };
+        hear(&shaped);
         let settled = settled(&shaped, log)?;
         Ok((shaped, settled))
     })

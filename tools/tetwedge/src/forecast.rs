@@ -1,13 +1,13 @@
 //! What filling a document is expected to take, before it begins.
 
+use crate::settle::Shaped;
 use estimate::{CostModel, Cut, Estimate, Wedge, edge_of_volume, needles};
 use geom::measure::volume_of_region;
-use kit::tolerance;
 use mesher::{IN_CUBE, Params, Sizes, mean_volume};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::time::Duration;
-use tmesh::{Document, Instance, OUTSIDE, Template, Triangle};
+use tmesh::{Instance, OUTSIDE, Template, Triangle};
 
 /// What filling a document is expected to take.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,18 +18,19 @@ pub struct Forecast {
     pub time: Duration,
 }
 
-/// The forecast for a document; `None` where there is nothing to tell it by: no quality is asked for, or a template
+/// The forecast for surfaces that follow the shape; `None` where there is nothing to tell it by: no quality is asked for, or a template
 /// has neither a section through its axis nor sizes for all of its regions.
-pub fn forecast(document: &Document, params: &Params, threads: usize) -> Option<Forecast> {
+pub fn forecast(shaped: &Shaped, params: &Params, threads: usize) -> Option<Forecast> {
     if !params.quality {
         return None;
     }
     let model = CostModel::CALIBRATED;
+    let document = shaped.document();
     let sizes = Sizes::of_regions(document);
     let mut tetrahedra = 0.0;
     let mut seconds = 0.0;
     for index in 0..document.templates.len() {
-        let count = expected(document, index, &sizes, threads)?;
+        let count = expected(shaped, index, &sizes, threads)?;
         // As of a hub: what copies share is meshed first, and everything within it then.
         let mut gluings = document.templates[index].gluings.iter();
         let passes = match gluings.any(|g| g.is_seam(index) || g.other_than(index).is_some()) {
@@ -46,7 +47,8 @@ pub fn forecast(document: &Document, params: &Params, threads: usize) -> Option<
 }
 
 /// Tetrahedra that a template is expected to get.
-fn expected(document: &Document, index: usize, sizes: &Sizes, threads: usize) -> Option<f64> {
+fn expected(shaped: &Shaped, index: usize, sizes: &Sizes, threads: usize) -> Option<f64> {
+    let document = shaped.document();
     let template = &document.templates[index];
     let volume_of = |region: u32| volume_of_region(&template.vertices, template.faces(), region);
     // Elements that are too large are split, so that they have half of the volume that is allowed, in the mean.
@@ -89,18 +91,12 @@ fn expected(document: &Document, index: usize, sizes: &Sizes, threads: usize) ->
         of_sides.fold(f64::INFINITY, f64::min).cbrt()
     };
     let model = &estimate.model;
-    let thin = match is_remeshed(document) {
+    // Remeshing leaves no needles of what surfaces are drawn with.
+    let thin = match shaped.is_remeshed() {
         true => 0.0,
         false => model.tetrahedra * needles(template, size),
     };
     Some(IN_CUBE * share * wedges.elements(model) + thin)
-}
-
-/// Whether surfaces are remeshed first, which leaves no needles of what they are drawn with.
-fn is_remeshed(document: &Document) -> bool {
-    let tolerance = tolerance(document);
-    let equal = tolerance.equal() / tolerance.extent().radius;
-    !document.wishes.keep_surface() && document.deviation(equal) > equal
 }
 
 /// The regions that a template has.

@@ -80,6 +80,11 @@ impl Shaped {
         })
     }
 
+    /// The document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
     /// Whether surfaces were remeshed.
     pub fn is_remeshed(&self) -> bool {
         !self.followed.facts.is_empty()

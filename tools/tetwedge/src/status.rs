@@ -3,30 +3,43 @@
 use kit::{Session, Status, about};
 use mesher::{Log, Progress};
 use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Does work that says how far it is: details among the lines of `-v`, progress on a line that goes away afterwards.
-/// `expected`: tetrahedra expected of all templates.
-pub fn watched<T>(session: &Session, expected: Option<f64>, work: impl FnOnce(Log<'_>) -> T) -> T {
+/// The work may tell how many tetrahedra of all templates are expected, and what to say of that.
+pub fn watched<T>(
+    session: &Session,
+    work: impl FnOnce(Log<'_>, &(dyn Fn(f64, &str) + Sync)) -> T,
+) -> T {
     let detail = |text: &str| session.info(text);
     let log = Log::new(&detail);
     let line = session.status();
     if !line.is_shown() {
-        return work(log);
+        return work(log, &|_, text| session.info(text));
     }
     let meshing = Meshing {
         line,
-        expected,
+        expected: Mutex::default(),
         templates: Mutex::default(),
     };
     let hear = |progress: &Progress<'_>| meshing.hear(progress);
-    work(log.with_progress(&hear))
+    let expect = |tetrahedra: f64, text: &str| {
+        *unpoisoned(&meshing.expected) = Some(tetrahedra);
+        meshing.line.aside(|| session.note(text));
+    };
+    work(log.with_progress(&hear), &expect)
+}
+
+/// What is in there: what a panic elsewhere left is as good as before.
+fn unpoisoned<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Shows what is done, and the points and tetrahedra of all templates so far.
 struct Meshing {
     line: Status,
-    expected: Option<f64>,
+    /// Tetrahedra expected of all templates.
+    expected: Mutex<Option<f64>>,
     /// Points and tetrahedra of each template.
     templates: Mutex<BTreeMap<usize, [f64; 2]>>,
 }
@@ -34,12 +47,10 @@ struct Meshing {
 impl Meshing {
     /// Takes what is heard of a template.
     fn hear(&self, progress: &Progress<'_>) {
-        // Numbers that a panic elsewhere left are as good as before.
-        let templates = self.templates.lock();
-        let mut templates = templates.unwrap_or_else(PoisonError::into_inner);
+        let mut templates = unpoisoned(&self.templates);
         templates.insert(progress.template, [progress.points, progress.tetrahedra]);
         let sum = |i: usize| templates.values().map(|counts| counts[i]).sum();
-        let text = text(progress.step, [sum(0), sum(1)], self.expected);
+        let text = text(progress.step, [sum(0), sum(1)], *unpoisoned(&self.expected));
         self.line.show(text);
     }
 }

@@ -3,7 +3,7 @@
 use crate::error::CutError;
 use crate::graph::Graph;
 use crate::params::{Params, Seam};
-use estimate::edge_of_volume;
+use estimate::{Asked, edge_of_volume};
 use geom::edges::Edges;
 use geom::measure::volume_of_region;
 use geom::tolerance::{Extent, Tolerance};
@@ -96,11 +96,61 @@ impl<'a> Body<'a> {
         regions.filter_map(|r| of_region(r.id)).sum()
     }
 
+    /// What will be asked of a template's surface, if it is remeshed for lengths of edges; sizes that change from place to place count by their mean.
+    pub fn asked(&self, template: &Template) -> Option<Asked> {
+        if !self.document.moves_for_lengths() {
+            return None;
+        }
+        let (wishes, radius) = (&self.document.wishes, self.tolerance.extent().radius);
+        let regions = &self.document.regions;
+        let length_in = |id: u32| {
+            let at = regions.binary_search_by_key(&id, |r| r.id).ok()?;
+            let asked = regions[at]
+                .size
+                .or(wishes.size)
+                .and_then(|s| s.edge_length());
+            let mean = self.mean_volume.map(edge_of_volume);
+            asked.into_iter().chain(mean).reduce(f64::min)
+        };
+        let length = |t: &Triangle| {
+            let sides = [t.front, t.back].into_iter().filter_map(length_in);
+            sides.fold(f64::INFINITY, f64::min)
+        };
+        let length: Vec<f64> = template.triangles.iter().map(length).collect();
+        let finite = length.iter().copied().filter(|l| l.is_finite());
+        let noise = (radius * self.deviation()).max(self.tolerance.equal());
+        Some(Asked {
+            turn: wishes.turn(),
+            turn_is_asked: wishes.segments_per_turn.is_some(),
+            growth: wishes.gradation() - 1.0,
+            feature: libm::cos(wishes.feature_angle().to_radians()),
+            deviation: wishes.room_for(finite.reduce(f64::max)?, radius).max(noise),
+            noise,
+            flat: self.tolerance.flat(),
+            folds: self.document.unevenness(),
+            length,
+        })
+    }
+
+    /// How far surfaces may move, relative to the radius about the axis.
+    fn deviation(&self) -> f64 {
+        self.document.deviation(self.equal())
+    }
+
+    /// What is equal, relative to the radius about the axis.
+    fn equal(&self) -> f64 {
+        self.tolerance.equal() / self.tolerance.extent().radius
+    }
+
+    /// Whether every triangle of the surface stays as it is drawn.
+    pub fn is_kept(&self) -> bool {
+        self.deviation() <= self.equal()
+    }
+
     /// Whether surfaces will get edges of a length that is asked for, longer ones than those that there are, too, however they are
     /// drawn: where the input has not its symmetry exactly.
     pub fn takes_lengths(&self) -> bool {
-        let equal = self.tolerance.equal() / self.tolerance.extent().radius;
-        self.document.moves_for_lengths() && self.document.deviation(equal) > equal
+        self.document.moves_for_lengths() && !self.is_kept()
     }
 
     /// The size of elements beside a triangle, model units: as asked for, at most that of the body.
@@ -118,8 +168,7 @@ impl<'a> Body<'a> {
 
     /// Whether each vertex stays where it is, as far as is known: where the surface will be remeshed, those on features do.
     pub fn stay(&self) -> Vec<bool> {
-        let equal = self.tolerance.equal() / self.tolerance.extent().radius;
-        if self.document.deviation(equal) <= equal {
+        if self.is_kept() {
             return vec![true; self.surface.vertices.len()];
         }
         let mut stay = vec![false; self.surface.vertices.len()];

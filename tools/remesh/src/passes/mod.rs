@@ -11,6 +11,7 @@ mod uncap;
 mod worth;
 
 pub use remesh::{Remeshed, Told, remesh};
+pub use worth::DETAIL;
 
 #[cfg(test)]
 mod tests;

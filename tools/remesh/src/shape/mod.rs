@@ -8,6 +8,7 @@ mod envelope;
 mod facets;
 mod ground;
 mod patches;
+mod wanted;
 
 pub use allowance::Allowance;
 pub use arc::LONG;
@@ -16,3 +17,4 @@ pub use envelope::{Envelope, Near};
 pub use facets::{Beside, Facets};
 pub use ground::Ground;
 pub use patches::{ALIKE, Patches};
+pub use wanted::{Curve, Wanted};

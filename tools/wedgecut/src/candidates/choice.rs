@@ -50,16 +50,14 @@ impl Ranking {
 
 /// Orders what is left of the groups by the cost that a first wedge tells.
 pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> Option<Choice> {
-    let needles = estimate::needles(body.surface, body.element_size());
+    // What gets edges of a length costs nothing, however narrow it is drawn.
+    let needles = match body.takes_lengths() {
+        true => 0.0,
+        false => estimate::needles(body.surface, body.element_size()),
+    };
     let mut wedge = estimate::Wedge::new(&first.templates[0], 0, first.wedges);
     wedge.layers = f64::from(body.document.wishes.layers_across.unwrap_or(1));
-    if body.document.moves_for_lengths() {
-        let triangles = first.templates[0].triangles.iter();
-        wedge.asked = Some(estimate::Asked {
-            turn: body.document.wishes.turn(),
-            length: triangles.map(body.element_size()).collect(),
-        });
-    }
+    wedge.asked = body.asked(&first.templates[0]);
     let max_volume = |region| body.max_volume(region);
     let model = CostModel::CALIBRATED;
     let estimate = Estimate::new(model, &wedge, needles, max_volume, body.params.threads);

@@ -248,9 +248,7 @@ fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
         counts.sum::<usize>()
     };
     // What is remeshed costs nothing, however narrow it is drawn.
-    let tolerance = &body.tolerance;
-    let equal = tolerance.equal() / tolerance.extent().radius;
-    let is_kept = body.document.deviation(equal) <= equal;
+    let is_kept = body.is_kept();
     let cost = |cut: &Cut| {
         let needles = |t: &Template| estimate::needles(t, body.element_size());
         let narrow = cut.templates.iter().map(needles).filter(|_| is_kept);
