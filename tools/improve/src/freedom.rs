@@ -228,17 +228,24 @@ impl Freedoms {
         self.exact.get(&v).map_or(p, |exact| exact.place(p))
     }
 
-    /// Whether a vertex that moves along a shape may go from one place to another: `faces` are the triangles of the surface there, from the
-    /// vertex on, without it.
-    pub fn holds(&self, v: u32, [from, to]: [DVec3; 2], faces: &[[DVec3; 2]]) -> bool {
-        let (Freedom::Along(patch, _), Some(shape)) = (self.of(v), &self.shape) else {
+    /// Whether a vertex may go from one place to another: whether it stays on its side of mirror planes if it moves along a shape, and the shape holds
+    /// the triangles of the surface that stand for patches of it, given with these from the vertex on as they are then.
+    pub fn holds(
+        &self,
+        v: u32,
+        [from, to]: [DVec3; 2],
+        mut faces: impl Iterator<Item = (u32, [DVec3; 3])>,
+    ) -> bool {
+        let Some(shape) = &self.shape else {
             return true;
         };
         let stays = |mirror: &FixedSet| {
             let [before, after] = [from, to].map(|p| p - mirror.nearest(p));
             before.dot(after) > 0.0
         };
-        self.mirrors.iter().all(stays) && faces.iter().all(|&[a, b]| shape.holds(patch, [to, a, b]))
+        let is_along = matches!(self.of(v), Freedom::Along(..));
+        (!is_along || self.mirrors.iter().all(stays))
+            && faces.all(|(patch, corners)| shape.holds(patch, corners))
     }
 
     /// What a vertex inside of a patch of the shape may do.

@@ -27,8 +27,8 @@ struct Star<'m, 'a> {
     vertex: u32,
     /// What the vertex keeps, if it is a new one.
     exact: Option<Exact>,
-    /// The triangles of the surface there if it moves along a curved shape, from the vertex on, without it.
-    faces: Vec<[u32; 2]>,
+    /// The triangles of the surface there that stand for a curved shape, from the vertex or its partner on.
+    faces: Vec<CurvedFace>,
     /// The points of the shape that these are near to.
     points: Vec<Point>,
     tets: Vec<Corners>,
@@ -53,17 +53,17 @@ impl Star<'_, '_> {
         self.holds(p).then_some(list)
     }
 
-    /// Whether a vertex that moves along a curved shape may be at `p`.
+    /// Whether the surface around the vertex stays near to the curved shape that it stands for with the vertex at `p`.
     fn holds(&self, p: DVec3) -> bool {
         if self.faces.is_empty() {
             return true;
         }
-        let at = |v: u32| self.mesh.positions[v as usize];
-        let faces: Vec<[DVec3; 2]> = self.faces.iter().map(|face| face.map(at)).collect();
-        let triangles = faces.iter().map(|&[a, b]| [p, a, b]);
-        self.freedoms
-            .holds(self.vertex, [at(self.vertex), p], &faces)
-            && are_near(&self.points, triangles)
+        let here = self.mesh.positions[self.vertex as usize];
+        let at = self.positions(p);
+        let faces = self.faces.iter();
+        let faces = faces.map(|face| (face.patch, face.corners.map(&at)));
+        self.freedoms.holds(self.vertex, [here, p], faces.clone())
+            && are_near(&self.points, faces.map(|(_, corners)| corners))
     }
 
     /// The middle of the other corners, if the vertex is free to go there and all of them are on its side of a seam.
@@ -132,7 +132,7 @@ pub struct Move {
     partner: Option<(u32, DVec3)>,
     /// All tetrahedra that move with it, with their grades afterwards.
     tets: Vec<(u32, Grade)>,
-    /// The triangles of the surface that do, if it moves along a curved shape.
+    /// The triangles of the surface that do, those that stand for a curved shape.
     faces: Vec<[u32; 3]>,
 }
 
@@ -168,8 +168,8 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
         tets.sort_unstable();
         tets.dedup();
     }
-    let faces = faces_along(mesh, freedoms, vertex);
-    let triangles: Vec<[u32; 3]> = faces.iter().map(|&[a, b]| [vertex, a, b]).collect();
+    let faces = curved_faces(mesh, freedoms, vertex);
+    let triangles: Vec<[u32; 3]> = faces.iter().map(|face| face.corners).collect();
     let grades: Vec<Grade> = tets.iter().map(|&t| mesh.grade(t)).collect();
     let star = Star {
         mesh,
@@ -201,23 +201,45 @@ pub fn find(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Option<Move> {
     })
 }
 
-/// The triangles of the surface at a vertex that moves along a curved shape, from the vertex on, without it; none at others.
-fn faces_along(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Vec<[u32; 2]> {
-    let mut faces = Vec::new();
-    if !matches!(freedoms.of(vertex), Freedom::Along(..)) {
-        return faces;
+/// A triangle of the surface that stands for a patch of a curved shape.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct CurvedFace {
+    patch: u32,
+    /// As it runs, from a vertex that moves on.
+    corners: [u32; 3],
+}
+
+/// The triangles of the surface at a vertex, and at the one that moves with it, that stand for a curved shape, for a vertex that may be moved on
+/// the surface. What was straight beside an edge of facets before is not where other edges and vertices are there since.
+fn curved_faces(mesh: &Mesh<'_>, freedoms: &Freedoms, vertex: u32) -> Vec<CurvedFace> {
+    let own = match freedoms.of(vertex) {
+        Freedom::Along(patch, _) => Some(patch),
+        Freedom::Line(_) | Freedom::Plane(..) => None,
+        Freedom::Fixed | Freedom::Free => return Vec::new(),
+    };
+    if mesh.surface().shape().is_none() {
+        return Vec::new();
     }
-    for &tet in mesh.star(vertex) {
-        let corners = mesh.corners(tet);
-        for face in FACES.map(|face| face.map(|i| corners[i])) {
-            let triangle = face
-                .contains(&vertex)
-                .then(|| mesh.surface().triangle(face));
-            faces.extend(triangle.flatten().map(|[a, b, c]| match vertex {
-                v if v == a => [b, c],
-                v if v == b => [c, a],
-                _ => [a, b],
-            }));
+    let mut faces = Vec::new();
+    let partner = freedoms.partner(vertex).map(|(other, _)| other);
+    for v in std::iter::once(vertex).chain(partner) {
+        for &tet in mesh.star(v) {
+            let corners = mesh.corners(tet);
+            for face in FACES.map(|face| face.map(|i| corners[i])) {
+                if !face.contains(&v) {
+                    continue;
+                }
+                let triangle = mesh.surface().triangle(face);
+                let patch = own.or_else(|| mesh.surface().curved(face));
+                faces.extend(triangle.zip(patch).map(|([a, b, c], patch)| CurvedFace {
+                    patch,
+                    corners: match v {
+                        v if v == a => [a, b, c],
+                        v if v == b => [b, c, a],
+                        _ => [c, a, b],
+                    },
+                }));
+            }
         }
     }
     // What is between two regions was found from both.

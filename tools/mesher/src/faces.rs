@@ -51,6 +51,7 @@ impl Faces {
             document,
             index,
             template,
+            ..
         } = piece;
         let n = template.triangles.len();
         let mut of_triangle = vec![NO_FACE; n];

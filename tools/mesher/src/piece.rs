@@ -11,6 +11,8 @@ pub struct Piece<'a> {
     pub index: usize,
     /// The template as it is to be meshed.
     pub template: &'a Template,
+    /// Of each triangle, whether it is in a facet with others only where it is in a plane with them; empty where that is none.
+    pub apart: &'a [bool],
 }
 
 impl<'a> Piece<'a> {
@@ -20,6 +22,7 @@ impl<'a> Piece<'a> {
             document,
             index,
             template: &document.templates[index],
+            apart: &[],
         }
     }
 }

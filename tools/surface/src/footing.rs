@@ -3,10 +3,15 @@
 use crate::apart::apart;
 use crate::seams::same_size;
 use glam::DVec3;
-use improve::{Point, Shape};
+use improve::{NO_PATCH, Point, Shape};
+use mesher::Plc;
 use remesh::{Ground, Sample};
 use std::sync::Arc;
 use tmesh::Template;
+
+/// Triangles of an uneven facet, at most, all of whose corners are looked at in pairs: folds of a fraction of a degree add up to what can be seen, so
+/// that facets of what bends have few.
+const LOOKED_AT: usize = 64;
 
 /// The shape behind the surface of a template, in the template's coordinates.
 #[derive(Clone)]
@@ -15,6 +20,8 @@ pub struct Footing {
     pub ground: Arc<Ground>,
     /// Patch of each triangle, `u32::MAX` for those of flat faces.
     pub patches: Vec<u32>,
+    /// Of each triangle, whether it is in no uneven facet, in which other triangles would be farther from the input than they may be.
+    pub apart: Vec<bool>,
     /// Points of the input that each triangle is near to.
     pub points: Vec<Vec<Point>>,
     /// The template as it was given.
@@ -41,9 +48,81 @@ impl Footing {
         points.resize(parents.len(), Vec::new());
         Self {
             patches: parents.iter().map(|&t| self.patches[t as usize]).collect(),
+            apart: parents.iter().map(|&t| self.apart[t as usize]).collect(),
             points,
             ..self.clone()
         }
+    }
+
+    /// That of a surface with other triangles in the same facets: of each triangle that is there, and of each that was, the facet; none for those that
+    /// stand for no patch. What a facet is near to, is known to one of its triangles.
+    pub fn with_facets(&self, [after, before]: &[Vec<u32>; 2]) -> Self {
+        let count = before.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut patches: Vec<Option<u32>> = vec![None; count];
+        let mut apart = vec![false; count];
+        let mut points: Vec<Vec<Point>> = vec![Vec::new(); count];
+        for (t, &facet) in before.iter().enumerate() {
+            let facet = facet as usize;
+            let patch = patches[facet].get_or_insert(self.patches[t]);
+            if *patch != self.patches[t] {
+                *patch = NO_PATCH;
+            }
+            apart[facet] |= self.apart[t];
+            points[facet].extend_from_slice(&self.points[t]);
+        }
+        let patch = |f: &u32| patches.get(*f as usize).copied().flatten();
+        let mut taken = |f: &u32| points.get_mut(*f as usize).map(std::mem::take);
+        Self {
+            patches: after.iter().map(|f| patch(f).unwrap_or(NO_PATCH)).collect(),
+            apart: after
+                .iter()
+                .map(|f| apart.get(*f as usize) == Some(&true))
+                .collect(),
+            points: after.iter().map(|f| taken(f).unwrap_or_default()).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// Notes which triangles of the template, as the mesher has it, are in uneven facets that might leave the envelope of the shape that they stand
+    /// for: the mesher puts triangles of its own between the corners of a facet, and with them edges from any corner to any other one. What is flat
+    /// is not farther from the input's than that is uneven.
+    pub fn tell_apart(&mut self, plc: &Plc, template: &Template) {
+        let uneven = plc.relief.uneven();
+        let mut members: Vec<Vec<u32>> = vec![Vec::new(); uneven.len()];
+        for (t, &facet) in (0..).zip(&plc.facets.of_triangle) {
+            if uneven[facet as usize] {
+                members[facet as usize].push(t);
+            }
+        }
+        for members in members {
+            let is_flat = |t: &u32| self.patches[*t as usize] == NO_PATCH;
+            if !members.iter().all(is_flat) && !self.holds_all(&members, template) {
+                for t in members {
+                    self.apart[t as usize] = true;
+                }
+            }
+        }
+    }
+
+    /// Whether all edges that there can be between the corners of some triangles are near enough to the one patch that these stand for.
+    fn holds_all(&self, triangles: &[u32], template: &Template) -> bool {
+        let patch = self.patches[triangles[0] as usize];
+        if triangles.iter().any(|&t| self.patches[t as usize] != patch)
+            || triangles.len() > LOOKED_AT
+        {
+            return false;
+        }
+        let ids = triangles
+            .iter()
+            .flat_map(|&t| template.triangles[t as usize].vertices);
+        let mut ids: Vec<u32> = ids.collect();
+        ids.sort_unstable();
+        ids.dedup();
+        let at = |v: &u32| template.vertices[*v as usize];
+        ids.iter().enumerate().all(|(i, v)| {
+            let mut others = ids[..i].iter();
+            others.all(|w| self.ground.spans(patch, [at(v), at(w)]))
+        })
     }
 
     /// By how much a surface may be farther from the given one than the remeshed one is, model units: what is measured at some places, and what

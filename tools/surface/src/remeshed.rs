@@ -158,6 +158,7 @@ fn smoothed(
     let footing = done.ground.clone().map(|ground| Footing {
         ground,
         patches: patches.map(|(_, &patch)| patch).collect(),
+        apart: Vec::new(),
         points: samples
             .map(|(_, samples)| samples.iter().map(point).collect())
             .collect(),

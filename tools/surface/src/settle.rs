@@ -2,6 +2,7 @@
 
 use crate::SurfaceError;
 use crate::apart::{apart, note_moved};
+use crate::footing::Footing;
 use crate::seams::{Guide, Made, Other, impose, make};
 use mesher::{Climb, Deadline, LADDER, Log, Params, Piece, Sizes, TetGen};
 use tmesh::{Document, Template};
@@ -18,15 +19,16 @@ pub struct Remade {
 /// What was made of all of them; `None` for those that stay.
 pub type Report = Vec<Option<Remade>>;
 
-/// Makes the surfaces of all templates with a seam. `log` receives details while the work goes on.
+/// Makes the surfaces of all templates with a seam. `footings` are what these stand on, where that is known, and what the new ones do then. `log`
+/// receives details while the work goes on.
 ///
 /// # Errors
 /// See [`SurfaceError`].
 pub fn settle_faces(
     mut document: Document,
+    footings: &mut [Option<Footing>],
     params: &Params,
-    log: Log<'_>,
-    guide: Guide,
+    (log, guide): (Log<'_>, Guide),
 ) -> Result<(Document, Report), SurfaceError> {
     let mut report: Report = vec![None; document.templates.len()];
     let seams: Vec<bool> = document
@@ -40,9 +42,12 @@ pub fn settle_faces(
         true => Sizes::new(&document).map_err(mesher::Error::from)?,
         false => Sizes::of_regions(&document),
     };
-    let remake = |document: &Document, template: usize| {
+    let remake = |document: &Document, template: usize, footing: Option<&Footing>| {
         let climb = Climb {
-            piece: Piece::of(document, template),
+            piece: Piece {
+                apart: footing.map_or(&[], |footing| &footing.apart),
+                ..Piece::of(document, template)
+            },
             params,
             sizes: &sizes,
             preserve: false,
@@ -63,7 +68,15 @@ pub fn settle_faces(
             // It follows another one.
             continue;
         }
-        let made = remake(&document, index)?;
+        let footing = footings.get_mut(index);
+        let made = remake(
+            &document,
+            index,
+            footing.as_deref().and_then(Option::as_ref),
+        )?;
+        if let Some(footing) = footing {
+            *footing = footing.take().map(|f| f.with_facets(&made.facets));
+        }
         if made.is_uneven {
             moved = moved.max(apart(&document.templates[index], &made.template));
         }
@@ -81,8 +94,12 @@ pub fn settle_faces(
                         template: follower,
                         what,
                     })?;
+                // It has other triangles now.
+                if let Some(footing) = footings.get_mut(follower) {
+                    *footing = None;
+                }
                 document.templates[follower] = given;
-                let made = remake(&document, follower)?;
+                let made = remake(&document, follower, None)?;
                 if made.is_uneven {
                     moved = moved.max(apart(&document.templates[follower], &made.template));
                 }

@@ -8,7 +8,7 @@ use crate::remeshed::{Remeshing, Smoothed, remeshed};
 use crate::seams::{same_body, same_size};
 use geom::tolerance::Tolerance;
 use kit::tolerance;
-use mesher::{Error, Log, Params, Progress, Sizes, thickness};
+use mesher::{Description, Error, Log, Params, Piece, Plc, Progress, Sizes, thickness};
 use remesh::Told;
 use tmesh::{Deviation, Document};
 
@@ -103,6 +103,16 @@ pub fn follow_shape(
                     }
                     break;
                 }
+            }
+        }
+    }
+    for (index, footing) in followed.footings.iter_mut().enumerate() {
+        if let Some(footing) = footing {
+            let piece = Piece::of(document, index);
+            footing.apart = vec![false; piece.template.triangles.len()];
+            // What cannot be described is not meshed either.
+            if let Ok(plc) = Plc::new(piece, &sizes, Description::PLAIN) {
+                footing.tell_apart(&plc, piece.template);
             }
         }
     }

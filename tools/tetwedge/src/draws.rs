@@ -90,6 +90,7 @@ pub fn best_of_draws(
         let quiet = Climb {
             piece: Piece {
                 template,
+                apart: footing.map_or(&[], |footing| &footing.apart),
                 ..climb.piece
             },
             params,

@@ -168,7 +168,11 @@ fn templates(
         };
         let deadline = Deadline::start(params.timeout);
         let footing = settled.footings.get(index).and_then(Option::as_ref);
-        let climb = job.climb(Piece::of(document, index), deadline);
+        let piece = Piece {
+            apart: footing.map_or(&[], |footing| &footing.apart),
+            ..Piece::of(document, index)
+        };
+        let climb = job.climb(piece, deadline);
         template(&climb, footing, beside)
     };
     let meshed: Vec<Led> = first.par_iter().map(mesh).collect();

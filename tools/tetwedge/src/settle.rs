@@ -113,13 +113,9 @@ impl Shaped {
                 ..self.as_it_is()
             });
         };
-        let (document, report) = settle_faces(self.document.clone(), params, log, guide)?;
         let mut footings = self.followed.footings.clone();
-        // What was made anew has other triangles.
-        let templates = self.document.templates.iter().zip(&document.templates);
-        for ((before, after), footing) in templates.zip(&mut footings) {
-            footing.take_if(|_| before.triangles != after.triangles);
-        }
+        let (document, report) =
+            settle_faces(self.document.clone(), &mut footings, params, (log, guide))?;
         Ok(Settled {
             document,
             footings,

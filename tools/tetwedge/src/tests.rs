@@ -370,7 +370,8 @@ fn surfaces_with_seams_get_the_lengths_asked_for() {
             let (was, is) = (of(&before), of(&done.document));
             assert!((was - is).abs() <= 1e-12 * was.abs(), "{was} {is}");
         }
-        let (mesher, _) = settle_faces(before.clone(), &params, log, Guide::Mesher).unwrap();
+        let (mesher, _) =
+            settle_faces(before.clone(), &mut [], &params, (log, Guide::Mesher)).unwrap();
         let mesher = tetrahedralize(mesher, &params, log).unwrap();
         let surface = surfaces(before.clone(), &params, log).unwrap();
         assert_eq!(validate(&surface.document), []);

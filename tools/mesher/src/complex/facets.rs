@@ -64,8 +64,15 @@ pub struct Facets {
 }
 
 impl Facets {
-    /// Groups the triangles of a template. `face` gives each triangle's wall face.
-    pub fn new(template: &Template, edges: &Edges, face: &[u32], flat: Flat) -> Self {
+    /// Groups the triangles of a template. `face` gives each triangle's wall face, `apart` those that are in no uneven facet, as
+    /// [`Piece`](crate::Piece) has them.
+    pub fn new(
+        template: &Template,
+        edges: &Edges,
+        (face, apart): (&[u32], &[bool]),
+        flat: Flat,
+    ) -> Self {
+        let is_apart = |t: u32| apart.get(t as usize) == Some(&true);
         let attributes = |t: u32| {
             let triangle = &template.triangles[t as usize];
             Attributes {
@@ -77,6 +84,7 @@ impl Facets {
         };
         let flatness = |seed: u32, cosine: f64| {
             let [distance, folds] = match face[seed as usize] {
+                NO_FACE if is_apart(seed) => [flat.elsewhere; 2],
                 NO_FACE => [flat.elsewhere, flat.folds],
                 _ => [flat.walls; 2],
             };
@@ -98,7 +106,8 @@ impl Facets {
         };
         let together = |s: u32, t: u32| {
             let same = wide[s as usize] == wide[t as usize];
-            alike(s, t) && is_face(s) == is_face(t) && (same || !is_face(s))
+            let together = is_apart(s) == is_apart(t) && is_face(s) == is_face(t);
+            alike(s, t) && together && (same || !is_face(s))
         };
         let flats = Flats::new(points, &ids, &across, shallow, together);
         let seeds = flats.regions.seeds.iter().zip(&flats.planes);
@@ -195,7 +204,7 @@ mod tests {
         };
         let corners: Vec<_> = template.triangles.iter().map(|t| t.vertices).collect();
         let edges = Edges::new(&corners);
-        let facets = Facets::new(&template, &edges, &[0; 4], flat(1e-9));
+        let facets = Facets::new(&template, &edges, (&[0; 4], &[]), flat(1e-9));
         let of = &facets.of_triangle;
         assert_eq!(facets.facets.len(), 2);
         assert_eq!((of[0], of[2]), (of[1], of[3]));
@@ -204,7 +213,7 @@ mod tests {
         assert!((level.area - 1.0).abs() < 1e-12 && level.deviation > 0.0);
         assert!(level.normal.z > 0.99);
         // A wall face or a marker of its own keeps a triangle apart.
-        let facets = Facets::new(&template, &edges, &[0, 1, 0, 0], flat(1e-9));
+        let facets = Facets::new(&template, &edges, (&[0, 1, 0, 0], &[]), flat(1e-9));
         assert_eq!(facets.facets.len(), 3);
     }
 
@@ -242,7 +251,7 @@ mod tests {
             folds: 0.1,
         };
         let none = vec![NO_FACE; corners.len()];
-        Facets::new(&template, &Edges::new(&corners), &none, flat).of_triangle
+        Facets::new(&template, &Edges::new(&corners), (&none, &[]), flat).of_triangle
     }
 
     fn count(of_triangle: &[u32]) -> usize {

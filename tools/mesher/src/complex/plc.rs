@@ -72,6 +72,7 @@ impl Plc {
             document,
             index,
             template,
+            apart,
         } = piece;
         let corners: Vec<[u32; 3]> = template.triangles.iter().map(|t| t.vertices).collect();
         if corners.len() < 4 {
@@ -104,7 +105,7 @@ impl Plc {
                 folds: document.unevenness(),
             },
         };
-        let facets = Facets::new(template, &edges, &faces.of_triangle, flat);
+        let facets = Facets::new(template, &edges, (&faces.of_triangle, apart), flat);
         let relief = Relief::new(template, &facets, flat.elsewhere);
         let mut order: Vec<usize> = (0..corners.len()).collect();
         description.order.apply(&mut order);

@@ -112,7 +112,7 @@ mod tests {
             elsewhere: 1e-10,
             folds,
         };
-        Facets::new(template, &Edges::new(&corners), &[0; 5], flat)
+        Facets::new(template, &Edges::new(&corners), (&[0; 5], &[]), flat)
     }
 
     #[test]

@@ -224,6 +224,7 @@ impl Climb<'_> {
             document,
             index,
             template,
+            ..
         } = self.piece;
         // TetGen counts corners in 32 bits.
         let most = f64::from(i32::MAX) / 4.0;

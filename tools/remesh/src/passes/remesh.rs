@@ -157,7 +157,7 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     let patches = Patches::new(surface, rules);
     let curves = Curves::new(surface, rules, &patches);
     let allowance = Allowance::new(surface, rules, &patches, &curves);
-    let envelope = Envelope::new(surface, &patches, &curves, &allowance);
+    let envelope = Envelope::new((surface, rules), &patches, &curves, &allowance);
     let mut mesh = Mesh::new(
         surface,
         *rules,

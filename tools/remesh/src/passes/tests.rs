@@ -4,7 +4,7 @@ use super::collapse::collapse;
 use super::remesh::slenderness;
 use super::split::split;
 use crate::mesh::Mesh;
-use crate::shape::{Allowance, Curves, Envelope, Patches};
+use crate::shape::{Allowance, Curves, Envelope, Near, Patches};
 use crate::{Link, Remeshed, Rules, Sizes, Surface, remesh};
 use geom::contacts::contacts;
 use geom::measure::volume_of_region;
@@ -112,7 +112,7 @@ fn with_mesh<T>(surface: &Surface, rules: Rules<'_>, look: impl FnOnce(&mut Mesh
     let patches = Patches::new(surface, &rules);
     let curves = Curves::new(surface, &rules, &patches);
     let allowance = Allowance::new(surface, &rules, &patches, &curves);
-    let envelope = Envelope::new(surface, &patches, &curves, &allowance);
+    let envelope = Envelope::new((surface, &rules), &patches, &curves, &allowance);
     look(&mut Mesh::new(
         surface,
         rules,
@@ -912,4 +912,28 @@ fn what_faces_all_around_is_curved() {
     let [drawn, coarser] = [&plate, &done.surface].map(of_the_hole);
     assert!(2 * coarser <= drawn, "{coarser} of {drawn}");
     assert!((volume(&done.surface) / volume(&plate) - 1.0).abs() < 0.05);
+}
+
+/// An edge that cuts off a fold is nearer to the facets beside it than to the fold.
+#[test]
+fn folds_are_no_farther_from_the_surface_than_the_deviation() {
+    let (strips, deviation) = (4, 0.05);
+    let surface = half_cylinder(strips);
+    let held = vec![false; surface.points.len()];
+    let bound = vec![0; surface.points.len()];
+    let rules = Rules {
+        // Folds of 45 degrees are none.
+        feature: 0.25,
+        ..rules(deviation, (&held, &[f64::INFINITY; 4]), (&bound, &[]))
+    };
+    with_mesh(&surface, rules, |mesh| {
+        let patch = Near::Patch(mesh.patch[2]);
+        let is_held_below = |by: f64| {
+            let p = DVec3::new(0.0, 1.0 - by, 0.5);
+            let ahead = DVec3::new(0.0, 0.0, 0.01);
+            mesh.envelope.holds(patch, [p - ahead, p + ahead], 0.0)
+        };
+        assert!(is_held_below(0.99 * deviation));
+        assert!(!is_held_below(1.01 * deviation));
+    });
 }

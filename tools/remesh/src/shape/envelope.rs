@@ -1,7 +1,7 @@
 //! The envelope of a surface: what is near enough to it.
 
 use super::{Allowance, Curves, Patches};
-use crate::input::Surface;
+use crate::input::{Rules, Surface};
 use geom::measure::double_area_vector;
 use geom::tree::{Nearest, Tree, closest_point};
 use glam::DVec3;
@@ -11,6 +11,8 @@ use rustc_hash::FxHashMap;
 pub struct Envelope {
     faces: Part,
     edges: Part,
+    /// How far each triangle may be from the surface.
+    reach: Vec<f64>,
     /// Unit normals of the shape at the corners of triangles, averaged over their patches.
     normals: Vec<[DVec3; 3]>,
     size: Vec<[f64; 3]>,
@@ -58,7 +60,7 @@ const HALVINGS: u32 = f64::MANTISSA_DIGITS / 2;
 impl Envelope {
     /// The envelope of a surface. n log n.
     pub fn new(
-        surface: &Surface,
+        (surface, rules): (&Surface, &Rules<'_>),
         patches: &Patches,
         curves: &Curves,
         allowance: &Allowance,
@@ -71,11 +73,17 @@ impl Envelope {
             [a, b, b]
         });
         Self {
+            reach: allowance.reach.clone(),
             normals: normals(surface, patches),
             size: (surface.triangles.iter())
                 .map(|t| t.map(|v| allowance.size[v as usize]))
                 .collect(),
-            faces: Part::new(corners, &patches.of, &allowance.reach, patches.planes.len()),
+            faces: Part::new(
+                corners,
+                &patches.of,
+                &reaches(surface, rules, patches, allowance),
+                patches.planes.len(),
+            ),
             edges: Part::new(chords.collect(), &curves.of, &curves.reach, curves.count),
         }
     }
@@ -111,9 +119,9 @@ impl Envelope {
         Some((normal.normalize_or_zero(), size))
     }
 
-    /// How far the surface may be from a triangle of the input.
+    /// How far a triangle of the input may be from the surface.
     pub fn reach(&self, triangle: u32) -> f64 {
-        self.faces.reach[triangle as usize]
+        self.reach[triangle as usize]
     }
 
     /// How far a curve may be from a feature edge of the input.
@@ -178,6 +186,29 @@ impl Part {
         };
         half(p) && half(q)
     }
+}
+
+/// How far the surface may be from each triangle so that the triangles, too, are no farther from the surface than the deviation. What is farthest
+/// from it are folds that it cuts off, and from an edge below a fold it is farther to the fold than to the triangles beside it: over the cosine of half
+/// of the angle between these. Fold and edge pass each other there, and in between the distance is that of flat faces.
+fn reaches(
+    surface: &Surface,
+    rules: &Rules<'_>,
+    patches: &Patches,
+    allowance: &Allowance,
+) -> Vec<f64> {
+    let mut reach = allowance.reach.clone();
+    for edge in 0..patches.edges.len() {
+        let Some(both) = patches.smooth(surface, rules, edge) else {
+            continue;
+        };
+        let most = rules.deviation * libm::cos(0.5 * patches.turn(surface, both));
+        for used in both {
+            let reach = &mut reach[used.triangle as usize];
+            *reach = reach.min(most);
+        }
+    }
+    reach
 }
 
 fn barycentric([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {

@@ -20,6 +20,11 @@ impl Ground {
         Some((at, self.0.at(patch, at)?.0))
     }
 
+    /// Whether a segment is near enough to a patch, all of it.
+    pub fn spans(&self, patch: u32, ends: [DVec3; 2]) -> bool {
+        self.0.holds(Near::Patch(patch), ends, 0.0)
+    }
+
     /// Whether a triangle may stand for a part of a patch whose first corner was moved: whether it faces as that does, and the lines from its
     /// first corner to its second and to the middle of the side between the others are in the envelope. All triangles around a vertex have all
     /// sides at it together.
@@ -30,6 +35,6 @@ impl Ground {
         normal.is_some_and(|(normal, _)| faces(normal))
             && [b, 0.5 * (b + c)]
                 .into_iter()
-                .all(|end| self.0.holds(Near::Patch(patch), [a, end], 0.0))
+                .all(|end| self.spans(patch, [a, end]))
     }
 }

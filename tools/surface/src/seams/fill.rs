@@ -58,6 +58,8 @@ impl Maker<'_> {
             };
             let faces = std::iter::repeat_n(attributes.face, triangles.len());
             self.face_of.extend(faces);
+            let same = std::iter::repeat_n(facet as u32, triangles.len());
+            self.facet_of.extend(same);
             self.made
                 .triangles
                 .extend(triangles.into_iter().map(|vertices| Triangle {
@@ -132,6 +134,7 @@ impl Maker<'_> {
             self.triangle_pairs[pairing].push([master, image]);
             self.face_of
                 .push(face_key(self.pairings[pairing].wall, true));
+            self.facet_of.push(u32::MAX);
             self.made.triangles.push(Triangle {
                 vertices: facing(self.pairings[pairing].step, corners),
                 ..like

@@ -20,6 +20,8 @@ pub struct Made {
     pub vertices: Vec<u32>,
     /// Triangles on faces that other templates list as a hub wall, increasing.
     pub shared: Vec<u32>,
+    /// Facet of each triangle, `u32::MAX` for images of others, and of each triangle as it was.
+    pub facets: [Vec<u32>; 2],
     /// What became of the bounds, if they could not be met.
     pub advice: Option<String>,
     /// Whether faces are uneven, so that the surface is off the input's.
@@ -89,6 +91,7 @@ fn made_by(climb: &Climb<'_>, guide: Refined) -> Result<Made, SurfaceError> {
     let Maker {
         mut made,
         face_of,
+        facet_of,
         of_input,
         ..
     } = maker;
@@ -109,6 +112,7 @@ fn made_by(climb: &Climb<'_>, guide: Refined) -> Result<Made, SurfaceError> {
         shared: shared.collect(),
         template: made,
         vertices: of_input,
+        facets: [facet_of, guide.facets.of_triangle],
         is_uneven: guide.is_uneven,
         advice: guide.advice,
     })

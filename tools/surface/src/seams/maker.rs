@@ -35,6 +35,8 @@ pub struct Maker<'a> {
     pub made: Template,
     /// Wall face of each new triangle; see [`mesher::Faces`].
     pub face_of: Vec<u32>,
+    /// Facet of each new triangle, `u32::MAX` for images of others.
+    pub facet_of: Vec<u32>,
     /// New vertex of each input vertex.
     pub of_input: Vec<u32>,
     /// New vertex of each guide vertex.
@@ -71,6 +73,7 @@ impl<'a> Maker<'a> {
             frozen,
             made: Template::default(),
             face_of: Vec::new(),
+            facet_of: Vec::new(),
             of_input: vec![NONE; input.vertices.len()],
             of_guide: vec![NONE; guide.vertices.len()],
             of_triangle: vec![NONE; input.triangles.len()],
