@@ -229,6 +229,21 @@ fn no_triangles_of_noise_are_left() {
     }
 }
 
+/// A body whose parts touch in edges, of which remeshing makes a surface that crosses itself where facets are uneven, and cells that are both inside and outside:
+/// it is filled as it was cut then.
+#[test]
+fn what_remeshing_spoils_is_filled_as_it_was_cut() {
+    let solid = bodies::random_solid::solid(10_180_985);
+    let found = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    let options = "-q --deviation 9.1e-4 --edge-length 0.1083 --gradation 2.054 --feature-angle 30.13 --order 2";
+    let options: Vec<&str> = options.split(' ').collect();
+    let cut = run("wedgecut", &options, &found).success();
+    let filled = run("tetwedge", &["-v"], &cut);
+    let told = "the surface is not remeshed, as that cannot be filled";
+    assert!(filled.stderr.contains(told), "{}", filled.stderr);
+    run("meshqual", &["-q", "--check"], &filled.success()).success();
+}
+
 #[test]
 fn deviation_0_keeps_every_vertex() {
     let found = run("symdetect", &["-q"], &vase()).success();

@@ -5,7 +5,7 @@ use crate::fill::NONE;
 use crate::filling::Filling;
 use crate::leads::leader;
 use crate::settle::{Settled, Shaped};
-use mesher::{Error, Log, Params, Progress};
+use mesher::{Error, Fault, Log, Params, Progress};
 use surface::{Guide, SurfaceError, apart, note_moved};
 use tmesh::{Deviation, Document, Template};
 
@@ -45,7 +45,8 @@ pub fn tetrahedralize_shaped(
     let meshed = |document| meshed(document, params, log, shaped);
     let attempt = meshed(document.clone());
     match attempt {
-        Err((error, true)) if error.is_chance() => {
+        // What is wrong with a surface that was remeshed may be so since.
+        Err((error, true)) if error.is_chance() || error.fault() == Fault::Input => {
             log.detail(&format!(
                 "the surface is not remeshed, as that cannot be filled: {error}"
             ));
