@@ -230,7 +230,7 @@ fn no_triangles_of_noise_are_left() {
 }
 
 /// A body whose parts touch in edges, of which remeshing makes a surface that crosses itself where facets are uneven, and cells that are both inside and outside:
-/// it is filled as it was cut then.
+/// it is filled as it was cut then, whether a tool makes the surface by itself or not.
 #[test]
 fn what_remeshing_spoils_is_filled_as_it_was_cut() {
     let solid = bodies::random_solid::solid(10_180_985);
@@ -242,6 +242,10 @@ fn what_remeshing_spoils_is_filled_as_it_was_cut() {
     let told = "the surface is not remeshed, as that cannot be filled";
     assert!(filled.stderr.contains(told), "{}", filled.stderr);
     run("meshqual", &["-q", "--check"], &filled.success()).success();
+    let made = run("periodic-surf", &["-v"], &cut);
+    assert!(made.stderr.contains(told), "{}", made.stderr);
+    let filled = run("tetwedge", &["-q"], &made.success()).success();
+    run("meshqual", &["-q", "--check"], &filled).success();
 }
 
 #[test]

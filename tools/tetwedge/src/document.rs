@@ -41,20 +41,32 @@ pub fn tetrahedralize_shaped(
     log: Log<'_>,
     shaped: &(dyn Fn(&Shaped) + Sync),
 ) -> Result<Meshed, Error> {
+    or_as_cut(
+        document,
+        |document| meshed(document, params, log, shaped),
+        |error| error.is_chance() || error.fault() == Fault::Input,
+        log,
+    )
+}
+
+/// What is made of a document, of its surface as it was cut where `spoils` says of an error that it may be one of a surface that was
+/// remeshed; errors tell whether it was.
+pub fn or_as_cut<E: std::fmt::Display>(
+    mut document: Document,
+    make: impl Fn(Document) -> Result<Meshed, (E, bool)>,
+    spoils: impl Fn(&E) -> bool,
+    log: Log<'_>,
+) -> Result<Meshed, E> {
     let wished = document.wishes.deviation;
-    let meshed = |document| meshed(document, params, log, shaped);
-    let attempt = meshed(document.clone());
-    match attempt {
-        // What is wrong with a surface that was remeshed may be so since.
-        Err((error, true)) if error.is_chance() || error.fault() == Fault::Input => {
+    match make(document.clone()) {
+        Err((error, true)) if spoils(&error) => {
             log.detail(&format!(
                 "the surface is not remeshed, as that cannot be filled: {error}"
             ));
-            let mut document = document;
             document.wishes.deviation = Some(Deviation::Within(0.0));
-            let mut meshed = meshed(document).map_err(|(error, _)| error)?;
-            meshed.document.wishes.deviation = wished;
-            Ok(meshed)
+            let mut made = make(document).map_err(|(error, _)| error)?;
+            made.document.wishes.deviation = wished;
+            Ok(made)
         }
         other => other.map_err(|(error, _)| error),
     }

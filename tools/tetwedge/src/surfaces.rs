@@ -1,9 +1,9 @@
 //! Surfaces alone, as they are to be filled.
 
-use crate::document::Meshed;
+use crate::document::{Meshed, or_as_cut};
 use crate::filling::Filling;
 use crate::settle::{Settled, Shaped};
-use mesher::{Log, Params, Sizes};
+use mesher::{Description, Error, Fault, Log, Params, Piece, Plc, Sizes};
 use surface::{Guide, SurfaceError, lengths};
 use tmesh::Document;
 
@@ -17,8 +17,23 @@ pub fn surfaces(document: Document, params: &Params, log: Log<'_>) -> Result<Mes
     if tets > 0 {
         return Err(SurfaceError::AlreadyFilled(tets));
     }
-    let shaped = Shaped::new(document, params, log)?;
-    let mut settled = shaped.settled(Guide::Mesher, log)?;
+    let spoils = |error: &SurfaceError| match error {
+        SurfaceError::Mesher(error) => error.fault() == Fault::Input,
+        _ => false,
+    };
+    or_as_cut(
+        document,
+        |document| made(document, params, log),
+        spoils,
+        log,
+    )
+}
+
+/// The same, remeshed or not; an error says which.
+fn made(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (SurfaceError, bool)> {
+    let shaped = Shaped::new(document, params, log).map_err(|error| (error.into(), true))?;
+    let failed = |error| (error, shaped.is_remeshed());
+    let mut settled = shaped.settled(Guide::Mesher, log).map_err(failed)?;
     if settled.is_as_asked()
         && has_choice(&settled)
         && let Ok(first) = Filling::new(settled.clone(), params, log)
@@ -26,6 +41,9 @@ pub fn surfaces(document: Document, params: &Params, log: Log<'_>) -> Result<Mes
         let best = first.or_longer(&shaped, params, log);
         settled = best.settled;
         settled.document.templates = best.surfaces;
+    }
+    if shaped.is_remeshed() {
+        describable(&settled.document).map_err(|error| failed(error.into()))?;
     }
     let mut facts = settled.facts();
     if settled.report.iter().all(Option::is_none) {
@@ -40,6 +58,15 @@ pub fn surfaces(document: Document, params: &Params, log: Log<'_>) -> Result<Mes
         advice: settled.advice(),
         facts,
         document: settled.document,
+    })
+}
+
+/// Whether surfaces can be described to the mesher: whether they are closed and cells have one region.
+fn describable(document: &Document) -> Result<(), Error> {
+    let sizes = Sizes::new(document)?;
+    let mut indices = 0..document.templates.len();
+    indices.try_for_each(|index| {
+        Plc::new(Piece::of(document, index), &sizes, Description::PLAIN).map(|_| ())
     })
 }
 

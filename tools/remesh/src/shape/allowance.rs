@@ -148,8 +148,12 @@ struct Fold {
     along: DVec3,
     length: f64,
     turn: f64,
+    /// What of the turn is more than coordinates are uncertain.
+    told: f64,
     /// Width of the narrower triangle.
     width: f64,
+    /// A patch that bends.
+    patch: u32,
 }
 
 /// The folds of the curved patches.
@@ -165,16 +169,40 @@ fn folds(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool])
             (apex - a).cross((b - a).normalize_or_zero()).length()
         };
         let curved = || both.iter().filter(|u| is_curved(u.triangle));
-        curved().next()?;
+        let patch = patches.of[curved().next()?.triangle as usize];
+        let turn = patches.turn(surface, both);
+        // Corners that are off by what counts as in one plane turn the triangles by as much over their width.
+        let noise: f64 = both.iter().map(|u| rules.flat / width(u)).sum();
         Some(Fold {
             ends,
             along: (b - a).normalize_or_zero(),
             length: a.distance(b),
-            turn: patches.turn(surface, both),
+            turn,
+            told: turn * (1.0 - (noise / turn).powi(2)).max(0.0),
             width: curved().map(width).fold(f64::INFINITY, f64::min),
+            patch,
         })
     };
-    (0..patches.edges.len()).filter_map(fold).collect()
+    let mut folds: Vec<Fold> = (0..patches.edges.len()).filter_map(fold).collect();
+    take_told(&mut folds, patches.planes.len());
+    folds
+}
+
+/// Takes of each fold what is told of its turn: at the poles of rounded corners facets are as thin as coordinates are uncertain, and
+/// turn to and fro. Where that would be less than half of how a patch turns, all of it is drawn as finely, and is taken as it is.
+fn take_told(folds: &mut [Fold], patches: usize) {
+    let mut turns = vec![[0.0; 2]; patches];
+    for fold in folds.iter() {
+        let [all, told] = &mut turns[fold.patch as usize];
+        *all += fold.turn.abs() * fold.length;
+        *told += fold.told.abs() * fold.length;
+    }
+    for fold in folds {
+        let [all, told] = turns[fold.patch as usize];
+        if told >= 0.5 * all {
+            fold.turn = fold.told;
+        }
+    }
 }
 
 /// How the curved patches bend around each vertex. A fold beside a triangle that is narrower than those around it moves
