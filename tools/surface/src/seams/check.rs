@@ -5,10 +5,16 @@ use tmesh::{OUTSIDE, Template};
 
 /// Every region closed, with its volume unchanged but for what comes of a surface that is off by `rounding` (model
 /// units). `slack`: volume that uneven facets may account for, model units cubed.
-pub fn same_body(
+pub fn same_body(before: &Template, after: &Template, allowed: (f64, f64)) -> Result<(), String> {
+    same_regions(before, after, allowed, |_| true)
+}
+
+/// The same, where the surface is off at the triangles of the old one that `moves` accepts.
+fn same_regions(
     before: &Template,
     after: &Template,
     (rounding, slack): (f64, f64),
+    moves: impl Fn(usize) -> bool,
 ) -> Result<(), String> {
     let mut sides: Vec<(u32, [u32; 2], i32)> = Vec::with_capacity(6 * after.triangles.len());
     for t in &after.triangles {
@@ -41,12 +47,10 @@ pub fn same_body(
     regions.dedup();
     for region in regions.into_iter().filter(|&r| r != OUTSIDE) {
         let [old, new] = [before, after].map(|t| volume_of_region(&t.vertices, t.faces(), region));
-        let around = before
-            .triangles
-            .iter()
-            .filter(|t| t.front == region || t.back == region);
+        let around = (before.triangles.iter().enumerate())
+            .filter(|(i, t)| (t.front == region || t.back == region) && moves(*i));
         let area: f64 = around
-            .map(|t| corners(&before.vertices, t))
+            .map(|(_, t)| corners(&before.vertices, t))
             .map(|[a, b, c]| triangle_area(a, b, c))
             .sum();
         let allowed = area * rounding + slack;
@@ -69,7 +73,9 @@ pub fn same_body(
     }
     Ok(())
 }
-/// Volumes and the area of the boundary unchanged but for what comes of a surface that is off by `drift`, model units.
+
+/// Volumes and the area of the boundary unchanged but for what comes of a surface that is off by `drift`, model units: each region's by what that is
+/// around it.
 pub fn same_size(
     (before, index): (&Template, usize),
     after: &Template,
@@ -82,21 +88,76 @@ pub fn same_size(
             "the boundary has the area {new:.12e}, it had {old:.12e}"
         ));
     }
-    same_body(before, after, (0.0, drift * old))
+    let glued = glued(before, index);
+    same_regions(before, after, (drift, 0.0), |t| !glued[t])
 }
 
-/// Area of the boundary, and half the perimeters of its triangles; without faces that are glued to others.
-fn boundary(template: &Template, index: usize) -> (f64, f64) {
+/// Of each triangle, whether it is in a face that is glued to another.
+fn glued(template: &Template, index: usize) -> Vec<bool> {
     let mut glued = vec![false; template.triangles.len()];
     for gluing in &template.gluings {
         let here = gluing.triangles_of(index);
         here.for_each(|t| glued[t as usize] = true);
     }
-    let all = template.triangles.iter().zip(glued);
+    glued
+}
+
+/// Area of the boundary, and half the perimeters of its triangles; without faces that are glued to others.
+fn boundary(template: &Template, index: usize) -> (f64, f64) {
+    let all = template.triangles.iter().zip(glued(template, index));
     let free = all.filter(|(t, glued)| !glued && (t.front == OUTSIDE) != (t.back == OUTSIDE));
     free.fold((0.0, 0.0), |(area, half), (t, _)| {
         let [a, b, c] = corners(&template.vertices, t);
         let perimeter = a.distance(b) + b.distance(c) + c.distance(a);
         (area + triangle_area(a, b, c), half + 0.5 * perimeter)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use tmesh::Triangle;
+
+    /// Adds a cube about the origin with half sides of a length, of which one region is outside and another inside.
+    fn add_cube(template: &mut Template, half: f64, [front, back]: [u32; 2]) {
+        let first = template.vertices.len() as u32;
+        let sign = |i: u32, bit: u32| if i >> bit & 1 == 1 { half } else { -half };
+        let corners = (0..8).map(|i| DVec3::new(sign(i, 0), sign(i, 1), sign(i, 2)));
+        template.vertices.extend(corners);
+        let quads = [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ];
+        for [a, b, c, d] in quads {
+            for vertices in [[a, b, c], [a, c, d]] {
+                template.triangles.push(Triangle {
+                    vertices: vertices.map(|v: u32| v + first),
+                    marker: 0,
+                    front,
+                    back,
+                });
+            }
+        }
+    }
+
+    fn nested(inner: f64) -> Template {
+        let mut template = Template::default();
+        add_cube(&mut template, 5.0, [OUTSIDE, 1]);
+        add_cube(&mut template, inner, [1, 2]);
+        template
+    }
+
+    #[test]
+    fn a_small_region_may_change_by_what_is_around_it() {
+        let (before, drift) = (nested(0.5), 1e-3);
+        let moved = |by: f64| same_size((&before, 0), &nested(0.5 + by), drift);
+        assert_eq!(moved(0.9 * drift), Ok(()));
+        let error = moved(50.0 * drift).expect_err("a region that grew");
+        assert!(error.contains("region 2 has the volume"), "{error}");
+    }
 }
