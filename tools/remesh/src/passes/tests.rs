@@ -939,7 +939,7 @@ fn folds_are_no_farther_from_the_surface_than_the_deviation() {
 }
 
 /// At the poles of a fine drawing facets are as thin as coordinates are uncertain, and turn to and fro: a cube with rounded edges that was drawn
-/// with 600 facets in a turn got edges of a thirtieth of the length asked for along its roundings.
+/// with 600 facets in a turn got edges of a twenty-fifth of the length asked for along its roundings.
 #[test]
 fn facets_as_thin_as_noise_do_not_tell_how_the_surface_bends() {
     let (noise, flat) = (1e-6, 2e-6);
