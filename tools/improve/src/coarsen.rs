@@ -21,6 +21,8 @@ pub struct Face {
     pub facet: u32,
     /// A number that it keeps.
     pub number: u32,
+    /// Whether improvement leaves it as it is.
+    pub stays: bool,
 }
 
 /// What may be left behind where a vertex goes.
@@ -29,6 +31,8 @@ pub enum Leaves {
     /// Elements past the radius-edge bound, worth little less than good ones, as when improvement begins: it mends nearly all of them
     /// where vertices may move and be added.
     Mendable,
+    /// Good elements only, in the place of good ones, for meshes of so few that there is little to mend them with.
+    Good,
     /// Nothing past the bound by more than this factor that was not there, for surfaces that stay, and for shapes that leave improvement
     /// little room.
     Within(f64),
@@ -39,8 +43,10 @@ pub struct Coarse<'a> {
     /// Dihedral angle of good ones, degrees.
     pub angle: f64,
     /// Smallest dihedral angle that there may be in the place of worse ones, degrees. Improvement brings back the rest, by vertices
-    /// inside and on flat facets, so that what has all corners on the surface must be good in any case. Measured on 60 parts: two thirds of the angle of
+    /// inside and on the surface and by other triangles there. Measured on 60 parts: two thirds of the angle of
     /// good ones leaves 5 % more elements with as many of the worst, no angle at all 1 % fewer with more past the radius-edge bound.
+    /// Asking more of elements whose corners are all on the surface, and of corners of triangles there, leaves 9 % more on 73 parts, with
+    /// angles that are no larger in the mean.
     pub min_dihedral: f64,
     /// Largest radius-edge ratio.
     pub radius_edge: f64,
@@ -96,12 +102,17 @@ pub fn coarsen(
         .collect();
     let goal = match wish.leaves {
         Leaves::Mendable => Goal::new(wish.angle, wish.radius_edge, 0.0).lenient(),
+        Leaves::Good => Goal::new(wish.angle, wish.radius_edge, 0.0),
         Leaves::Within(factor) => Goal::new(wish.angle, factor * wish.radius_edge, 0.0),
+    };
+    let least = match wish.leaves {
+        Leaves::Good => 1.0,
+        _ => goal.of_angle(wish.min_dihedral).min(1.0),
     };
     let mut work = Work {
         mesh: Mesh::new(points, std::mem::take(tets), goal, &limits),
         gone: vec![false; faces.len()],
-        least: goal.of_angle(wish.min_dihedral).min(1.0),
+        least,
         faces,
         at,
         wish,
@@ -237,9 +248,6 @@ impl Work<'_, '_> {
             if grade.quality < least || !self.fits((corners, region), grade.six_volume, most) {
                 return None;
             }
-            if grade.quality < 1.0 && corners.iter().all(|u| self.at.contains_key(u)) {
-                return None;
-            }
             worst = worst.min(grade.quality);
             new.push((corners, grade, region));
         }
@@ -250,17 +258,18 @@ impl Work<'_, '_> {
         })
     }
 
-    /// Whether the corners of the faces at a vertex stay as wide as the radius-edge bound asks for, or as they were: what is sharper
-    /// on the surface, no element there can mend.
+    /// Whether the corners of those faces at a vertex that stay are as wide then as the radius-edge bound asks for, or as they were: what is
+    /// sharper there, no element can mend.
     fn keeps_corners(&self, v: u32, to: u32) -> bool {
-        let Some(at) = self.at.get(&v) else {
-            return true;
-        };
+        let at = self.at.get(&v).map_or(&[][..], Vec::as_slice);
         let sharpest = |corners: [u32; 3]| {
             let [a, b, c] = corners.map(|u| self.mesh.positions[u as usize]);
             sine_of_sharpest([a, b, c])
         };
-        let faces = || at.iter().map(|&t| self.faces[t as usize].corners);
+        let faces = || {
+            let all = at.iter().map(|&t| &self.faces[t as usize]);
+            all.filter(|face| face.stays).map(|face| face.corners)
+        };
         let before = faces().map(sharpest).fold(f64::INFINITY, f64::min);
         let least = before.min(0.5 / self.wish.radius_edge);
         let mut after = faces().filter(|corners| !corners.contains(&to));
@@ -381,6 +390,7 @@ mod tests {
                 corners,
                 facet: facet as u32,
                 number: 10 + facet as u32,
+                stays: false,
             }));
         }
         faces.sort_by_key(|f| f.corners);
@@ -539,6 +549,30 @@ mod tests {
         };
         assert_eq!(past(Leaves::Within(0.8)), 0);
         assert!(past(Leaves::Mendable) > 0);
+    }
+
+    #[test]
+    fn faces_that_stay_keep_wide_corners() {
+        let bound = 1.4;
+        // Along each axis on its own, so that what is in a plane stays there.
+        let shifted = |x: f64, along: f64| match x {
+            0.0 | 4.0 | 8.0 => x,
+            x => x + 0.4 * (7.0 * x + along).sin(),
+        };
+        let sharpest_left = |stays: bool| {
+            let (mut points, mut tets, mut faces) = cubes(8);
+            for p in &mut points[27..] {
+                *p = DVec3::new(shifted(p.x, p.y), shifted(p.y, p.z), shifted(p.z, p.x));
+            }
+            faces.iter_mut().for_each(|face| face.stays = stays);
+            let none = FxHashMap::default();
+            assert!(coarsen(points.clone(), &mut tets, &mut faces, &wish(&none)) > 100);
+            let corners = faces.iter().map(|face| face.corners);
+            let sines = corners.map(|face| sine_of_sharpest(face.map(|v| points[v as usize])));
+            sines.fold(f64::INFINITY, f64::min)
+        };
+        assert!(sharpest_left(true) >= 0.5 / bound);
+        assert!(sharpest_left(false) < 0.5 / bound);
     }
 
     #[test]

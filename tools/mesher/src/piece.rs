@@ -1,5 +1,6 @@
 //! What is meshed: a template where it stands in its document.
 
+use crate::faces::face_key;
 use tmesh::{Document, Template};
 
 /// A template of a document, or a surface that is to take its place there.
@@ -24,5 +25,10 @@ impl<'a> Piece<'a> {
             template: &document.templates[index],
             apart: &[],
         }
+    }
+
+    /// Whether a face, by its key, is one that another template has, too.
+    pub fn shares(&self, face: u32) -> bool {
+        face >= face_key(self.template.gluings.len(), false)
     }
 }

@@ -3,29 +3,51 @@
 use geom::tolerance::ROUNDING;
 use geom::tree::Tree;
 use glam::DVec3;
-use tmesh::{Document, Template};
+use tmesh::{Deviation, Document, Template};
 
 /// The largest distance between the surfaces of two templates, model units: both ways, at the corners of triangles, the middles of
-/// their edges and their own. n log n.
+/// their edges and their own, and at more places of those where that is a good part of the largest. n log n.
 pub fn apart(first: &Template, second: &Template) -> f64 {
     one_way(first, second).max(one_way(second, first))
 }
+
+/// Triangles are looked at once more where they are as far as this part of the largest distance: between the places that were looked at first, it
+/// was a tenth larger at most.
+const WORTH_MORE: f64 = 0.5;
+
+/// Parts of the edges of triangles that are looked at once more.
+const PARTS: u32 = 8;
 
 fn one_way(from: &Template, to: &Template) -> f64 {
     let corners = |template: &Template, t: &tmesh::Triangle| -> [DVec3; 3] {
         t.vertices.map(|v| template.vertices[v as usize])
     };
     let tree = Tree::new(to.triangles.iter().map(|t| corners(to, t)));
-    let points = from.triangles.iter().flat_map(|t| {
+    let far = |points: &mut dyn Iterator<Item = DVec3>| {
+        let distances = points.filter_map(|p| Some(tree.nearest(p, f64::INFINITY)?.distance));
+        distances.fold(0.0, f64::max)
+    };
+    let first = from.triangles.iter().map(|t| {
         let [a, b, c] = corners(from, t);
         let middles = [a + b, b + c, c + a].map(|sum| 0.5 * sum);
-        [a, b, c]
-            .into_iter()
-            .chain(middles)
-            .chain([(a + b + c) / 3.0])
+        let own = [(a + b + c) / 3.0];
+        far(&mut [a, b, c].into_iter().chain(middles).chain(own))
     });
-    let distances = points.filter_map(|p| Some(tree.nearest(p, f64::INFINITY)?.distance));
-    distances.fold(0.0, f64::max)
+    let first: Vec<f64> = first.collect();
+    let farthest = first.iter().copied().fold(0.0, f64::max);
+    let worth = from.triangles.iter().zip(&first);
+    let worth = worth.filter(|&(_, &far)| far > 0.0 && far >= WORTH_MORE * farthest);
+    let more = worth.map(|(t, _)| far(&mut lattice(corners(from, t))));
+    more.fold(farthest, f64::max)
+}
+
+/// Points of a triangle, evenly.
+fn lattice([a, b, c]: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
+    let step = 1.0 / f64::from(PARTS);
+    (0..=PARTS).flat_map(move |i| {
+        let along = move |j: u32| a + (f64::from(i) * (b - a) + f64::from(j) * (c - a)) * step;
+        (0..=PARTS - i).map(along)
+    })
 }
 
 /// Writes into the document how much farther, in model units, its surface is from the input's.
@@ -35,5 +57,19 @@ pub fn note_moved(document: &mut Document, by: f64) {
     {
         let earlier = document.wishes.moved.unwrap_or(0.0);
         document.wishes.moved = Some(earlier + by / radius);
+    }
+}
+
+/// Writes into the document, where it says how far its surface is from the input's, that this is so far, model units. What it may be farther
+/// gets less by that.
+pub fn note_deviation(document: &mut Document, farthest: f64) {
+    if let Some(radius) = document.symmetry.as_ref().map(|found| found.radius)
+        && let Some(Deviation::Within(known)) = document.wishes.deviation
+        && farthest > known * radius
+    {
+        let deviation = farthest / radius;
+        let left = document.wishes.moved.map(|moved| known + moved - deviation);
+        document.wishes.deviation = Some(Deviation::Within(deviation));
+        document.wishes.moved = left.filter(|&left| left > ROUNDING);
     }
 }

@@ -40,6 +40,9 @@ pub fn coarsened(climb: &Climb<'_>, answer: &Answer, cells: Cells, leaves: Leave
                 corners: s.triangle.vertices,
                 facet: s.facet as u32,
                 number: number as u32,
+                stays: climb
+                    .piece
+                    .shares(plc.facets.facets[s.facet].attributes.face),
             })
             .collect();
         let cube = plc.scale.powi(3);

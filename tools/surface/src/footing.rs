@@ -125,11 +125,17 @@ impl Footing {
         })
     }
 
-    /// By how much a surface may be farther from the given one than the remeshed one is, model units: what is measured at some places, and what
-    /// the envelope leaves. n log n.
-    pub fn farther(&self, surface: &Template, remeshed: &Template) -> f64 {
+    /// How far a surface is from the given one, measured at some places, and by how much it may be farther than the remeshed one is: what is
+    /// measured, and what the envelope leaves. Model units. n log n.
+    pub fn farther(&self, surface: &Template, remeshed: &Template) -> [f64; 2] {
         let [there, here] = [surface, remeshed].map(|other| apart(&self.given, other));
-        (there.max(self.deviation.unwrap_or(0.0)) - here).max(0.0)
+        let most = there.max(self.deviation.unwrap_or(0.0));
+        [there, (most - here).max(0.0)]
+    }
+
+    /// Whether nobody said how far the surface may be.
+    pub fn is_noted(&self) -> bool {
+        self.deviation.is_some()
     }
 
     /// The shape for positions that are the template's times a power of two.

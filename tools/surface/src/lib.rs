@@ -17,8 +17,7 @@ mod seams;
 mod settle;
 mod shape;
 
-pub use apart::apart;
-pub use apart::note_moved;
+pub use apart::{apart, note_deviation, note_moved};
 pub use coarse::{Left, coarsened};
 pub use error::{SurfaceError, failure};
 pub use footing::Footing;

@@ -6,7 +6,7 @@ use crate::filling::Filling;
 use crate::leads::leader;
 use crate::settle::{Settled, Shaped};
 use mesher::{Error, Fault, Log, Params, Progress};
-use surface::{Guide, SurfaceError, apart, note_moved};
+use surface::{Guide, SurfaceError, apart, note_deviation, note_moved};
 use tmesh::{Deviation, Document, Template};
 
 /// A document that was meshed, and what there is to say about it.
@@ -102,7 +102,7 @@ fn meshed(
     let advices = done.iter().filter_map(|d| d.advice.clone());
     let advice = settled.advice().into_iter().chain(advices).collect();
     let mut document = settled.document;
-    let mut moved = 0.0_f64;
+    let [mut moved, mut farthest] = [0.0_f64; 2];
     for index in 0..done.len() {
         let mut template = std::mem::take(&mut done[index].filled.template);
         // A follower has the new numbers already.
@@ -111,14 +111,22 @@ fn meshed(
         }
         if done[index].is_off {
             let footing = settled.footings.get(index).and_then(Option::as_ref);
-            moved = moved.max(match footing {
-                Some(footing) => footing.farther(&template, &given[index]),
+            let more = match footing {
+                Some(footing) => {
+                    let [there, more] = footing.farther(&template, &given[index]);
+                    if footing.is_noted() {
+                        farthest = farthest.max(there);
+                    }
+                    more
+                }
                 None => apart(&given[index], &template),
-            });
+            };
+            moved = moved.max(more);
         }
         document.templates[index] = template;
     }
     note_moved(&mut document, moved);
+    note_deviation(&mut document, farthest);
     Ok(Meshed {
         document,
         advice,

@@ -68,7 +68,7 @@ fn cut_short(climb: &Climb<'_>, filled: &Filled) -> Option<String> {
 /// See [`Error`].
 pub fn done<B: Send>(
     (climb, footing): (&Climb<'_>, Option<&Footing>),
-    answer: Answer,
+    (answer, leaves): (Answer, Leaves),
     beside: Option<Beside<'_, B>>,
 ) -> Result<(Done, Option<B>), Error> {
     let say = |text: &str| {
@@ -76,7 +76,7 @@ pub fn done<B: Send>(
             .log
             .detail(&format!("template {}: {text}", climb.piece.index))
     };
-    let (mut filled, origin) = fill(climb, &answer, Leaves::Mendable)?;
+    let (mut filled, origin) = fill(climb, &answer, leaves)?;
     climb.log.progress(&Progress {
         template: climb.piece.index,
         step: "improving elements",

@@ -9,6 +9,10 @@ use std::f64::consts::TAU;
 use std::time::Duration;
 use tmesh::{Instance, OUTSIDE, Template, Triangle};
 
+/// Length of elements over the thickness of a part, where that and nobody else limits it. Measured on 14 bodies of `body`, half of them
+/// thin ones, with a length asked for and without: the tetrahedra are 0.57 to 1.17 times those of the forecast; with 1, down to 0.25 of it.
+const LAYER: f64 = 1.4;
+
 /// What filling a document is expected to take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forecast {
@@ -62,7 +66,7 @@ fn expected(shaped: &Shaped, index: usize, sizes: &Sizes, threads: usize) -> Opt
     let upright = |i: &&Instance| i.template as usize == index && !i.isometry.flipped();
     let copies = document.instances.iter().filter(upright).count();
     let mut wedge = Wedge::new(template, index, copies);
-    wedge.layers = f64::from(document.wishes.layers_across.unwrap_or(1));
+    wedge.layers = document.wishes.layers_across.map_or(1.0 / LAYER, f64::from);
     if wedge.sections.is_empty() {
         let by_size = regions(template).map(|region| Some(volume_of(region) / cube(region)?));
         return by_size.sum::<Option<f64>>().map(|cubes| IN_CUBE * cubes);

@@ -3,6 +3,7 @@
 use crate::done::{Beside, Done, done};
 use crate::draws::{best_of_draws, draws};
 use crate::fill::Filled;
+use improve::Leaves;
 use mesher::{
     Asks, Attempt, Climb, Deadline, EASING, Error, LADDER, Log, Params, Piece, Sizes, TetGen,
 };
@@ -62,10 +63,12 @@ pub fn template<B: Send>(
     });
     let beside = unless_drawn.as_ref().map(|made| made as Beside<'_, B>);
     let (first, made) = climb.climb(Attempt::new(asks), |answer| {
-        done((climb, footing), answer, beside)
+        done((climb, footing), (answer, Leaves::Mendable), beside)
     })?;
-    let again = |climb: &Climb<'_>, footing: Option<&Footing>, attempt| {
-        let done = climb.climb(attempt, |answer| done::<()>((climb, footing), answer, None));
+    let again = |climb: &Climb<'_>, footing: Option<&Footing>, (attempt, leaves)| {
+        let done = climb.climb(attempt, |answer| {
+            done::<()>((climb, footing), (answer, leaves), None)
+        });
         Some(done.ok()?.0)
     };
     let (best, is_another) = best_of_draws((climb, footing), first, again);

@@ -623,7 +623,7 @@ fn a_time_limit_ends_improvement_with_a_mesh() {
             deadline: Deadline::start(Some(Duration::from_nanos(1))),
             ..*climb
         };
-        let (done, _) = done::<()>((&late, None), answer, None).unwrap();
+        let (done, _) = done::<()>((&late, None), (answer, Leaves::Mendable), None).unwrap();
         let told = done.advice.unwrap();
         assert!(
             told.contains("--timeout") && told.contains("remain"),

@@ -9,7 +9,7 @@ use super::maker::Maker;
 use super::pairing::Pairing;
 use crate::SurfaceError;
 use geom::contacts::contacts;
-use mesher::{Climb, Description, Piece, face_key};
+use mesher::{Climb, Description, Piece};
 use tmesh::Template;
 
 /// A new surface.
@@ -106,8 +106,7 @@ fn made_by(climb: &Climb<'_>, guide: Refined) -> Result<Made, SurfaceError> {
             what,
         }
     })?;
-    let others = face_key(input.gluings.len(), false);
-    let shared = (0..face_of.len() as u32).filter(|&t| face_of[t as usize] >= others);
+    let shared = (0..face_of.len() as u32).filter(|&t| climb.piece.shares(face_of[t as usize]));
     Ok(Made {
         shared: shared.collect(),
         template: made,

@@ -5,7 +5,7 @@ use super::preserved::restore_preserved;
 use super::walls::{on_shifted_facets, restore_walls};
 use glam::DVec3;
 use improve::Leaves;
-use mesher::{Answer, Climb, Elements, Error, Piece, Place, Plc, Surface, face_key, label};
+use mesher::{Answer, Climb, Elements, Error, Piece, Place, Plc, Surface, label};
 use surface::{Left, coarsened};
 use tmesh::{OUTSIDE, Template, Tet, Triangle};
 
@@ -82,9 +82,9 @@ pub fn fill(climb: &Climb<'_>, answer: &Answer, leaves: Leaves) -> Result<(Fille
         vertices: numbering.of_input(input, plc),
         triangles: vec![NONE; input.triangles.len()],
         shared: {
-            let others = face_key(input.gluings.len(), false);
             let all = 0..faces.len() as u32;
-            all.filter(|&t| faces[t as usize] >= others).collect()
+            all.filter(|&t| climb.piece.shares(faces[t as usize]))
+                .collect()
         },
         dropped,
         removed,
