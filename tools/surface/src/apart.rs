@@ -73,3 +73,68 @@ pub fn note_deviation(document: &mut Document, farthest: f64) {
         document.wishes.moved = left.filter(|&left| left > ROUNDING);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tmesh::{Axis, Group, OUTSIDE, Symmetry, Triangle};
+
+    fn template(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Template {
+        let like = |&vertices: &[u32; 3]| Triangle {
+            vertices,
+            marker: 0,
+            front: OUTSIDE,
+            back: 1,
+        };
+        Template {
+            vertices: vertices.iter().copied().map(DVec3::from_array).collect(),
+            triangles: triangles.iter().map(like).collect(),
+            ..Template::default()
+        }
+    }
+
+    #[test]
+    fn what_is_farthest_between_the_places_looked_at_first_is_seen() {
+        let flat = template(
+            &[[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]],
+            &[[0, 1, 2]],
+        );
+        // A valley that is deepest below a quarter of an edge.
+        let deep = 0.01;
+        let at = |x: f64, z: f64| [[x, -9.0, z], [x, 9.0, z]];
+        let valley = [at(0.0, 0.0), at(0.75, -deep), at(3.0, 0.0)].concat();
+        let valley = template(&valley, &[[0, 2, 1], [1, 2, 3], [2, 4, 3], [3, 4, 5]]);
+        let seen = one_way(&flat, &valley);
+        assert!((0.995 * deep..=deep).contains(&seen), "{seen}");
+    }
+
+    #[test]
+    fn what_is_said_of_the_surface_grows_and_what_it_may_be_stays() {
+        let mut document = Document::single(Template::default());
+        document.symmetry = Some(Symmetry {
+            group: Group::TRIVIAL,
+            axis: Axis {
+                point: [0.0; 3],
+                direction: [0.0, 0.0, 1.0],
+            },
+            reference: [1.0, 0.0, 0.0],
+            residual: 0.0,
+            tolerance: 1e-3,
+            axisymmetric: false,
+            radius: 2.0,
+            regions: Vec::new(),
+        });
+        note_deviation(&mut document, 0.5);
+        assert_eq!(document.wishes.deviation, None);
+        document.wishes.deviation = Some(Deviation::Within(0.125));
+        document.wishes.moved = Some(0.375);
+        note_deviation(&mut document, 0.2);
+        assert_eq!(document.wishes.deviation, Some(Deviation::Within(0.125)));
+        note_deviation(&mut document, 0.5);
+        assert_eq!(document.wishes.deviation, Some(Deviation::Within(0.25)));
+        assert_eq!(document.wishes.moved, Some(0.25));
+        note_deviation(&mut document, 1.0);
+        assert_eq!(document.wishes.deviation, Some(Deviation::Within(0.5)));
+        assert_eq!(document.wishes.moved, None);
+    }
+}
