@@ -21,7 +21,7 @@ pub struct CostModel {
     /// one size to one twice as long over about three of them.
     pub growth: f64,
     /// Size of elements over the width of a wedge that does not disturb them, between mirror planes, whose
-    /// triangles the mesher may divide. Measured 1.16 with hubs, 1.08 without; at 1.16 the rings of order 64 of the
+    /// triangles the mesher may divide. Measured 1.08 to 1.32, with hubs more than without; at 1.16 the rings of order 64 of the
     /// benchmark are meshed at order 32 instead of 64, with half of the copies.
     pub span: f64,
     /// The same between the faces of a seam, whose triangles stay as they are. Measured 0.3 to 0.8, since few wedges
@@ -32,8 +32,8 @@ pub struct CostModel {
     /// there is no wedge. That of a hub is a wide one.
     pub wide: f64,
     /// Elements beside a square of the boundary of their size, over those in a cube of it, where a size that was
-    /// asked for limits them: wedges have more boundary than their part of the body. Measured 0.28;
-    /// with that, coarse prisms are cut into as many copies without being halved across the axis.
+    /// asked for limits them: wedges have more boundary than their part of the body. Measured 0.12 to 0.28;
+    /// with the latter, coarse prisms are cut into as many copies without being halved across the axis.
     pub skin: f64,
     /// The same for the wall between wedge and hub, which gets the triangles of two meshes: twice as many, of both
     /// sides.
@@ -42,10 +42,10 @@ pub struct CostModel {
     /// to 10, by what else is fitted; at 10, ratchets, impellers and helical gears get half of the copies.
     pub sliced: f64,
     /// Time for an element of the hub, which is meshed once for its wall and once within it, over that for one of
-    /// the wedge; measured 1.7 to 2.6.
+    /// the wedge; measured 1.3 to 2.6.
     pub hub_time: f64,
     /// Elements that are meshed in the time that it takes to start the mesher. With tiny meshes, nothing is won by
-    /// a narrower wedge, nor by a hub. Measured 16 to 125, by how busy the machine is;
+    /// a narrower wedge, nor by a hub. Measured 16 to 149, by how busy the machine is;
     /// at 45, what changes is how coarse meshes of an antiprism and of cubes are cut.
     pub start: f64,
     /// Which ways to cut are good enough.

@@ -551,19 +551,46 @@ mod tests {
         assert!(past(Leaves::Mendable) > 0);
     }
 
-    #[test]
-    fn faces_that_stay_keep_wide_corners() {
-        let bound = 1.4;
-        // Along each axis on its own, so that what is in a plane stays there.
+    /// Cubes whose vertices are not evenly apart: those that may go are shifted along each axis on its own, so that what is in a plane stays there.
+    fn uneven_cubes() -> (Vec<DVec3>, Vec<Tet>, Vec<Face>) {
         let shifted = |x: f64, along: f64| match x {
             0.0 | 4.0 | 8.0 => x,
             x => x + 0.4 * (7.0 * x + along).sin(),
         };
+        let (mut points, tets, faces) = cubes(8);
+        for p in &mut points[27..] {
+            *p = DVec3::new(shifted(p.x, p.y), shifted(p.y, p.z), shifted(p.z, p.x));
+        }
+        (points, tets, faces)
+    }
+
+    #[test]
+    fn only_good_elements_are_new_where_that_is_asked_for() {
+        let (points, given, given_faces) = uneven_cubes();
+        let new_and_bad = |leaves: Leaves| {
+            let (mut tets, mut faces) = (given.clone(), given_faces.clone());
+            let none = FxHashMap::default();
+            let wish = Coarse {
+                leaves,
+                ..wish(&none)
+            };
+            assert!(coarsen(points.clone(), &mut tets, &mut faces, &wish) > 0);
+            let is_bad = |t: &&Tet| {
+                let measures = TetMeasures::of(t.vertices.map(|v| points[v as usize]));
+                measures.min_dihedral().to_degrees() < 25.0 || measures.radius_edge_ratio > 1.4
+            };
+            let new = tets.iter().filter(|t| !given.contains(t));
+            new.filter(is_bad).count()
+        };
+        assert_eq!(new_and_bad(Leaves::Good), 0);
+        assert!(new_and_bad(Leaves::Mendable) > 0);
+    }
+
+    #[test]
+    fn faces_that_stay_keep_wide_corners() {
+        let bound = 1.4;
         let sharpest_left = |stays: bool| {
-            let (mut points, mut tets, mut faces) = cubes(8);
-            for p in &mut points[27..] {
-                *p = DVec3::new(shifted(p.x, p.y), shifted(p.y, p.z), shifted(p.z, p.x));
-            }
+            let (points, mut tets, mut faces) = uneven_cubes();
             faces.iter_mut().for_each(|face| face.stays = stays);
             let none = FxHashMap::default();
             assert!(coarsen(points.clone(), &mut tets, &mut faces, &wish(&none)) > 100);

@@ -11,8 +11,8 @@ pub fn apart(first: &Template, second: &Template) -> f64 {
     one_way(first, second).max(one_way(second, first))
 }
 
-/// Triangles are looked at once more where they are as far as this part of the largest distance: between the places that were looked at first, it
-/// was a tenth larger at most.
+/// Triangles are looked at once more where they are as far as this part of the largest distance. A choice: between the places that were looked at
+/// first, a vase that was remeshed is 1.13 times as far.
 const WORTH_MORE: f64 = 0.5;
 
 /// Parts of the edges of triangles that are looked at once more.

@@ -19,8 +19,8 @@ const FEW: usize = 100;
 const DRAWN: usize = 6400;
 
 /// How often a template is filled anew at most: equivalent descriptions of its surface, with usual and stricter bounds, usual and stricter angles to
-/// reach, and without the vertices that can be mended or that good elements can do without, in turn. Measured on 68 small bodies, ten of which TetGen alone gives a larger first percentile without draws: 3 have it after
-/// sixteen draws, 5 after eight at the usual angles, and the smallest angles are 16 % and 5 % larger, with 9 % and 5 % more elements.
+/// reach, and coarsened to what can be mended or to good elements only, in turn. Measured on 68 small bodies, before there were both ways to
+/// coarsen, ten of which TetGen alone gives a larger first percentile without draws: 3 have it after sixteen draws, 5 after eight at the usual angles, and the smallest angles are 16 % and 5 % larger, with 9 % and 5 % more elements.
 const DRAWS: usize = 16;
 
 /// Factors of the bounds asked for, those of the radius-edge ratio and of the smallest dihedral angle, instead of [`EASING`].

@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 use std::time::Duration;
 use tmesh::{Instance, OUTSIDE, Template, Triangle};
 
-/// Length of elements over the thickness of a part, where that and nobody else limits it. Measured on 14 bodies of `body`, half of them
-/// thin ones, with a length asked for and without: the tetrahedra are 0.57 to 1.17 times those of the forecast; with 1, down to 0.25 of it.
+/// Length of elements over the thickness of a part where that limits it, and nobody asks for a number of elements across. Measured on 14 bodies of
+/// `body`, most of them thin, with a length asked for and without: the tetrahedra are 0.57 to 1.17 times those of the forecast; with 1, down to 0.25 of it.
 const LAYER: f64 = 1.4;
 
 /// What filling a document is expected to take.
