@@ -7,7 +7,7 @@ use geom::tree::Tree;
 use glam::DVec3;
 use serde_json::Value;
 use std::fmt::Write;
-use support::{EXACT_STL, encode, read, run};
+use support::{EXACT_STL, bytes, encode, read, run};
 use tmesh::{OUTSIDE, Template};
 
 /// A vase with four lobes, D4h by design, in rings of facets that share neither its mirrors nor each other's rhythm, so that
@@ -246,6 +246,32 @@ fn what_remeshing_spoils_is_filled_as_it_was_cut() {
     assert!(made.stderr.contains(told), "{}", made.stderr);
     let filled = run("tetwedge", &["-q"], &made.success()).success();
     run("meshqual", &["-q", "--check"], &filled).success();
+}
+
+/// Solids with the symmetry whose curved faces touch are joined as their triangles are, which are cut in each sector in another way: what copies of one sector
+/// differ from all of them by is said, and allowed for.
+#[test]
+fn sectors_that_joining_makes_differ_are_told_and_allowed_for() {
+    let solid = bodies::random_solid::solid(10_181_007);
+    let found = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    let options = ["--deviation", "3.92e-7", "--feature-angle", "6.115"];
+    let cut = run("wedgecut", &options, &found);
+    let told = "differ from the body's volume by 2.0e-5, which is more than its symmetry explains";
+    assert!(cut.stderr.contains(told), "{}", cut.stderr);
+    let filled = run("tetwedge", &["-q"], &cut.success()).success();
+    let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+    run("meshqual", &["-q", "--check"], &whole).success();
+    let without = |whole: &[u8]| {
+        let mut document = read(whole);
+        document.wishes.moved = None;
+        bytes(&document)
+    };
+    let strict = run("meshqual", &["-q", "--check"], &without(&whole));
+    assert!(
+        strict.stderr.contains("differs from the input's"),
+        "{}",
+        strict.stderr
+    );
 }
 
 #[test]

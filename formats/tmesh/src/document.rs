@@ -228,6 +228,25 @@ impl Document {
             }
     }
 
+    /// How far the surface may be from the input's by now, model units: as far as the input is off its symmetry, its coordinates are off, and
+    /// the surface was moved beyond that. What [`Self::deviation`] allows is not in it.
+    pub fn displacement(&self) -> f64 {
+        let precision = self.source.as_ref().map_or(0.0, |source| source.precision);
+        let moved = self.wishes.moved.unwrap_or(0.0);
+        let of_radius = |found: &Symmetry| (found.residual + moved) * found.radius;
+        precision + self.symmetry.as_ref().map_or(0.0, of_radius)
+    }
+
+    /// Notes that the surface is farther from the input's by this, model units, than [`Self::displacement`] says.
+    pub fn add_displacement(&mut self, by: f64) {
+        if let Some(found) = &self.symmetry
+            && by > 0.0
+        {
+            let earlier = self.wishes.moved.unwrap_or(0.0);
+            self.wishes.moved = Some(earlier + by / found.radius);
+        }
+    }
+
     /// Diagonal of the bounding box over all templates, in the canonical frame; 0 when empty.
     pub fn diagonal(&self) -> f64 {
         let mut low = DVec3::INFINITY;

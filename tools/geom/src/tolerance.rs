@@ -24,6 +24,26 @@ pub const ROUNDING: f64 = 1e-10;
 /// compute with.
 pub const PROMISE: f64 = 1e-12;
 
+/// Relative difference of volumes and areas that is allowed where the input is exact and exactly
+/// symmetric: a choice. The volume of a layer a millionth as thick as wide, of coordinates with 16
+/// digits, is good to 1e-10; the smallest part of a body that could be lost unnoticed is a millionth.
+pub const VOLUME: f64 = 1e-6;
+
+/// By how many times what its surface is off a body of copies of a wedge may be off: by once in the sector that was cut, once in that which a copy
+/// replaces, and twice that near the cuts, onto which points are moved.
+const SIDES: f64 = 4.0;
+
+/// How much an amount may differ, in its units, whose border is off by `displacement`: of a volume, the border is the area around it; of an area, half of the
+/// perimeters of its triangles.
+pub fn may_differ(amount: f64, border: f64, displacement: f64) -> f64 {
+    VOLUME * amount + SIDES * displacement * border
+}
+
+/// The least displacement by which an amount [`may_differ`] by this, with its border above zero.
+pub fn displacement_of(difference: f64, amount: f64, border: f64) -> f64 {
+    ((difference - VOLUME * amount) / (SIDES * border)).max(0.0)
+}
+
 /// Multiple of a coordinate's precision within which values count as equal. Two points, each off by up to `sqrt(3)`
 /// times the precision through its three coordinates, and by as much again through the axis' place and once more
 /// through its direction: 10.4, rounded up to a power of two.
@@ -201,11 +221,11 @@ impl Tolerance {
     }
 
     /// How much two volumes of a body may differ, relative to the volume, when its boundary of the given area was moved
-    /// by what is allowed to be moved, twice on either of two sides. That is more than what computing loses, as points
+    /// by what is allowed to be moved. That is more than what computing loses, as points
     /// may be moved onto planes by as much.
     pub fn volume(&self, area: f64, volume: f64) -> f64 {
         let moved = self.drift + self.on_plane() + self.detail + self.detail_at_planes();
-        4.0 * moved * area / volume.abs()
+        SIDES * moved * area / volume.abs()
     }
 }
 

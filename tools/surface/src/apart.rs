@@ -52,11 +52,9 @@ fn lattice([a, b, c]: [DVec3; 3]) -> impl Iterator<Item = DVec3> {
 
 /// Writes into the document how much farther, in model units, its surface is from the input's.
 pub fn note_moved(document: &mut Document, by: f64) {
-    if let Some(radius) = document.symmetry.as_ref().map(|found| found.radius)
-        && by > ROUNDING * radius
-    {
-        let earlier = document.wishes.moved.unwrap_or(0.0);
-        document.wishes.moved = Some(earlier + by / radius);
+    let radius = document.symmetry.as_ref().map(|found| found.radius);
+    if radius.is_some_and(|radius| by > ROUNDING * radius) {
+        document.add_displacement(by);
     }
 }
 

@@ -27,6 +27,8 @@ pub struct Score {
     /// What that is worth in elements: its cube, as edges that are shorter by a part make as many more elements. Whole degrees count, up
     /// to those that are enough.
     worth: f64,
+    /// The same of the first percentile of the smallest angles of elements.
+    worth_of_most: f64,
     /// Mean length of edges over the one asked for; one where none is.
     mean: f64,
 }
@@ -73,6 +75,11 @@ impl Judge {
         self.lengths.is_some()
     }
 
+    /// What an angle is worth.
+    fn worth(&self, angle: f64) -> f64 {
+        angle.min(self.enough).floor().powi(3)
+    }
+
     /// Grades a mesh. Where lengths are asked for, elements that are larger than these let them be fail, too.
     pub fn score(&self, done: &Done) -> Score {
         let template = &done.filled.template;
@@ -80,7 +87,13 @@ impl Judge {
             let corners = tet.vertices.map(|v| template.vertices[v as usize]);
             TetMeasures::of(corners).min_dihedral().to_degrees()
         });
-        let angle = angles.fold(f64::INFINITY, f64::min);
+        let mut angles: Vec<f64> = angles.collect();
+        let angle = angles.iter().copied().fold(f64::INFINITY, f64::min);
+        let rank = angles.len() / 100;
+        let first = match angles.is_empty() {
+            true => angle,
+            false => *angles.select_nth_unstable_by(rank, f64::total_cmp).1,
+        };
         let is_large = |tet: &&Tet| {
             let [a, b, c, d] = tet.vertices.map(|v| template.vertices[v as usize]);
             let limit = self.limits.get(&tet.region);
@@ -96,7 +109,8 @@ impl Judge {
             weight: self.of_past * past + FAILING * (low + large),
             elements: template.tets.len(),
             angle,
-            worth: angle.min(self.enough).floor().powi(3),
+            worth: self.worth(angle),
+            worth_of_most: self.worth(first),
             mean: mean.unwrap_or(1.0),
         }
     }
@@ -111,6 +125,7 @@ impl Score {
             weight: 0,
             angle: f64::INFINITY,
             worth: f64::INFINITY,
+            worth_of_most: f64::INFINITY,
             mean: 0.0,
         };
         for (copies, score) in scores {
@@ -119,6 +134,7 @@ impl Score {
             all.elements += copies * score.elements;
             all.angle = all.angle.min(score.angle);
             all.worth = all.worth.min(score.worth);
+            all.worth_of_most = all.worth_of_most.min(score.worth_of_most);
             all.mean += (copies * score.elements) as f64 * score.mean;
         }
         all.mean /= all.elements as f64;
@@ -153,11 +169,18 @@ impl Score {
     /// longer than asked for as much as ones that are shorter: edges that are longer by a part are as far from what was asked for as ones that
     /// are shorter by it, which take its cube more elements. That many fewer are no merit, and as many count against it.
     pub fn costs_less_than(&self, other: &Self) -> bool {
-        let price = |one: &Self, other: &Self| {
-            let longer = one.mean.max(1.0).powi(6);
-            (one.elements + one.weight) as f64 * longer * other.worth
-        };
-        price(self, other) < price(other, self)
+        self.cost() * other.worth < other.cost() * self.worth
+    }
+
+    /// The same by the first percentile of the angles instead of the smallest one: next to lengths that are far from those asked for, a single
+    /// element is no reason.
+    pub fn takes_less_than(&self, other: &Self) -> bool {
+        self.cost() * other.worth_of_most < other.cost() * self.worth_of_most
+    }
+
+    /// Elements, where those that fail weigh as much as others, and edges that are longer than asked for as much as ones that are shorter.
+    fn cost(&self) -> f64 {
+        (self.elements + self.weight) as f64 * self.mean.max(1.0).powi(6)
     }
 
     /// Room for all meshes that are better than one of so many vertices, which have `enough` degrees at best. Improvement begins with
@@ -168,5 +191,35 @@ impl Score {
             _ => f64::INFINITY,
         };
         Room::beside(vertices, times)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn score((elements, weight): (usize, usize), mean: f64, [angle, first]: [f64; 2]) -> Score {
+        Score {
+            failing: 0,
+            elements,
+            weight,
+            angle,
+            worth: angle.powi(3),
+            worth_of_most: first.powi(3),
+            mean,
+        }
+    }
+
+    /// Where the lengths that were asked for leave most elements as good, a bad one among them is no reason for shorter edges.
+    #[test]
+    fn lengths_that_are_asked_for_come_before_the_worst_element() {
+        let short = score((3000, 0), 0.5, [21.0, 26.0]);
+        let long = score((1000, 100), 0.8, [14.0, 24.0]);
+        assert!(long.is_nearer_than(&short) && long.takes_less_than(&short));
+        assert!(short.costs_less_than(&long));
+        // What most elements are worth counts, as do those that fail what is asked for, and edges that are longer.
+        assert!(!score((1000, 100), 0.8, [14.0, 18.0]).takes_less_than(&short));
+        assert!(!score((1000, 2000), 0.8, [14.0, 24.0]).takes_less_than(&short));
+        assert!(!score((1000, 0), 1.2, [14.0, 24.0]).takes_less_than(&short));
     }
 }

@@ -179,7 +179,12 @@ impl Command for Cli {
         notes.iter().for_each(|note| session.note(note));
         let (mut document, report) = cut(document, &params)?;
         report.notes.iter().for_each(|note| session.info(note));
-        let remarks = [names::lost(&document), report.warning, report.moved];
+        let remarks = [
+            names::lost(&document),
+            report.warning,
+            report.moved,
+            report.differs,
+        ];
         for remark in remarks.iter().flatten() {
             session.note(remark);
         }

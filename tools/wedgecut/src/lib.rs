@@ -45,6 +45,9 @@ pub struct Report {
     /// What the user should know of a seam whose sides differ by more than the tolerance of the symmetry, so that one
     /// was replaced by the image of the other: how far points were moved, and what the deviation from symmetry explains.
     pub moved: Option<String>,
+    /// What the user should know where copies of the wedge differ from the body by more than its symmetry explains, though by no more than what is
+    /// moved when it is cut.
+    pub differs: Option<String>,
 }
 
 /// Cuts the wedge out of a body.
@@ -65,6 +68,8 @@ pub fn cut(mut document: Document, params: &Params) -> Result<(Document, Report)
     if let Some(source) = &mut document.source {
         source.boundary_area = (source.boundary_area - found.cut.closed).max(0.0);
     }
+    let difference = found.cut.difference;
+    document.add_displacement(difference.displacement);
     document.frame = found.cut.place.frame;
     document.templates = found.cut.templates;
     document.instances = found.cut.copies.instances;
@@ -73,6 +78,13 @@ pub fn cut(mut document: Document, params: &Params) -> Result<(Document, Report)
         notes,
         warning: found.warning,
         moved,
+        differs: (difference.displacement > 0.0).then(|| {
+            format!(
+                "the copies of the wedge differ from the body's volume by {:.1e}, which is more than its symmetry explains: its sectors differ \
+                 from each other",
+                difference.relative
+            )
+        }),
     };
     Ok((document, report))
 }

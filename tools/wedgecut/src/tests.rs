@@ -497,6 +497,43 @@ fn edges_too_short_to_mesh_are_collapsed() {
     );
 }
 
+/// Copies may differ from the body by as much as cutting moves things. That is said, and written down for who compares volumes.
+#[test]
+fn sectors_that_differ_are_told() {
+    let bulged = |bulge: f64| {
+        let mut body = Body::regular(8, &[1.0]).document((4, false), None, 1.0);
+        let template = &mut body.templates[0];
+        // The first side's lower triangle, with a vertex in its middle that is off it.
+        let side = template.triangles[0];
+        let [a, b, c] = side.vertices;
+        let at = |v: u32| template.vertices[v as usize];
+        let outwards = (at(b) - at(a)).cross(at(c) - at(a)).normalize();
+        let middle = (at(a) + at(b) + at(c)) / 3.0 + outwards * bulge;
+        let new = template.vertices.len() as u32;
+        template.vertices.push(middle);
+        template.triangles[0].vertices = [a, b, new];
+        for vertices in [[b, c, new], [c, a, new]] {
+            template.triangles.push(Triangle { vertices, ..side });
+        }
+        cut(body, &DEFAULT)
+    };
+    let (wedge, report) = bulged(0.0).unwrap();
+    assert_eq!((wedge.wishes.moved, report.differs), (None, None));
+    let (wedge, report) = bulged(1e-4).unwrap();
+    let told = report.differs.expect("what they differ by");
+    assert!(told.contains("differ from the body's volume by"), "{told}");
+    // The volume below the bulge is there four times, or not at all.
+    let [volume, area] = [8.0_f64.sqrt(), 2.0 * 8.0_f64.sqrt() + 8.0 * 0.765];
+    let below = 1e-4 * 0.5 * 0.765 / 3.0;
+    let most = 3.0 * below / (4.0 * area);
+    let moved = wedge.wishes.moved.expect("how far the surface is");
+    assert!(moved > 0.1 * most && moved <= most, "{moved:e} {most:e}");
+    assert!(3.0 * below / volume > geom::tolerance::VOLUME);
+    assert_eq!(validate(&wedge), []);
+    let error = bulged(1e-3).unwrap_err();
+    assert!(matches!(error, CutError::VolumeDiffers { .. }), "{error}");
+}
+
 #[test]
 fn sheets_without_thickness_are_no_boundary_any_more() {
     // A core, and a thin sheet around it.

@@ -4,7 +4,7 @@ use super::faces::Skin;
 use super::findings::{Findings, Kind};
 use crate::instances::Copies;
 use crate::measure::Measured;
-use crate::tolerances::VOLUME;
+use geom::tolerance::may_differ;
 use std::collections::BTreeMap;
 use tmesh::{Deviation, Document};
 
@@ -55,8 +55,7 @@ impl Extent {
 /// boundary, and the interfaces, may therefore differ by the residual times the radius, and by the
 /// error of the input's coordinates: by the sum of these in the sector, by as much in the copy, and by
 /// twice that near the cuts, onto which points are moved; and by the deviation, if one was asked for: otherwise the surface is
-/// moved by the residual, once more. Faces that are nearly flat and were meshed as flat ones are off by what the document says. With `d` four times the sum, a volume may differ
-/// by `d` times the area around it, and the area of a triangle by `d` times half its perimeter.
+/// moved by the residual, once more. Faces that are nearly flat and were meshed as flat ones are off by what the document says.
 pub fn volume_errors(
     document: &Document,
     measured: &Measured,
@@ -67,16 +66,14 @@ pub fn volume_errors(
         return Errors::default();
     };
     let symmetry = document.symmetry.as_ref();
-    let residual = symmetry.map_or(0.0, |s| s.residual * s.radius);
     let deviation = match document.wishes.deviation() {
         Deviation::Auto => 0.0,
         Deviation::Within(relative) => symmetry.map_or(0.0, |s| relative * s.radius),
     };
-    let moved = document.wishes.moved.unwrap_or(0.0) * symmetry.map_or(0.0, |s| s.radius);
-    let shift = 4.0 * (residual + source.precision + deviation + moved);
+    let displacement = document.displacement() + deviation;
     let extent = Extent::of(document, skins);
-    let mut compare = |kind: Kind, amount: &Amount<'_>, shifted: f64| {
-        let allowed = VOLUME * amount.expected + shift * shifted;
+    let mut compare = |kind: Kind, amount: &Amount<'_>, border: f64| {
+        let allowed = may_differ(amount.expected, border, displacement);
         let difference = (amount.found - amount.expected).abs();
         if difference > allowed {
             findings.add(kind, || amount.differs(difference, allowed));

@@ -2,7 +2,7 @@
 
 use super::candidate::{Candidate, Place};
 use super::copies::{Copies, regions_in};
-use super::volumes::Whole;
+use super::volumes::{Difference, Whole};
 use crate::along::{divide, follow, restore};
 use crate::body::Body;
 use crate::cell::{Cell, Join, Part, Role, Shape, hub_order, of_group};
@@ -33,6 +33,8 @@ pub struct Cut {
     pub wedges: usize,
     /// Largest distance that a point of a seam was moved to make one side the image of the other, model units.
     pub moved: f64,
+    /// What the copies differ from the body by.
+    pub difference: Difference,
     /// Area of the body's boundary that was taken out as it enclosed no thickness, model units squared.
     pub closed: f64,
     /// What was done, in sentences.
@@ -110,9 +112,10 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
     if templates[0].triangles.is_empty() {
         return Err(CutError::Empty);
     }
-    let relative = whole.compare(body, &templates, &copies, wedges)?;
+    let difference = whole.compare(body, &templates, &copies, wedges)?;
     notes.push(format!(
-        "{wedges} copies of the wedge differ from the body's volume by {relative:.1e}"
+        "{wedges} copies of the wedge differ from the body's volume by {:.1e}",
+        difference.relative
     ));
     Ok(Cut {
         candidate,
@@ -121,6 +124,7 @@ pub fn cut(body: &Body<'_>, candidate: Candidate, place: Place) -> Result<Cut, C
         copies,
         wedges,
         moved,
+        difference,
         closed: closed * wedges as f64,
         notes,
     })

@@ -3,6 +3,8 @@
 use super::copies::Copies;
 use crate::body::{Body, region_volumes};
 use crate::error::CutError;
+use geom::measure::area_of_region;
+use geom::tolerance::displacement_of;
 use std::collections::BTreeMap;
 use tmesh::{OUTSIDE, Template};
 
@@ -10,21 +12,35 @@ use tmesh::{OUTSIDE, Template};
 pub struct Whole {
     regions: BTreeMap<u32, f64>,
     volume: f64,
+    /// Around all of it.
     area: f64,
+    /// Around each region.
+    areas: BTreeMap<u32, f64>,
+}
+
+/// What the copies of a wedge differ from the body by.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Difference {
+    /// Relative, of the volume.
+    pub relative: f64,
+    /// How far the surface would be off for the volumes of the whole and of regions to differ as they do, beyond what is known of it, model units.
+    pub displacement: f64,
 }
 
 impl Whole {
     /// Of a surface.
     pub fn new(surface: &Template) -> Self {
         let regions = region_volumes(&surface.vertices, &surface.triangles);
+        let area_of = |region| area_of_region(&surface.vertices, surface.faces(), region);
         Self {
             volume: regions.values().sum(),
-            area: geom::measure::area_of_region(&surface.vertices, surface.faces(), OUTSIDE),
+            area: area_of(OUTSIDE),
+            areas: regions.keys().map(|&id| (id, area_of(id))).collect(),
             regions,
         }
     }
 
-    /// The relative difference between the body and all copies of `templates`, of which `count` are wedges.
+    /// The difference between the body and all copies of `templates`, of which `count` are wedges.
     ///
     /// # Errors
     /// A larger difference than the symmetry's residual allows, of the whole or of a region.
@@ -34,7 +50,7 @@ impl Whole {
         templates: &[Template],
         copies: &Copies,
         count: usize,
-    ) -> Result<f64, CutError> {
+    ) -> Result<Difference, CutError> {
         let of_template = |t: &Template| region_volumes(&t.vertices, &t.triangles);
         let volumes: Vec<BTreeMap<u32, f64>> = templates.iter().map(of_template).collect();
         let mut of_copies: BTreeMap<u32, f64> = BTreeMap::new();
@@ -59,7 +75,10 @@ impl Whole {
                 allowed,
             });
         }
-        for (&region, &body) in &self.regions {
+        let mut displacement =
+            displacement_of((wedge - self.volume).abs(), self.volume.abs(), self.area);
+        let known = body.document.displacement();
+        for ((&region, &body), &area) in self.regions.iter().zip(self.areas.values()) {
             let wedge = of_copies.get(&region).copied().unwrap_or_default();
             let allowed = allowed * self.volume.abs();
             if (wedge - body).abs() > allowed {
@@ -71,7 +90,12 @@ impl Whole {
                     allowed,
                 });
             }
+            let of_region = displacement_of((wedge - body).abs(), body.abs(), area);
+            displacement = displacement.max(of_region);
         }
-        Ok(relative)
+        Ok(Difference {
+            relative,
+            displacement: (displacement - known).max(0.0),
+        })
     }
 }
