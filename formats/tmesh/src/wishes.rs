@@ -47,7 +47,7 @@ pub struct Wishes {
     pub keep_surface: Option<bool>,
     /// How far the surface is from the input's beyond what the symmetry is off, relative to the radius about the axis: because faces that
     /// are nearly flat were meshed as flat ones, see [`crate::Document::unevenness`], because it was remeshed for lengths of edges or
-    /// without a symmetry, or because the sectors of the input differ.
+    /// without a symmetry, or because the sectors of the input differ or cutting took detail out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<f64>,
 }

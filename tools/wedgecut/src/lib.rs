@@ -78,15 +78,21 @@ pub fn cut(mut document: Document, params: &Params) -> Result<(Document, Report)
         notes,
         warning: found.warning,
         moved,
-        differs: (difference.displacement > 0.0).then(|| {
-            format!(
-                "the copies of the wedge differ from the body's volume by {:.1e}, which is more than its symmetry explains: its sectors differ \
-                 from each other",
-                difference.relative
-            )
-        }),
+        differs: (document.symmetry.as_ref())
+            .and_then(|symmetry| differing(symmetry, difference.displacement)),
     };
     Ok((document, report))
+}
+
+/// What is said of volumes that differ from the body's as if its surface were off by this, model units, beyond what is known of it.
+fn differing(symmetry: &Symmetry, displacement: f64) -> Option<String> {
+    (displacement > 0.0).then(|| {
+        format!(
+            "volumes of the wedge's copies differ from the body's by more than its symmetry explains, as if its surface were off by {:.1e} of the \
+             radius: sectors differ from each other, or --clean took out as much",
+            displacement / symmetry.radius
+        )
+    })
 }
 
 /// What is said of seams where points were moved by more than the tolerance of the symmetry.

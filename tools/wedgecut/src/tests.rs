@@ -495,6 +495,10 @@ fn edges_too_short_to_mesh_are_collapsed() {
         "{:?}",
         report.notes
     );
+    // A region is gone with them, which is said, though the whole is as large.
+    let told = report.differs.expect("what was taken out");
+    assert!(told.contains("--clean took out"), "{told}");
+    assert!(collapsed.wishes.moved.is_some());
 }
 
 /// Copies may differ from the body by as much as cutting moves things. That is said, and written down for who compares volumes.
@@ -521,7 +525,7 @@ fn sectors_that_differ_are_told() {
     assert_eq!((wedge.wishes.moved, report.differs), (None, None));
     let (wedge, report) = bulged(1e-4).unwrap();
     let told = report.differs.expect("what they differ by");
-    assert!(told.contains("differ from the body's volume by"), "{told}");
+    assert!(told.contains("copies differ from the body's"), "{told}");
     // The volume below the bulge is there four times, or not at all.
     let [volume, area] = [8.0_f64.sqrt(), 2.0 * 8.0_f64.sqrt() + 8.0 * 0.765];
     let below = 1e-4 * 0.5 * 0.765 / 3.0;
