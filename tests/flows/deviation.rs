@@ -511,19 +511,20 @@ fn exact_drawings_get_the_edges_asked_for_where_they_are_finer() {
         let quality: Value = serde_json::from_slice(&checked).expect("JSON");
         let volume = quality["volume"].as_f64().expect("a volume");
         let count = read(&whole).templates[0].tets.len() as f64;
-        (count, (volume / drawn - 1.0).abs())
+        let [old, new] = [&cut, &filled].map(|bytes| outer(&read(bytes).templates[0]));
+        (count, (volume / drawn - 1.0).abs(), farthest(&old, &new))
     };
     let fine = [128, 192, 384, 768].map(|corners| made(corners, &["--edge-length", "0.12"]));
-    let counts = fine.map(|(count, _)| count);
+    let counts = fine.map(|(count, _, _)| count);
     let least = counts.into_iter().fold(f64::MAX, f64::min);
     let most = counts.into_iter().fold(0.0, f64::max);
     assert!(most < 1.3 * least, "{counts:?}");
-    // By what chords of that length cut off, and as the document says.
+    // By what chords of that length cut off.
     assert!(
-        fine.iter().all(|(_, off)| (2e-6..2e-2).contains(off)),
+        fine.iter().all(|(_, _, off)| (1e-4..2e-2).contains(off)),
         "{fine:?}"
     );
-    let (kept, off) = made(768, &["--edge-length", "0.12", "--deviation", "0"]);
+    let (kept, off, _) = made(768, &["--edge-length", "0.12", "--deviation", "0"]);
     assert!(kept > 3.0 * most && off < 1e-6, "{kept} {off}");
     // Two facets of these side by side are wider than edges are asked for. STL has seven digits.
     assert!(made(60, &["--edge-length", "0.12"]).1 < 1e-6);

@@ -88,7 +88,7 @@ impl Filling {
                 Score::together(each)
             };
             let [there, here] = [&second, &first].map(|scores| of(scores));
-            if there.is_nearer_than(&here) && there.takes_less_than(&here) {
+            if there.is_as_wanted_beside(&here) {
                 for &index in &group {
                     if self.is_made(index) {
                         log.detail(&format!(

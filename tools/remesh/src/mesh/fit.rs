@@ -59,7 +59,10 @@ impl Mesh<'_> {
                 false => self.samples[t as usize].is_empty(),
             };
             if !stays && !may_go {
-                return None;
+                if !self.is_cut_off(t, change) {
+                    return None;
+                }
+                continue;
             }
             for sample in &self.samples[t as usize] {
                 let distance = |corners: [u32; 3]| {
@@ -82,6 +85,24 @@ impl Mesh<'_> {
         Some(samples)
     }
 
+    /// Whether a triangle goes because the border of its flat face goes along its third side then. What the face ends at counts from there on: points of the
+    /// face that are beyond its border are as far from it as that is from where it was.
+    fn is_cut_off(&self, t: u32, change: &Change) -> bool {
+        let patch = self.patch[t as usize];
+        let third = (change.chords.iter()).find(|chord| {
+            let corners = self.triangles[t as usize];
+            chord.0.iter().all(|v| corners.contains(v))
+        });
+        let Some(&(ends, _)) = third.filter(|_| self.planes[patch as usize].is_some()) else {
+            return false;
+        };
+        let [a, b] = ends.map(|v| self.points[v as usize]);
+        self.goes_on(t, change)
+            && self.samples[t as usize].iter().all(|sample| {
+                geom::measure::distance_to_segment(sample.point, a, b) <= sample.reach
+            })
+    }
+
     /// Whether triangles of the same patch stay around one that goes.
     fn goes_on(&self, t: u32, change: &Change) -> bool {
         let patch = self.patch[t as usize];
@@ -102,7 +123,7 @@ impl Mesh<'_> {
                 let each = change.chords.iter().enumerate();
                 let each = each.map(|(i, c)| (distance(c.0), i));
                 let (nearest, i) = each.min_by(|x, y| x.0.total_cmp(&y.0))?;
-                let reach = sample.reach.max(self.slack(change, change.chords[i].1));
+                let reach = sample.reach.max(self.slack(change, change.chords[i]));
                 if nearest > reach {
                     return None;
                 }
@@ -112,10 +133,12 @@ impl Mesh<'_> {
         Some(on_chords)
     }
 
-    /// How far a curve may be from where it was in any case.
-    fn slack(&self, change: &Change, curve: u32) -> f64 {
-        match change.joins || self.loose[curve as usize] {
-            true => self.rules.deviation,
+    /// How far a feature edge of a curve may be from where that was in any case. Of a curve that another one was joined to before, edges get as long as
+    /// those of others, and may be no farther than walls are to stay walls.
+    fn slack(&self, change: &Change, (ends, curve): ([u32; 2], u32)) -> f64 {
+        match self.loose[curve as usize] {
+            _ if change.joins => self.rules.deviation,
+            true => self.deviation_at(&ends),
             false => 0.0,
         }
     }
@@ -237,7 +260,7 @@ impl Mesh<'_> {
         };
         let at = |v: u32| self.points[v as usize];
         let chords = change.chords.iter().all(|&([a, b], curve)| {
-            let slack = self.slack(change, curve);
+            let slack = self.slack(change, ([a, b], curve));
             self.envelope
                 .holds(Near::Curve(curve), [at(a), at(b)], slack)
         });

@@ -49,6 +49,8 @@ pub struct Mesh<'a> {
     pub size: Vec<f64>,
     /// Width of the input's facets at each vertex.
     pub width: Vec<f64>,
+    /// How far the surface may move at each vertex: less than the deviation where something else is as near.
+    near: Vec<f64>,
     /// Vertex ids; [`NONE`] three times for triangles that are gone.
     pub triangles: Vec<[u32; 3]>,
     /// Patch of each triangle.
@@ -103,6 +105,9 @@ impl<'a> Mesh<'a> {
             held: rules.held.to_vec(),
             size: allowance.size.clone(),
             width: allowance.width.clone(),
+            near: (0..surface.points.len())
+                .map(|v| rules.deviation_at(v))
+                .collect(),
             triangles: surface.triangles.clone(),
             patch: patches.of.clone(),
             around,
@@ -238,8 +243,13 @@ impl<'a> Mesh<'a> {
     pub fn quality_of(&self, [a, b, c]: [u32; 3], patch: u32) -> f64 {
         match self.planes[patch as usize] {
             Some(_) => 1.0,
-            None => quality([a, b, c].map(|v| self.points[v as usize])),
+            None => self.shape_of([a, b, c]),
         }
+    }
+
+    /// Quality of a triangle wherever it is, from 0 to 1.
+    pub fn shape_of(&self, corners: [u32; 3]) -> f64 {
+        quality(corners.map(|v| self.points[v as usize]))
     }
 
     /// The worst quality of triangles.
@@ -247,6 +257,13 @@ impl<'a> Mesh<'a> {
         let each = triangles
             .iter()
             .map(|&t| self.quality_of(self.triangles[t as usize], self.patch[t as usize]));
+        each.fold(1.0, f64::min)
+    }
+
+    /// The worst quality of triangles wherever they are.
+    pub fn worst_shape(&self, triangles: &[u32]) -> f64 {
+        let each = triangles.iter();
+        let each = each.map(|&t| self.shape_of(self.triangles[t as usize]));
         each.fold(1.0, f64::min)
     }
 
@@ -304,14 +321,26 @@ impl<'a> Mesh<'a> {
         edges
     }
 
-    /// Adds a vertex.
-    pub fn add(&mut self, p: DVec3, bound: u32, size: f64) -> u32 {
+    /// How far the surface may move at all of these vertices.
+    pub fn deviation_at(&self, vertices: &[u32]) -> f64 {
+        let each = vertices.iter().map(|&v| self.near[v as usize]);
+        each.fold(self.rules.deviation, f64::min)
+    }
+
+    /// Lets the surface move no farther at a vertex than at others.
+    pub fn keep_near(&mut self, v: u32, others: &[u32]) {
+        self.near[v as usize] = self.deviation_at(others).min(self.near[v as usize]);
+    }
+
+    /// Adds a vertex near which the surface may move by so much.
+    pub fn add(&mut self, p: DVec3, (bound, size): (u32, f64), near: f64) -> u32 {
         self.points.push(p);
         self.bound.push(bound);
         self.fixed.push(false);
         self.held.push(false);
         self.size.push(size);
         self.width.push(size);
+        self.near.push(near);
         self.around.push(Vec::new());
         self.points.len() as u32 - 1
     }
@@ -324,6 +353,7 @@ impl<'a> Mesh<'a> {
         self.held.pop();
         self.size.pop();
         self.width.pop();
+        self.near.pop();
         self.around.pop();
     }
 }

@@ -46,6 +46,7 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool 
         mesh.images.drop(from);
         // Where curves were joined, they end.
         mesh.fixed[to as usize] |= change.joins;
+        mesh.keep_near(to, &[from]);
     }
     true
 }
@@ -102,13 +103,21 @@ fn change(mesh: &Mesh<'_>, [from, to]: [u32; 2]) -> Option<Change> {
     }
     let along = mesh.along(from);
     let key = |a: u32, b: u32| [a.min(b), a.max(b)];
+    // Where the next vertex of the curve is a neighbour already, it is so across the one triangle that goes on that side of the curve. Without lengths asked
+    // for, rims are about as fine as they are drawn, and meshes of 73 files get neither better nor fewer by it.
+    let may_follow = |next: u32| {
+        of_to.binary_search(&next).is_err()
+            || mesh.rules.sizes.are_asked()
+                && mesh.curve(to, next).is_none()
+                && apexes.iter().filter(|&&apex| apex == next).count() == 1
+    };
     match along[..] {
         [] if !mesh.fixed[from as usize] => {}
         [(v, curve), (w, other)]
             if !mesh.fixed[from as usize]
                 && curve == other
                 && (v == to || w == to)
-                && of_to.binary_search(&(v + w - to)).is_err() =>
+                && may_follow(v + w - to) =>
         {
             let next = v + w - to;
             change.chords_gone = vec![key(from, to), key(from, next)];

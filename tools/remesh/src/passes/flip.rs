@@ -32,11 +32,8 @@ pub fn flip(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
         gone: vec![s, t],
         ..Change::default()
     };
-    let after = change
-        .new
-        .iter()
-        .map(|&(t, patch)| mesh.quality_of(t, patch));
-    if after.fold(1.0, f64::min) <= mesh.worst(&change.gone) + GAIN {
+    let after = change.new.iter().map(|new| mesh.shape_of(new.0));
+    if after.fold(1.0, f64::min) <= mesh.worst_shape(&change.gone) + GAIN {
         return false;
     }
     let Some(fitted) = mesh.fit(&change) else {

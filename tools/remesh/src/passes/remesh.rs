@@ -433,12 +433,24 @@ fn uncap_all(mesh: &mut Mesh<'_>) -> usize {
     all.map(|t| usize::from(uncap(mesh, t))).sum()
 }
 
+/// Flips edges in patches that are remeshed, and in flat faces beside them: what is cut off such a face where its border gets coarser is a triangle of its
+/// own there, and no needle to what is farther away.
 fn flip_all(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
     let mut done = 0;
+    let mut beside = active.to_vec();
+    let is_sized = mesh.rules.sizes.are_asked();
+    for [a, b] in mesh.edges() {
+        if is_sized && mesh.curve(a, b).is_some() && is_active(mesh, active, [a, b]) {
+            for t in mesh.at_edge(a, b) {
+                let patch = mesh.patch[t as usize] as usize;
+                beside[patch] |= mesh.planes[patch].is_some();
+            }
+        }
+    }
     let edges = ordered(mesh, |[a, b]| {
         let at_edge = mesh.at_edge(a, b);
         let inner = mesh.curve(a, b).is_none();
-        (inner && is_active(mesh, active, [a, b])).then(|| mesh.worst(&at_edge))
+        (inner && is_active(mesh, &beside, [a, b])).then(|| mesh.worst_shape(&at_edge))
     });
     for edge in edges {
         done += usize::from(flip(mesh, edge));

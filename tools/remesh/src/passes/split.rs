@@ -91,7 +91,8 @@ fn halved(mesh: &mut Mesh<'_>, [a, b]: [u32; 2], place: DVec3) -> Change {
     let wanted = first.and_then(|patch| mesh.envelope.at(patch, place));
     let wanted = wanted.map_or(size, |at| at.1.min(size));
     let wanted = wanted.min(mesh.rules.sizes.at(place));
-    let new = mesh.add(place, bound, wanted);
+    let near = mesh.deviation_at(&[a, b]);
+    let new = mesh.add(place, (bound, wanted), near);
     let halves = at_edge.iter().flat_map(|&t| {
         let corners = mesh.triangles[t as usize];
         let half = |from: u32| {

@@ -1,6 +1,7 @@
 //! Surfaces that are remeshed, without any document.
 
 use super::collapse::collapse;
+use super::flip::flip;
 use super::remesh::slenderness;
 use super::split::split;
 use crate::mesh::Mesh;
@@ -724,6 +725,77 @@ fn a_fine_drawing_gets_about_as_many_triangles_as_a_coarse_one() {
         let fine = count(strips);
         assert!(2 * fine <= 3 * coarse, "{fine} for {coarse}");
     }
+}
+
+/// A vertex of a rim goes though the flat end is drawn with an ear at it, which is gone then; not where nothing else of the end would be left.
+#[test]
+fn rims_get_coarser_where_the_flat_face_has_an_ear() {
+    let surface = half_cylinder(32);
+    let (bound, held) = (vec![0; 66], vec![false; 66]);
+    let rules = rules(0.1, (&held, &[1.0; 8]), (&bound, &[]));
+    with_mesh(&surface, rules, |mesh| {
+        let [first, ear, next] = [0, 2, 4];
+        let ends = |mesh: &Mesh<'_>| {
+            let there = (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32));
+            let corners = there.map(|t| mesh.triangles[t]);
+            corners.filter(|t| t.iter().all(|v| v % 2 == 0)).count()
+        };
+        let before = ends(mesh);
+        assert!(mesh.neighbours(first).contains(&next) && mesh.curve(first, next).is_none());
+        assert!(collapse(mesh, [ear, first], false));
+        assert!(mesh.curve(first, next).is_some());
+        assert_eq!((ends(mesh), mesh.around(ear)), (before - 1, &[][..]));
+    });
+    // One triangle at each end: the rim has nowhere to go.
+    let surface = half_cylinder(2);
+    let (bound, held) = (vec![0; 6], vec![false; 6]);
+    let rules = self::rules(2.0, (&held, &[1.0; 8]), (&bound, &[]));
+    with_mesh(&surface, rules, |mesh| {
+        assert!(!collapse(mesh, [2, 0], false));
+    });
+}
+
+/// Edges of a curve that another one was joined to are as far from it as other curves may be where something else is near, and not as what was joined.
+#[test]
+fn curves_that_were_joined_stay_near_where_walls_are_thin() {
+    let surface = half_cylinder(32);
+    let (bound, held) = (vec![0; 66], vec![false; 66]);
+    let goes = |nearer: &[f64]| {
+        let lengths = [1.0; 8];
+        let usual = rules(0.1, (&held, &lengths), (&bound, &[]));
+        let rules = Rules {
+            nearer,
+            noise: 1e-6,
+            ..usual
+        };
+        with_mesh(&surface, rules, |mesh| {
+            mesh.loose.iter_mut().for_each(|loose| *loose = true);
+            collapse(mesh, [4, 2], false)
+        })
+    };
+    let [a, b, c] = [2, 4, 6].map(|v| surface.points[v]);
+    let off = geom::measure::distance_to_segment(b, a, c);
+    // The curved face is half as far off in the middle between both rims, where points of it are looked at.
+    assert!(goes(&[]) && goes(&[1.1 * off; 66]));
+    assert!(!goes(&[0.9 * off; 66]));
+}
+
+/// Flat faces have a curved one beside them that gets coarser: their needles hinder that, and are flipped.
+#[test]
+fn needles_of_flat_faces_are_flipped() {
+    let [a, b, c, d] = [[0.0, 0.0], [4.0, 0.0], [2.0, 0.5], [2.0, -0.5]];
+    let surface = Surface {
+        points: [a, b, c, d].map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+        triangles: vec![[0, 1, 2], [1, 0, 3]],
+        labels: vec![0; 2],
+    };
+    let (bound, held) = ([0; 4], [false; 4]);
+    with_mesh(&surface, rules(0.1, (&held, &[]), (&bound, &[])), |mesh| {
+        assert!(mesh.planes[0].is_some());
+        assert!(flip(mesh, [0, 1]));
+        assert_eq!((mesh.at_edge(0, 1).len(), mesh.at_edge(2, 3).len()), (0, 2));
+        assert!(!flip(mesh, [2, 3]));
+    });
 }
 
 /// A cylinder with flat ends, beside whose upper edge there is a vertex below the middle of every side, and as far outside: the triangle

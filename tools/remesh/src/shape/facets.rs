@@ -8,6 +8,10 @@ use rustc_hash::FxHashMap;
 /// A degree, in radians: what is bent by less may be the same face, however wide.
 const SHALLOW: f64 = std::f64::consts::PI / 180.0;
 
+/// How many times as far as it should the fold between two facets of a curve may turn: the widths of triangles are up to twice their mean, and one of two
+/// sides may have all of the turn.
+const SPREAD: f64 = 4.0;
+
 /// Sets of triangles in one plane each.
 pub struct Facets<'a> {
     /// Positions, model units.
@@ -22,7 +26,7 @@ pub struct Facets<'a> {
     pub of: &'a [u32],
     /// How far something curved may rise above its chords, model units, that goes on beside a wider facet: the facet would turn on
     /// both sides as it does at the edge between. Of what rises more the facet is no part: it is flat, and a fine drawing of a
-    /// rounding begins beside it.
+    /// rounding begins beside it; of what rises less, where what is beside it does not say so.
     pub rise: f64,
 }
 
@@ -36,7 +40,7 @@ pub struct Beside {
     /// Length of the part beside which the surface goes on smoothly.
     pub smooth: f64,
     /// Length of the part of it beside which it goes on with a facet of half its width at least, across the edge, or turns as
-    /// one curve does for the width of both, or is bent by less than a degree and does not rise far.
+    /// one curve does for the width of both, or is bent by less than a degree and does not rise far, unless a curve begins there.
     pub like: f64,
     /// The first of the facets beyond that part.
     pub first: Option<u32>,
@@ -83,12 +87,20 @@ impl Bend {
 
 /// Whether a facet of some width is one of those of a curve, as what is beside it is, which has a width and, beyond, a
 /// curvature. The fold between them then turns as far as the curve over half of either width. Beside a flat face, it turns
-/// over half of the other facet's width only: half way between decides. And it turns no more than four times as far as it
-/// should, as the widths of triangles are up to twice their mean, and one of two sides may have all of the turn.
+/// over half of the other facet's width only: half way between decides. And it turns no more than [`SPREAD`] times as far as it
+/// should.
 fn is_one_curve(turn: f64, [width, beside]: [f64; 2], curvature: f64) -> bool {
     let flat = 0.5 * curvature * beside;
     let curved = 0.5 * curvature * (width + beside);
-    (0.5 * (flat + curved)..=4.0 * curved).contains(&turn)
+    (0.5 * (flat + curved)..=SPREAD * curved).contains(&turn)
+}
+
+/// Whether a curve begins beside a facet that is flat: whether the fold between them turns as far as the curve over half of the width of what is beside
+/// it, within as much as widths of triangles tell, and far from what it would if the facet were part of the curve.
+fn begins_curve(turn: f64, [width, beside]: [f64; 2], curvature: f64) -> bool {
+    let flat = 0.5 * curvature * beside;
+    let curved = 0.5 * curvature * (width + beside);
+    (flat / SPREAD..=SPREAD * flat).contains(&turn) && turn < curved / SPREAD
 }
 
 impl Facets<'_> {
@@ -122,11 +134,15 @@ impl Facets<'_> {
                 let goes_on = || {
                     let with = &between[&[f.min(g), f.max(g)]];
                     let beyond = bends[g as usize].curvature(with, fold.along);
-                    beyond.is_some_and(|beyond| is_one_curve(turn, [w, x], beyond))
+                    let is = |fits: fn(f64, [f64; 2], f64) -> bool| {
+                        beyond.is_some_and(|beyond| fits(turn, [w, x], beyond))
+                    };
+                    let is_shallow = turn <= SHALLOW && 0.25 * turn * w <= self.rise;
+                    is(is_one_curve) || is_shallow && !is(begins_curve)
                 };
                 let facet = &mut beside[f as usize];
                 facet.smooth += length;
-                if w <= 2.0 * x || goes_on() || turn <= SHALLOW && 0.25 * turn * w <= self.rise {
+                if w <= 2.0 * x || goes_on() {
                     facet.like += length;
                     facet.more |= facet.first.is_some_and(|first| first != g);
                     facet.first.get_or_insert(g);
