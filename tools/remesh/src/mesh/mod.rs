@@ -224,6 +224,11 @@ impl<'a> Mesh<'a> {
         all.filter_map(|w| Some((w, self.curve(v, w)?))).collect()
     }
 
+    /// Whether one curve passes a vertex, and none ends there.
+    pub fn is_passed(&self, v: u32) -> bool {
+        matches!(self.along(v)[..], [(_, one), (_, other)] if one == other)
+    }
+
     /// Length of an edge.
     pub fn length(&self, [a, b]: [u32; 2]) -> f64 {
         self.points[a as usize].distance(self.points[b as usize])

@@ -44,8 +44,8 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool 
     mesh.apply(&change, fitted);
     for &[from, to] in &orbit {
         mesh.images.drop(from);
-        // Where curves were joined, they end.
-        mesh.fixed[to as usize] |= change.joins;
+        // Where curves were joined, they end, unless only one goes on.
+        mesh.fixed[to as usize] |= change.joins && !mesh.is_passed(to);
         mesh.keep_near(to, &[from]);
     }
     true

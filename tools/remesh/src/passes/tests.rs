@@ -11,7 +11,7 @@ use geom::contacts::contacts;
 use geom::measure::volume_of_region;
 use geom::tree::{Tree, closest_point};
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Angles between triangles: ten degrees.
 const SHARP: f64 = std::f64::consts::PI / 18.0;
@@ -487,12 +487,10 @@ fn an_edge_with_one_image_by_two_links_is_split_with_it() {
     }
 }
 
-/// Steps along a border, which are detail: a needle across each edge of it, that stands upright beside the triangles on both
-/// sides.
-#[test]
-fn needles_between_features_go_where_they_are_detail() {
-    let (around, up) = (24, 12);
-    let mut globe = globe(around, up);
+/// A globe of two halves with steps along their border, which are detail: a needle across each edge of it, that stands upright beside the triangles
+/// on both sides.
+fn stepped_globe(around: u32) -> Surface {
+    let mut globe = globe(around, around / 2);
     let is_level = |p: DVec3| p.z.abs() <= 1e-12;
     for t in 0..globe.triangles.len() {
         let corners = globe.triangles[t];
@@ -513,6 +511,12 @@ fn needles_between_features_go_where_they_are_detail() {
         globe.triangles.extend([[m, b, c], [a, b, m]]);
         globe.labels.extend([1, 1]);
     }
+    globe
+}
+
+#[test]
+fn needles_between_features_go_where_they_are_detail() {
+    let globe = stepped_globe(24);
     let held = vec![false; globe.points.len()];
     assert!(is_closed(&globe) && smallest_angle(&globe) < 3.0);
     let made = done(&globe, 0.02, &held).expect("needles along the border");
@@ -529,6 +533,25 @@ fn needles_between_features_go_where_they_are_detail() {
     // Within much less than the needles are high, they are features and stay.
     let made = done(&globe, 1e-4, &held);
     assert!(made.is_none_or(|made| made.told.joined == 0));
+}
+
+/// The tips of needles that were joined to a border are vertices of it like others, and go where longer edges are asked for; only where needles ended beside each
+/// other is a corner.
+#[test]
+fn what_was_joined_gets_coarser() {
+    let around = 48;
+    let globe = stepped_globe(around);
+    let held = vec![false; globe.points.len()];
+    let made = sized(&globe, 0.05, (&held, Some(0.5))).expect("longer edges");
+    assert!(made.told.joined > 0 && is_closed(&made.surface));
+    let has = |label: u32| -> FxHashSet<u32> {
+        let all = made.surface.triangles.iter().zip(&made.surface.labels);
+        all.filter(|(_, l)| **l == label)
+            .flat_map(|(corners, _)| *corners)
+            .collect()
+    };
+    let border = has(0).intersection(&has(1)).count();
+    assert!(border <= around as usize, "{border} vertices around");
 }
 
 /// A lens that is drawn long, whose sides meet at strips that are so wide.

@@ -18,7 +18,7 @@ pub fn uncap(mesh: &mut Mesh<'_>, t: u32) -> bool {
         let [a, b, c] = cap.corners;
         [a, b, c]
             .iter()
-            .for_each(|&v| mesh.fixed[v as usize] = true);
+            .for_each(|&v| mesh.fixed[v as usize] |= !mesh.is_passed(v));
     }
     is_done
 }
