@@ -519,11 +519,10 @@ fn exact_drawings_get_the_edges_asked_for_where_they_are_finer() {
     let least = counts.into_iter().fold(f64::MAX, f64::min);
     let most = counts.into_iter().fold(0.0, f64::max);
     assert!(most < 1.3 * least, "{counts:?}");
-    // By what chords of that length cut off.
-    assert!(
-        fine.iter().all(|(_, _, off)| (1e-4..2e-2).contains(off)),
-        "{fine:?}"
-    );
+    // By what chords of that length cut off; volumes of what they do outside and inside may be as large.
+    let is_remeshed =
+        |(_, volume, off): &(f64, f64, f64)| *volume < 2e-2 && (1e-4..2e-2).contains(off);
+    assert!(fine.iter().all(is_remeshed), "{fine:?}");
     let (kept, off, _) = made(768, &["--edge-length", "0.12", "--deviation", "0"]);
     assert!(kept > 3.0 * most && off < 1e-6, "{kept} {off}");
     // Two facets of these side by side are wider than edges are asked for. STL has seven digits.

@@ -11,7 +11,6 @@ mod measure;
 mod present;
 mod report;
 mod soundness;
-mod tolerances;
 
 pub use check::{Broken, Checks};
 pub use cli::Cli;

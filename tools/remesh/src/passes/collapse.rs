@@ -1,7 +1,7 @@
 //! Collapsing edges that are too short.
 
 use super::worth::{DETAIL, GOOD, LONG};
-use crate::mesh::{Change, Mesh, UPRIGHT, quality};
+use crate::mesh::{Change, Mesh, UPRIGHT};
 use geom::measure::double_area_vector;
 use glam::DVec3;
 
@@ -66,7 +66,7 @@ fn has_twins(change: &Change) -> bool {
 /// Quality of a triangle, from 0 to 1. Where curves are joined, needles in flat faces count, too.
 fn quality_of(mesh: &Mesh<'_>, (corners, patch): ([u32; 3], u32), joins: bool) -> f64 {
     match joins {
-        true => quality(corners.map(|v| mesh.points[v as usize])),
+        true => mesh.shape_of(corners),
         false => mesh.quality_of(corners, patch),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::check::walls::Mesh;
 use crate::instances::representatives;
-use crate::tolerances::PROMISE;
+use geom::tolerance::PROMISE;
 use glam::DVec3;
 
 /// Numbers of the instances to compare, increasing: one of each kind, and all that may meet one of those. What two

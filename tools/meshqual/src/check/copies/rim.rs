@@ -3,9 +3,9 @@
 use crate::check::faces::Skin;
 use crate::check::walls::Mesh;
 use crate::instances::Links;
-use crate::tolerances::PROMISE;
 use geom::grid::coincident;
 use geom::sets::DisjointSets;
+use geom::tolerance::PROMISE;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Document, Isometry, Placed};

@@ -1,8 +1,8 @@
 //! No two vertices in one place.
 
 use crate::check::findings::{Findings, Kind, at};
-use crate::tolerances::PROMISE;
 use geom::grid::coincident;
+use geom::tolerance::PROMISE;
 use tmesh::Document;
 
 /// Looks for vertices of a template that coincide with an earlier one.

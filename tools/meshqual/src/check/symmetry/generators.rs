@@ -1,6 +1,6 @@
 //! What a promise of symmetry asks to be checked.
 
-use crate::tolerances::PROMISE;
+use geom::tolerance::PROMISE;
 use glam::{DMat3, DVec3};
 use kit::number;
 use tmesh::{Frame, Group, Isometry, Promise};

@@ -3,8 +3,8 @@
 use super::generators::Generator;
 use super::part::Part;
 use crate::check::findings::{Findings, Kind, at};
-use crate::tolerances::PROMISE;
 use geom::grid::Grid;
+use geom::tolerance::PROMISE;
 use geom::tree::Tree;
 use glam::DVec3;
 use tmesh::Document;

@@ -2,7 +2,7 @@
 
 use crate::check::findings::{Findings, Kind};
 use crate::instances::{Realized, realized};
-use crate::tolerances::PROMISE;
+use geom::tolerance::PROMISE;
 use kit::number;
 use tmesh::{Document, Outside, Promise};
 

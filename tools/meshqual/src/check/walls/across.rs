@@ -3,8 +3,8 @@
 use super::face::Face;
 use crate::check::findings::{Findings, Kind};
 use crate::instances::Links;
-use crate::tolerances::PROMISE;
 use geom::grid::Grid;
+use geom::tolerance::PROMISE;
 use rustc_hash::FxHashSet;
 use tmesh::Isometry;
 

@@ -2,7 +2,7 @@
 
 use super::face::Face;
 use crate::check::findings::{Findings, Kind};
-use crate::tolerances::PROMISE;
+use geom::tolerance::PROMISE;
 use tmesh::Plane;
 
 /// Checks that everything on the plane is listed, and nothing lies beyond it.

@@ -1,7 +1,7 @@
 //! How a mesh is looked at in pictures.
 
 use super::layout::LAYOUT;
-use crate::tolerances::PROMISE;
+use geom::tolerance::PROMISE;
 use glam::{DMat3, DVec3};
 use tmesh::Document;
 

@@ -1,3 +1,0 @@
-//! What counts as equal, in one place.
-
-pub use geom::tolerance::PROMISE;
