@@ -50,10 +50,11 @@ fn a_solid_thinner_than_facets_explain_is_not_lost_to_its_neighbours() {
 }
 
 /// Where coarse facets would explain a gap of an eighth of the radius, closing it made solids overlap that are apart, or
-/// joined nothing and changed the volume of one by a tenth.
+/// joined nothing and changed the volume of one by a tenth. Where faces are divided in some sectors and not in others, it
+/// was closed in those.
 #[test]
 fn solids_are_not_joined_where_that_is_no_contact() {
-    for seed in [9_901_334, 9_903_536] {
+    for seed in [9_901_334, 9_903_536, 10_208_139] {
         let solid = bodies::random_solid::solid(seed);
         let found = run("symdetect", &[], &encode(&solid.body, solid.encoding));
         assert!(!found.stderr.contains("overlap"), "{}", found.stderr);

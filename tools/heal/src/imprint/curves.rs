@@ -34,6 +34,8 @@ pub struct Curves {
     pub patches: Vec<Patch>,
     /// Of each vertex: the other ends of sharp edges.
     pub sharp: Vec<Vec<u32>>,
+    /// Of each vertex: whether at least three flat faces of a solid meet there.
+    corner: Vec<bool>,
 }
 
 impl Curves {
@@ -75,7 +77,13 @@ impl Curves {
             gap,
             patches,
             sharp,
+            corner: around.iter().map(|parts| is_corner(parts)).collect(),
         }
+    }
+
+    /// Whether a vertex is a corner of flat faces of a solid: others are inside of one, or on the straight edge between two.
+    pub fn is_corner(&self, v: u32) -> bool {
+        self.corner[v as usize]
     }
 
     /// How much of a feature a vertex is: 0 in a smooth surface, 1 on a sharp edge that goes on, 2 at a corner.
@@ -136,6 +144,11 @@ fn flat_parts(complex: &Complex, normals: &[DVec3], solid: &[u32]) -> Vec<Vec<Fl
         }
     }
     around
+}
+
+fn is_corner(parts: &[FlatPart]) -> bool {
+    let faces = |solid: u32| parts.iter().filter(|p| p.solid == solid).count();
+    parts.iter().any(|p| faces(p.solid) > 2)
 }
 
 fn patch(

@@ -192,6 +192,15 @@ fn is_far(complex: &Complex, s: u32, t: u32, reach: Reach<'_>) -> bool {
     is_beside(&p, &q, within) || is_beside(&q, &p, within)
 }
 
+/// Which vertices of flat faces are related.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Which {
+    /// What lies at one place, and corners that touch the surface behind a facet.
+    Corners,
+    /// Vertices between corners, of faces that are related.
+    Between,
+}
+
 /// Looks for relations in pairs of triangles.
 struct Finder<'a> {
     complex: &'a mut Complex,
@@ -238,11 +247,16 @@ impl<'a> Finder<'a> {
     }
 
     /// Relates vertices first, then edges, then edges and faces: what is related already does not cross beside that.
+    ///
+    /// Whether flat faces touch within what they stand for is asked at their corners: vertices between those are where
+    /// faces happen to be divided, and images of a face may be divided in other ways. They follow their faces.
     fn run(&mut self, near: &[[u32; 2]], solid_of: impl Fn(u32) -> u32) {
-        for &[s, t] in near {
-            let others = solid_of(s) != solid_of(t);
-            let any = self.vertices(s, t, others) | self.vertices(t, s, others);
-            self.related(any, s, t);
+        for which in [Which::Corners, Which::Between] {
+            for &[s, t] in near {
+                let others = solid_of(s) != solid_of(t);
+                let any = self.vertices(s, t, others, which) | self.vertices(t, s, others, which);
+                self.related(any, s, t);
+            }
         }
         for &[s, t] in near {
             let others = solid_of(s) != solid_of(t);
@@ -292,13 +306,26 @@ impl<'a> Finder<'a> {
 
     fn related(&mut self, any: bool, s: u32, t: u32) {
         if any {
-            let [s, t] = [s, t].map(|t| self.complex.face[t as usize]);
-            self.found.pairs.insert([s.min(t), s.max(t)]);
+            self.found.pairs.insert(self.faces_of(s, t));
         }
     }
 
+    fn are_related(&self, s: u32, t: u32) -> bool {
+        self.found.pairs.contains(&self.faces_of(s, t))
+    }
+
+    /// The faces of two triangles, the lower one first.
+    fn faces_of(&self, s: u32, t: u32) -> [u32; 2] {
+        let [s, t] = [s, t].map(|t| self.complex.face[t as usize]);
+        [s.min(t), s.max(t)]
+    }
+
     /// Relates the vertices on a face's border to a triangle that does not have them.
-    fn vertices(&mut self, of: u32, t: u32, others: bool) -> bool {
+    fn vertices(&mut self, of: u32, t: u32, others: bool, which: Which) -> bool {
+        let curves = self.reach.curves.filter(|_| others);
+        if which == Which::Between && (curves.is_none() || !self.are_related(of, t)) {
+            return false;
+        }
         let ids = self.complex.triangles[t as usize];
         let places = self.complex.corners(t);
         let mut any = false;
@@ -308,9 +335,12 @@ impl<'a> Finder<'a> {
                 continue;
             }
             let p = self.complex.points[v as usize];
-            let at = spot(p, &places, self.reach.equal);
-            let at = at.or_else(|| {
-                let curves = self.reach.curves.filter(|_| others)?;
+            let within = match which {
+                Which::Corners => spot(p, &places, self.reach.equal),
+                Which::Between => None,
+            };
+            let at = within.or_else(|| {
+                let curves = curves.filter(|c| c.is_corner(v) == (which == Which::Corners))?;
                 curves.spot((of, i), t, self.complex, self.reach.equal)
             });
             let Some(at) = at else { continue };
