@@ -1,6 +1,7 @@
 //! Assemblies whose rotation exchanges solids.
 
 use crate::motor::{NAMES, assert_regions, motor, regions};
+use bodies::assembly::assembly;
 use bodies::{Body, PolarGrid};
 use serde_json::{Value, json};
 use support::{EXACT_STL, encode, pipe, read, run};
@@ -162,4 +163,24 @@ fn a_size_for_a_solid_holds_in_its_images() {
         let (_, most) = largest(&document, 2);
         assert!(most > 0.002, "{name}: {most} in the rotor");
     }
+}
+
+/// A curved seam through solids that the rotation exchanges has one of them on either side: vertices inside of it moved as
+/// they do in one solid, by which regions of the wedge had other volumes, and the mesh was refused.
+#[test]
+fn a_curved_seam_through_exchanged_solids_keeps_their_volumes() {
+    let pieces = assembly(556_582);
+    let found = run("symdetect", &["-q"], &encode(&pieces.body, pieces.encoding)).success();
+    let cut = [
+        "--domain",
+        "rotation",
+        "--seam",
+        "auto",
+        "--deviation",
+        "1.22e-5",
+    ];
+    let wedge = run("wedgecut", &cut, &found).success();
+    let surface = run("periodic-surf", &["-q"], &wedge).success();
+    let filled = run("tetwedge", &["-q"], &surface).success();
+    run("meshqual", &["-q", "--check"], &filled).success();
 }

@@ -146,9 +146,16 @@ impl Freedoms {
         freedoms
     }
 
-    /// Vertices inside of a seam that is not flat may go anywhere: it is any surface between its borders.
+    /// Vertices inside of a seam that is not flat may go anywhere: it is any surface between its borders. But where the regions on its
+    /// two sides differ, as those of parts do that the rotation exchanges, each keeps its volume within the wedge.
     fn free_inside(&mut self, template: &Template, gluing: &Gluing) {
-        let own: FxHashSet<u32> = gluing.triangle_pairs.iter().flatten().copied().collect();
+        let behind = |t: u32| {
+            let t = &template.triangles[t as usize];
+            t.front.min(t.back)
+        };
+        let alike = gluing.triangle_pairs.iter();
+        let alike = alike.filter(|[here, there]| behind(*here) == behind(*there));
+        let own: FxHashSet<u32> = alike.flatten().copied().collect();
         let others = (0_u32..).zip(&template.triangles);
         let others = others.filter(|(t, _)| !own.contains(t));
         let rim: FxHashSet<u32> = others.flat_map(|(_, t)| t.vertices).collect();
