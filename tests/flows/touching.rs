@@ -3,7 +3,7 @@
 use bodies::facets::{Facet, ascii_stl, cuboid};
 use bodies::rounds::{Circle, cylinder, tube};
 use serde_json::Value;
-use support::{pipe, run};
+use support::{encode, pipe, run};
 
 /// Volumes of regions of the mesh that the pipe makes, which must pass its check.
 fn meshed(solids: &[(&str, Vec<Facet>)]) -> Vec<(String, f64)> {
@@ -101,4 +101,19 @@ fn a_shaft_in_a_bore_that_is_drawn_with_other_corners() {
     within(shaft, 8.0 * circle(5.0, 32, 0.0).area(), 8.0 * disc);
     let ring = |bore: f64| 4.0 * (circle(8.0, 32, 0.0).area() - bore);
     within(hub, ring(disc), ring(circle(5.0, 32, 0.0).area()));
+}
+
+/// A wedge that touches the axis along an edge only, whose surface is kept with the lengths asked for: vertices that divide this
+/// edge belong to all copies, which had one of their own each.
+#[test]
+fn copies_that_only_touch_share_what_divides_their_edge() {
+    let solid = bodies::random_solid::solid(10_208_996);
+    let found = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    let options =
+        "-q --horizontal-mirror off --deviation 2.58e-2 --edge-length 1.695e-1 --gradation 1.417";
+    let options: Vec<&str> = options.split(' ').collect();
+    let wedge = run("wedgecut", &options, &found).success();
+    let filled = run("tetwedge", &["-q"], &wedge).success();
+    let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+    run("meshqual", &["-q", "--check"], &whole).success();
 }

@@ -1,6 +1,6 @@
 //! Where a template meets its own images or another template.
 
-use crate::Isometry;
+use crate::{FixedSet, Isometry};
 use glam::DVec3;
 
 /// A plane `normal . x = 0` through the origin; the normal has unit length.
@@ -119,6 +119,11 @@ impl Gluing {
     /// Whether both faces are of the template `own`, and different ones.
     pub fn is_seam(&self, own: usize) -> bool {
         self.other as usize == own && !self.step.is_reflection()
+    }
+
+    /// Whether it joins copies of the template, number `own`, at the axis: vertices there are paired with themselves.
+    pub fn joins_at_axis(&self, own: usize) -> bool {
+        self.is_seam(own) && FixedSet::of(self.step) == FixedSet::Axis
     }
 
     /// The template beyond if it is not `own`, the one that lists the face.

@@ -220,6 +220,9 @@ impl Maker<'_> {
             self.template.vertices.push(at);
             if is_on_axis {
                 self.template.axis.push(vertex);
+                let gluings = self.template.gluings.iter_mut();
+                let joined = gluings.filter(|g| g.joins_at_axis(self.piece.index));
+                joined.for_each(|g| g.vertex_pairs.push([vertex, vertex]));
             }
             for &w in &walls {
                 let gluing = &mut self.template.gluings[self.walls[w].number];

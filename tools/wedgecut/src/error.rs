@@ -4,6 +4,10 @@ use glam::DVec3;
 use kit::Failure;
 use thiserror::Error;
 
+/// What to do where sections differ that were found to be images of each other.
+const OTHERWISE: &str = "sectors are not the same there, or the surface crosses itself: another --order or --start-angle may cut \
+                         elsewhere, --order 1 keeps the body whole";
+
 /// Why a wedge could not be cut. Positions are in the frame of the input.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -77,7 +81,7 @@ pub enum CutError {
     /// The sections at the two sides of a rotation wedge are not images of each other.
     #[error(
         "the sections at the two sides of the wedge do not match: {low} points against {high}, {} \
-         (tolerance {tolerance:.3e}) near ({:.6}, {:.6}, {:.6})",
+         (tolerance {tolerance:.3e}) near ({:.6}, {:.6}, {:.6}); {OTHERWISE}",
         partner(*.distance), .near.x, .near.y, .near.z
     )]
     SectionsDiffer {
@@ -96,7 +100,7 @@ pub enum CutError {
     /// A curve of one section has no counterpart between the same points and regions in the other.
     #[error(
         "the sections at the two sides of the wedge are joined differently: {low} curves against {high}, one \
-         of them without counterpart near ({:.6}, {:.6}, {:.6})", .near.x, .near.y, .near.z
+         of them without counterpart near ({:.6}, {:.6}, {:.6}); {OTHERWISE}", .near.x, .near.y, .near.z
     )]
     SectionsJoinedDifferently {
         /// Curves of the low side.

@@ -98,8 +98,7 @@ pub fn restore_walls(
     let axis = restorer.axis(filled);
     let new_on_axis = || axis.iter().filter(|&&v| v as usize >= first_new);
     for gluing in &mut gluings {
-        // The copies of a wedge that only touches the axis meet there.
-        if gluing.is_seam(plc.template) && FixedSet::of(gluing.step) == FixedSet::Axis {
+        if gluing.joins_at_axis(plc.template) {
             gluing.vertex_pairs.extend(new_on_axis().map(|&v| [v, v]));
             gluing.vertex_pairs.sort_unstable();
         }
