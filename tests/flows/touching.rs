@@ -103,6 +103,39 @@ fn a_shaft_in_a_bore_that_is_drawn_with_other_corners() {
     within(hub, ring(disc), ring(circle(5.0, 32, 0.0).area()));
 }
 
+/// A shaft whose wall is divided along its length, in a coarser bore: few of its vertices are corners of flat faces in there, and
+/// the others touch the bore as these do.
+#[test]
+fn a_shaft_divided_in_rows_in_a_coarser_bore() {
+    let circle = |radius: f64, corners: u32, phase: f64| Circle {
+        radius,
+        corners,
+        phase,
+    };
+    let shaft = circle(5.0, 96, 0.0);
+    let is_end = |f: &Facet| f[0][2] == f[1][2] && f[1][2] == f[2][2];
+    let rows = (-4..12).map(|k| [0.5 * f64::from(k), 0.5 * f64::from(k + 1)]);
+    let walls = rows
+        .flat_map(|row| cylinder(shaft, row))
+        .filter(|f| !is_end(f));
+    let ends = cylinder(shaft, [-2.0, 6.0]).into_iter().filter(is_end);
+    let solids = [
+        ("shaft", walls.chain(ends).collect()),
+        (
+            "hub",
+            tube(circle(5.0, 24, 0.5), circle(8.0, 32, 0.0), [0.0, 4.0]),
+        ),
+    ];
+    let found = run("symdetect", &[], &ascii_stl(&solids));
+    assert!(
+        found.stderr.contains("solids that touch"),
+        "{}",
+        found.stderr
+    );
+    assert!(!found.stderr.contains("overlap"), "{}", found.stderr);
+    meshed(&solids);
+}
+
 /// A wedge that touches the axis along an edge only, whose surface is kept with the lengths asked for: vertices that divide this
 /// edge belong to all copies, which had one of their own each.
 #[test]

@@ -192,12 +192,12 @@ fn is_far(complex: &Complex, s: u32, t: u32, reach: Reach<'_>) -> bool {
     is_beside(&p, &q, within) || is_beside(&q, &p, within)
 }
 
-/// Which vertices of flat faces are related.
+/// Of which vertices of flat faces it is asked whether they touch the surface behind a facet.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Which {
-    /// What lies at one place, and corners that touch the surface behind a facet.
+enum Of {
+    /// Of corners; whatever lies at one place is related as well.
     Corners,
-    /// Vertices between corners, of faces that are related.
+    /// Of those between corners.
     Between,
 }
 
@@ -249,12 +249,26 @@ impl<'a> Finder<'a> {
     /// Relates vertices first, then edges, then edges and faces: what is related already does not cross beside that.
     ///
     /// Whether flat faces touch within what they stand for is asked at their corners: vertices between those are where
-    /// faces happen to be divided, and images of a face may be divided in other ways. They follow their faces.
+    /// faces happen to be divided, and images of a face may be divided in other ways. They follow where a corner touches: of their own
+    /// face, or of the one that they are at, since narrow faces may lie between the corners of a wide one.
     fn run(&mut self, near: &[[u32; 2]], solid_of: impl Fn(u32) -> u32) {
-        for which in [Which::Corners, Which::Between] {
-            for &[s, t] in near {
-                let others = solid_of(s) != solid_of(t);
-                let any = self.vertices(s, t, others, which) | self.vertices(t, s, others, which);
+        let mut touched: FxHashSet<(u32, u32)> = FxHashSet::default();
+        for &[s, t] in near {
+            let others = solid_of(s) != solid_of(t);
+            let of = Of::Corners;
+            let any = self.vertices(s, t, (others, of)) | self.vertices(t, s, (others, of));
+            self.related(any, s, t);
+            if any && others {
+                let [f, g] = [s, t].map(|t| self.complex.face[t as usize]);
+                touched.extend([(f, solid_of(t)), (g, solid_of(s))]);
+            }
+        }
+        for &[s, t] in near {
+            let [f, g] = [s, t].map(|t| self.complex.face[t as usize]);
+            let follow = touched.contains(&(f, solid_of(t))) || touched.contains(&(g, solid_of(s)));
+            if follow {
+                let of = Of::Between;
+                let any = self.vertices(s, t, (true, of)) | self.vertices(t, s, (true, of));
                 self.related(any, s, t);
             }
         }
@@ -306,26 +320,14 @@ impl<'a> Finder<'a> {
 
     fn related(&mut self, any: bool, s: u32, t: u32) {
         if any {
-            self.found.pairs.insert(self.faces_of(s, t));
+            let [s, t] = [s, t].map(|t| self.complex.face[t as usize]);
+            self.found.pairs.insert([s.min(t), s.max(t)]);
         }
-    }
-
-    fn are_related(&self, s: u32, t: u32) -> bool {
-        self.found.pairs.contains(&self.faces_of(s, t))
-    }
-
-    /// The faces of two triangles, the lower one first.
-    fn faces_of(&self, s: u32, t: u32) -> [u32; 2] {
-        let [s, t] = [s, t].map(|t| self.complex.face[t as usize]);
-        [s.min(t), s.max(t)]
     }
 
     /// Relates the vertices on a face's border to a triangle that does not have them.
-    fn vertices(&mut self, of: u32, t: u32, others: bool, which: Which) -> bool {
+    fn vertices(&mut self, of: u32, t: u32, (others, which): (bool, Of)) -> bool {
         let curves = self.reach.curves.filter(|_| others);
-        if which == Which::Between && (curves.is_none() || !self.are_related(of, t)) {
-            return false;
-        }
         let ids = self.complex.triangles[t as usize];
         let places = self.complex.corners(t);
         let mut any = false;
@@ -335,14 +337,16 @@ impl<'a> Finder<'a> {
                 continue;
             }
             let p = self.complex.points[v as usize];
-            let within = match which {
-                Which::Corners => spot(p, &places, self.reach.equal),
-                Which::Between => None,
-            };
-            let at = within.or_else(|| {
-                let curves = curves.filter(|c| c.is_corner(v) == (which == Which::Corners))?;
+            let within = spot(p, &places, self.reach.equal);
+            let beyond = || {
+                let curves = curves.filter(|c| c.is_corner(v) == (which == Of::Corners))?;
                 curves.spot((of, i), t, self.complex, self.reach.equal)
-            });
+            };
+            let at = match which {
+                Of::Corners => within.or_else(beyond),
+                Of::Between if within.is_some() => None,
+                Of::Between => beyond(),
+            };
             let Some(at) = at else { continue };
             any = true;
             match at {
