@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
-use support::{EXACT_STL, Outcome, TOOLS, binary, encode, finish, pipe, run};
+use support::{EXACT_STL, Outcome, TOOLS, binary, bytes, encode, finish, pipe, read, run};
 
 const PYRAMID: &[u8] = include_bytes!("../../formats/tmesh/tests/golden/pyramid.tmesh");
 
@@ -437,4 +437,27 @@ fn altered_documents() {
         }
     }
     assert!(tried > 50);
+}
+
+#[test]
+fn sectors_that_differ_by_more_than_is_stated() {
+    let mut gear = Gear::default().build();
+    Placement {
+        jitter: 1e-5,
+        ..Placement::default()
+    }
+    .apply(&mut gear);
+    let mut found = read(&run("symdetect", &["-q"], &encode(&gear, EXACT_STL)).success());
+    let symmetry = found.symmetry.as_mut().expect("a symmetry");
+    symmetry.residual = 1e-15;
+    let cut = run("wedgecut", &["--domain", "rotation"], &bytes(&found));
+    cut.fails(
+        1,
+        &[
+            "sections at the two sides of the wedge",
+            "near (",
+            "--order 1",
+        ],
+    );
+    run("wedgecut", &["-q", "--order", "1"], &bytes(&found)).success();
 }
