@@ -133,3 +133,13 @@ fn walls_along_the_frame_of_a_whole_body_are_flat_to_the_bit() {
     let mesh = last.expect("a stage").success();
     run("meshqual", &["--check"], &mesh).success();
 }
+
+#[test]
+fn solids_that_fill_what_is_between_others_are_exchanged() {
+    // Where two solids touch, each has triangles there: which solid an image is on was told by either.
+    for seed in [3, 10, 17, 24, 31, 38, 45, 52] {
+        let said = said(seed);
+        let order = assembly(seed).order;
+        assert!(said.contains(&format!("D{order}h about")), "{seed}: {said}");
+    }
+}

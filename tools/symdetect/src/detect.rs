@@ -183,8 +183,9 @@ impl Query<'_> {
             self.limits.facets = true;
         }
         behind.look_for_mirror(self);
-        let is_behind =
-            (behind.found.as_ref()).map(|found| self.is_behind(found, outcome.found.as_ref()));
+        let drawn = outcome.found.as_ref();
+        let found = behind.found.as_ref();
+        let is_behind = found.map(|found| self.is_behind(found, &behind.rotations, drawn));
         match is_behind {
             Some(true) => *outcome = behind,
             None if outcome.found.is_none() => *outcome = behind,

@@ -1003,3 +1003,36 @@ fn vertices_tell_of_a_curve_that_folds_do_not() {
     );
     assert!(found.is_err() || found.is_ok_and(|f| f.order == 1));
 }
+
+/// A ball drawn between meridians that are not evenly apart was given the half turn of its drawing, about another axis than
+/// that of the meridians.
+#[test]
+fn a_ball_whose_drawing_has_a_half_turn_is_round() {
+    const MERIDIANS: u32 = 40;
+    const PARALLELS: u32 = 20;
+    let at = |i: u32, j: u32| {
+        let even = TAU * f64::from(i) / f64::from(MERIDIANS);
+        // Alike on both sides of the x axis.
+        let (s, c) = libm::sincos(even + 0.15 * libm::sin(even));
+        let (r, z) = libm::sincos(PI * f64::from(j) / f64::from(PARALLELS));
+        DVec3::new(r * c, r * s, z)
+    };
+    let rings = (1..PARALLELS).flat_map(|j| (0..MERIDIANS).map(move |i| (i, j)));
+    let mut vertices: Vec<DVec3> = rings.map(|(i, j)| at(i, j)).collect();
+    let [north, south] = [0, 1].map(|i| vertices.len() as u32 + i);
+    vertices.extend([DVec3::Z, -DVec3::Z]);
+    let id = |i: u32, j: u32| (j - 1) * MERIDIANS + i % MERIDIANS;
+    let mut triangles = Vec::new();
+    for i in 0..MERIDIANS {
+        triangles.push([north, id(i, 1), id(i + 1, 1)]);
+        triangles.push([south, id(i + 1, PARALLELS - 1), id(i, PARALLELS - 1)]);
+        for j in 1..PARALLELS - 1 {
+            let [a, b, c, d] = [id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)];
+            triangles.extend([[a, d, b], [b, d, c]]);
+        }
+    }
+    let mut random = Random(23);
+    let ball = bodies::document(vertices, triangles);
+    let found = find(&bodies::place(&ball, &mut random, 1.0, 0.0));
+    assert!(found.axisymmetric, "{found:?}");
+}

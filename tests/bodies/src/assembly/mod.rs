@@ -3,6 +3,7 @@
 
 mod blocks;
 mod draw;
+mod inlays;
 mod pins;
 mod rings;
 mod sectors;
@@ -33,11 +34,16 @@ pub struct Claim {
     pub slack: f64,
 }
 
+/// Of so many seeds, one has an assembly of solids that fill what is between others.
+const INLAID: u64 = 7;
+
 /// The assembly of a seed.
 pub fn assembly(seed: u64) -> Assembly {
     let mut dice = Dice::new(seed);
     let mut drawing = Drawing::default();
+    // The others are as seeds had them before there were inlays.
     match dice.below(4) {
+        _ if seed % INLAID == INLAID / 2 => inlays::draw(&mut drawing, &mut dice),
         0 => blocks::draw(&mut drawing, &mut dice),
         1 => rings::draw(&mut drawing, &mut dice),
         2 => pins::draw(&mut drawing, &mut dice),

@@ -45,8 +45,8 @@ pub struct Description {
     pub order: Order,
     /// Whether walls are made exactly coplanar; see [`super::flat`].
     pub flat: bool,
-    /// Where the whole surface is preserved: how far points are moved at random, in the mesher's unit (the
-    /// diagonal is from 1 to 2). Symmetric bodies have many cospherical points, and these make TetGen lose its way.
+    /// How far points are moved at random, those of walls in the walls, in the mesher's unit (the diagonal is from 1 to 2).
+    /// Symmetric bodies have many cospherical points, and these make TetGen lose its way.
     pub stir: Option<f64>,
     /// Points from which on TetGen inserts them in random rounds, instead of the 64 it takes; below that the
     /// order depends on where the points are alone, and is the same for all descriptions. With 0 it takes them in the

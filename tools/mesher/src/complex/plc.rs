@@ -143,27 +143,33 @@ impl Plc {
     ) {
         let scaled = |v: u32| (template.vertices[v as usize] * self.scale).to_array();
         let mut points: Vec<[f64; 3]> = self.vertex_of_point.iter().map(|&v| scaled(v)).collect();
-        if let Some(size) = description.stir.filter(|_| self.faces.preserve()) {
+        if let Some(size) = description.stir {
             for (&v, p) in self.vertex_of_point.iter().zip(&mut points) {
-                for (axis, x) in p.iter_mut().enumerate() {
+                // What is zero keeps points in the plane of a mirror across the axis.
+                for (axis, x) in p.iter_mut().enumerate().filter(|(_, x)| **x != 0.0) {
                     let random = mixed(3 * u64::from(v) + axis as u64);
                     *x += size * (random as f64 / u64::MAX as f64 - 0.5);
                 }
             }
         }
-        let mut shift = 0.0_f64;
         for plane in self.faces.planes.iter().filter(|_| description.flat) {
             let [cos, sin] = plane.direction;
             // Seams are paired exactly only where they are walls: a vertex elsewhere may be listed.
             let near = |p: &usize| {
-                let [x, y, _] = points[*p];
+                let [x, y, _] = scaled(self.vertex_of_point[*p]);
                 (y * cos - x * sin).abs() <= self.rounding * self.scale
             };
             let listed = plane.vertices.iter();
             let used = listed.map(|&v| point_of_vertex[v as usize] as usize);
             let on: Vec<usize> = used.filter(|&p| p < points.len()).filter(near).collect();
-            shift = shift.max(flatten(&mut points, &on, cos, sin));
+            flatten(&mut points, &on, cos, sin);
         }
+        let moved = |(&v, p): (&u32, &[f64; 3])| {
+            let before = DVec3::from_array(scaled(v));
+            DVec3::from_array(*p).distance(before)
+        };
+        let moved = self.vertex_of_point.iter().zip(&points).map(moved);
+        let shift = moved.fold(0.0, f64::max);
         self.shifted = vec![false; self.facets.facets.len()];
         for (t, &facet) in template.triangles.iter().zip(&self.facets.of_triangle) {
             let moved = |&v: &u32| points[point_of_vertex[v as usize] as usize] != scaled(v);

@@ -1,12 +1,14 @@
 //! Points put back onto planes that meet.
 
+use geom::eigen;
+use geom::flat::FACE_FOLD_COSINE;
 use glam::DVec3;
 
 /// Puts a point onto `count` planes at once. `onto` moves a point onto the plane with that number.
 ///
-/// A single projection meets a single plane, and leaves others that it crosses by less each time: planes at an angle of
-/// 45 degrees and more, as nearly all are, have what is left halved by each round. Rounds end when they do not halve it
-/// any more, which at last rounding sees to.
+/// What all projections say together is solved for the shortest way to where the planes meet, whatever the angle between
+/// them; planes at the angle of folds in one face count as one. What rounding leaves, projections onto one plane after the
+/// other take away: rounds end when they do not halve it any more.
 ///
 /// # Errors
 /// That of the first projection that has one.
@@ -15,7 +17,10 @@ pub fn settled<E>(
     count: usize,
     mut onto: impl FnMut(usize, DVec3) -> Result<DVec3, E>,
 ) -> Result<DVec3, E> {
-    let mut point = point;
+    let mut point = match count > 1 {
+        true => point + way(point, count, &mut onto)?,
+        false => point,
+    };
     let mut last = f64::INFINITY;
     loop {
         let before = point;
@@ -30,6 +35,35 @@ pub fn settled<E>(
         }
         last = moved;
     }
+}
+
+/// The shortest way that projections onto planes lead to all of them.
+fn way<E>(
+    point: DVec3,
+    count: usize,
+    mut onto: impl FnMut(usize, DVec3) -> Result<DVec3, E>,
+) -> Result<DVec3, E> {
+    let mut normals = [[0.0; 3]; 3];
+    let mut offsets = DVec3::ZERO;
+    for plane in 0..count {
+        let off = onto(plane, point)? - point;
+        let normal = off.normalize_or_zero();
+        for (row, x) in normals.iter_mut().zip(normal.to_array()) {
+            for (sum, y) in row.iter_mut().zip(normal.to_array()) {
+                *sum += x * y;
+            }
+        }
+        offsets += off;
+    }
+    let solution = eigen::symmetric(normals);
+    let directions = solution.values.iter().zip(solution.vectors);
+    let told = directions.filter(|(value, _)| **value > 1.0 - FACE_FOLD_COSINE);
+    Ok(told
+        .map(|(value, along)| {
+            let along = DVec3::from_array(along);
+            along * (offsets.dot(along) / value)
+        })
+        .sum())
 }
 
 #[cfg(test)]
@@ -49,6 +83,14 @@ mod tests {
             DVec3::new(0.0, 1.0, 1.0)
         );
         assert_eq!(settled(DVec3::ONE, 0, onto).unwrap(), DVec3::ONE);
+    }
+
+    #[test]
+    fn planes_at_a_small_angle_meet_on_a_line() {
+        let normals = [DVec3::Z, DVec3::new(libm::sin(0.05), 0.0, libm::cos(0.05))];
+        let onto = |i: usize, p: DVec3| Ok::<_, ()>(p - normals[i] * p.dot(normals[i]));
+        let p = settled(DVec3::new(3e-7, 2.0, 1e-7), 2, onto).unwrap();
+        assert!((p - DVec3::Y * 2.0).length() < 1e-20, "{p}");
     }
 
     #[test]

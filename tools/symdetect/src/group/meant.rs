@@ -2,7 +2,7 @@
 
 use crate::budget::QUICK;
 use crate::group::found::Found;
-use crate::rotation::Query;
+use crate::rotation::{Query, Rotation};
 use crate::shape::{Motion, Target};
 use crate::verify::golden_turns;
 use glam::DMat3;
@@ -16,16 +16,19 @@ impl Query<'_> {
     /// Whether the group of the shape behind the facets of a drawing is more than that of the drawing, and meant.
     ///
     /// It is more if it has all operations of the drawing's. A drawing that has a rotation, of a body that any rotation
-    /// takes to itself within its facets, is drawn as it was meant. And a drawing with a group of its own is given up for
+    /// about the same axis takes to itself within its facets, is drawn as it was meant, unless other ones of the `rotations`
+    /// that were found do so, too: a ball has no axis of its own. And a drawing with a group of its own is given up for
     /// significant evidence only: next to all of what is off has to be explained, and by facets that would not explain
     /// most of what is off in any other position about the axis: those are too coarse to tell.
-    pub fn is_behind(&self, found: &Found, drawn: Option<&Found>) -> bool {
+    pub fn is_behind(&self, found: &Found, rotations: &[Rotation], drawn: Option<&Found>) -> bool {
         let Some(drawn) = drawn else {
             return self.is_meant(found);
         };
         let [a, b] = [found, drawn].map(|f| f.frame.rotation.z_axis);
-        let has_all = !self.same_axis(a, b) || drawn.group.is_subgroup_of(found.group);
-        let is_round = found.axisymmetric && drawn.group.order > 1;
+        let same_axis = self.same_axis(a, b);
+        let has_all = !same_axis || drawn.group.is_subgroup_of(found.group);
+        let is_ball = rotations.iter().filter(|r| r.axisymmetric).count() > 1;
+        let is_round = found.axisymmetric && same_axis && !is_ball && drawn.group.order > 1;
         let is_more = found.group.size() > drawn.group.size() && has_all && !is_round;
         is_more && {
             let evidence = self.evidence(found, &[DMat3::IDENTITY]);

@@ -154,6 +154,11 @@ fn largest_of_order<T>(
     worst
 }
 
+/// Order of the rotations that two rotations make together.
+pub fn least_common_multiple(a: u32, b: u32) -> u64 {
+    u64::from(a / gcd(a, b)) * u64::from(b)
+}
+
 /// Greatest common divisor.
 fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }

@@ -1,5 +1,6 @@
 //! The highest order about an axis that is left as it is.
 
+use crate::rotation::facet_count::least_common_multiple;
 use crate::rotation::find::{OrderSearch, Rotation};
 use crate::shape::{Permutation, Sample, Target};
 use crate::verify::Deviation;
@@ -57,8 +58,8 @@ impl OrderSearch<'_> {
         }
     }
 
-    /// The highest of the orders that pass a scan which holds. Where another one above half of it holds as well, all do:
-    /// the rotations that they make together are as near to any angle as the two are to each other.
+    /// The highest of the orders that pass a scan which holds. Where another one above half of it holds as well, and the
+    /// rotations that they make together are not told from any rotation, all do.
     ///
     /// Where corners tell the order of the drawing at once, others are its multiples.
     fn of_scan(&self, frame: &Frame, radius: f64) -> Option<Rotation> {
@@ -85,7 +86,8 @@ impl OrderSearch<'_> {
         };
         let mut highest: Option<Rotation> = None;
         // Others are not told from any rotation, under which the body has been found to differ.
-        let told = self.up_to(self.shape.highest_told(frame, radius, bound));
+        let highest_told = self.shape.highest_told(frame, radius, bound);
+        let told = self.up_to(highest_told);
         // Near a body of revolution many orders fail at the same few places.
         let mut obstacles: Vec<Sample> = Vec::new();
         for order in told.scan(frame, bound, 0.0, multiples) {
@@ -99,12 +101,13 @@ impl OrderSearch<'_> {
                 break;
             }
             match self.shape.verify_rotation(frame, order, bound, self.depth) {
-                Ok((deviation, _)) if highest.is_some() => {
-                    return Some(self.of_revolution(frame, radius, deviation));
-                }
-                Ok((deviation, permutation)) => {
-                    highest = Some(distinct(order, (deviation, permutation)));
-                }
+                Ok((deviation, permutation)) => match &highest {
+                    None => highest = Some(distinct(order, (deviation, permutation))),
+                    Some(h) if least_common_multiple(h.order, order) > u64::from(highest_told) => {
+                        return Some(self.of_revolution(frame, radius, deviation));
+                    }
+                    Some(_) => {}
+                },
                 Err(deviation) if obstacles.len() < OBSTACLES => {
                     // Either end may be the place that has no counterpart.
                     let place = |point| {

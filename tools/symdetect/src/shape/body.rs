@@ -159,6 +159,19 @@ impl Shape {
         part.answer(part.tree.near_enough(image, within, enough))
     }
 
+    /// The nearest point of the surface to the image of a triangle, whose normal is given, where it faces as that does: of
+    /// solids that touch, each has triangles of its own there.
+    pub fn nearest_alike(
+        &self,
+        (image, normal): (DVec3, DVec3),
+        triangle: u32,
+        within: f64,
+    ) -> Option<Nearest> {
+        let part = self.drawn.part(&self.interfaces, triangle, &Target::Any)?;
+        let alike = |t| self.faces_like(part.triangle(t), (normal, triangle));
+        part.answer(part.tree.nearest_of(image, within, alike))
+    }
+
     /// The nearest point of those facets that the image of a sample may be on, whose shape may be within `limit` of what
     /// the sample's facet hides, and whose normal is about that of the image where one is given.
     pub fn nearest_behind(

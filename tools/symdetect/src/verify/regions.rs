@@ -1,7 +1,7 @@
 //! What operations do to regions.
 
 use crate::budget::SCAN;
-use crate::shape::{Motion, NO_CLASS, Permutation, Shape, Target};
+use crate::shape::{Motion, NO_CLASS, Permutation, Shape};
 use crate::verify::deviation::{Bound, Deviation};
 use rustc_hash::FxHashMap;
 
@@ -18,15 +18,14 @@ impl Shape {
                 continue;
             }
             *asked += 1;
-            let image = motion.apply(sample.point);
-            let Some(hit) = self.near(image, sample.triangle, &Target::Any, bound) else {
+            let from = sample.triangle as usize;
+            let normal = motion.linear * self.normals[from];
+            let image = (motion.apply(sample.point), normal);
+            let Some(hit) = self.near_alike(image, sample.triangle, bound) else {
                 continue;
             };
-            let (from, to) = (sample.triangle as usize, hit.triangle as usize);
-            let cosine = self.normals[to].dot(motion.linear * self.normals[from]);
-            if cosine.abs() < 0.5 {
-                continue;
-            }
+            let to = hit.triangle as usize;
+            let cosine = self.normals[to].dot(normal);
             let ([a, b], [c, d]) = (self.interfaces.sides[from], self.interfaces.sides[to]);
             let (c, d) = if cosine > 0.0 { (c, d) } else { (d, c) };
             *votes.entry([a, c]).or_default() += 1;

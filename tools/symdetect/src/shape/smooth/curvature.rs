@@ -28,7 +28,7 @@ pub fn curvature(facets: &Facets<'_>, folds: &[Fold]) -> Vec<DMat3> {
 /// that is more than twice as wide as what is beyond is the flat face that a rounding ends at, not one of its facets.
 fn shares(facets: &Facets<'_>, fold: &Fold) -> [f64; 2] {
     let [w, x] = fold.widths;
-    let is_flat = |i: usize| !facets.single[fold.flats[i] as usize] && !is_like(fold, i);
+    let is_flat = |i: usize| !facets.single[fold.flats[i] as usize] && !fold.is_like(i);
     if is_flat(0) {
         [0.0, 1.0]
     } else if is_flat(1) {
@@ -36,11 +36,6 @@ fn shares(facets: &Facets<'_>, fold: &Fold) -> [f64; 2] {
     } else {
         [w / (w + x), x / (w + x)]
     }
-}
-
-/// Whether a facet is no more than twice as wide as the one beyond the fold.
-fn is_like(fold: &Fold, i: usize) -> bool {
-    fold.widths[i] <= 2.0 * fold.widths[1 - i]
 }
 
 /// The matrix `a b^T`.

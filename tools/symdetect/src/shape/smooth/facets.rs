@@ -44,6 +44,14 @@ pub struct Fold {
     pub turn: f64,
 }
 
+impl Fold {
+    /// Whether one of the facets is no more than twice as wide as the one beyond the fold: what is wider is no facet of the
+    /// same curve.
+    pub fn is_like(&self, i: usize) -> bool {
+        self.widths[i] <= 2.0 * self.widths[1 - i]
+    }
+}
+
 impl<'a> Facets<'a> {
     /// The facets of a surface with these unit normals. Linear.
     pub fn new(vertices: &'a [DVec3], triangles: &'a [[u32; 3]], normals: &'a [DVec3]) -> Self {
@@ -125,7 +133,10 @@ impl<'a> Facets<'a> {
             _ => false,
         };
         let edges = (0..self.edges.len()).filter(is_doubtful);
-        edges.filter_map(|e| self.fold(e)).collect()
+        let folds = edges.filter_map(|e| self.fold(e));
+        folds
+            .filter(|f| [0, 1].iter().all(|i| f.is_like(*i)))
+            .collect()
     }
 
     fn fold(&self, edge: usize) -> Option<Fold> {
@@ -197,4 +208,53 @@ impl<'a> Facets<'a> {
 /// Whether two unit vectors away from a point are the two halves of a straight line.
 pub fn is_straight(a: DVec3, b: DVec3) -> bool {
     -a.dot(b) > SAME_DIRECTION
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Edges that may be sharp or not of a coarse shaft so long, with a chamfer of 45 degrees so wide at one end.
+    fn doubtful(length: f64, chamfer: f64) -> usize {
+        const SIDES: u32 = 13;
+        // Half a side between the ends, so that all facets are single triangles.
+        let rings = [
+            (1.0, 0.0, 0.0),
+            (1.0, length, 0.5),
+            (1.0 - chamfer, length + chamfer, 0.0),
+        ];
+        let ring = |&(radius, height, phase): &(f64, f64, f64)| {
+            (0..SIDES).map(move |i| {
+                let (s, c) = libm::sincos(TAU * (f64::from(i) + phase) / f64::from(SIDES));
+                DVec3::new(radius * c, radius * s, height)
+            })
+        };
+        let vertices: Vec<DVec3> = rings.iter().flat_map(ring).collect();
+        let band = |k: u32, shift: u32| {
+            (0..SIDES).flat_map(move |i| {
+                let [low, high] = [SIDES * k, SIDES * (k + 1)];
+                let next = (i + 1) % SIDES;
+                let beyond = (i + shift) % SIDES;
+                [
+                    [low + i, low + next, high + beyond],
+                    [low + next, high + (beyond + 1) % SIDES, high + beyond],
+                ]
+            })
+        };
+        let triangles: Vec<[u32; 3]> = band(0, 0).chain(band(1, 1)).collect();
+        let normal = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| vertices[v as usize]);
+            double_area_vector(a, b, c).normalize()
+        };
+        let normals: Vec<DVec3> = triangles.iter().map(normal).collect();
+        let facets = Facets::new(&vertices, &triangles, &normals);
+        facets.doubtful(&facets.folds()).len()
+    }
+
+    #[test]
+    fn a_long_facet_is_not_bent_by_a_chamfer() {
+        assert_eq!(doubtful(20.0, 0.2), 0);
+        assert!(doubtful(0.3, 0.2) >= 13);
+    }
 }
