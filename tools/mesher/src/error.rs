@@ -92,8 +92,8 @@ pub enum Error {
         /// What to try.
         advice: &'static str,
     },
-    /// The mesher delivered something that does not fit its input.
-    #[error("TetGen's mesh of template {template} is unusable: {what}; {ADVICE}")]
+    /// What the mesher delivered, or became of it, does not fit its input.
+    #[error("the mesh of template {template} is unusable: {what}; {ADVICE}")]
     Unusable {
         /// Template index.
         template: usize,

@@ -7,7 +7,7 @@ use crate::shape::moments::Moments;
 use crate::shape::motion::Target;
 use crate::shape::regions::Permutation;
 use crate::shape::samples::Samples;
-use crate::shape::smooth::{SmoothSurface, Told};
+use crate::shape::smooth::{BENT, SmoothSurface, Told};
 use crate::shape::trees::{Part, Trees};
 use crate::threads::both;
 use crate::tolerance::{ARITHMETIC, ROUNDINGS};
@@ -159,16 +159,21 @@ impl Shape {
         part.answer(part.tree.near_enough(image, within, enough))
     }
 
-    /// The nearest point of the surface to the image of a triangle, whose normal is given, where it faces as that does: of
-    /// solids that touch, each has triangles of its own there.
+    /// The nearest point of the surface to the image of a triangle, whose normal is given, where it faces as that does, up to
+    /// the angle between facets of one surface: of solids that touch, each has triangles of its own there. Within the limit
+    /// of the shape behind the facets, or of the facets themselves.
     pub fn nearest_alike(
         &self,
         (image, normal): (DVec3, DVec3),
         triangle: u32,
-        within: f64,
+        (limit, is_behind): (f64, bool),
     ) -> Option<Nearest> {
-        let part = self.drawn.part(&self.interfaces, triangle, &Target::Any)?;
-        let alike = |t| self.faces_like(part.triangle(t), (normal, triangle));
+        let target = &Target::Any;
+        let (part, within) = match is_behind {
+            true => self.part_behind(triangle, target, limit)?,
+            false => (self.drawn.part(&self.interfaces, triangle, target)?, limit),
+        };
+        let alike = |t| self.faces_within(part.triangle(t), (normal, triangle), BENT);
         part.answer(part.tree.nearest_of(image, within, alike))
     }
 
@@ -217,11 +222,16 @@ impl Shape {
 
     /// Whether a triangle faces where the image of another one does, whose normal then is given: where there is material on
     /// one side only, that is where it is in the image.
-    pub fn faces_like(&self, t: u32, (normal, triangle): (DVec3, u32)) -> bool {
+    pub fn faces_like(&self, t: u32, image: (DVec3, u32)) -> bool {
+        self.faces_within(t, image, SMOOTH_COSINE)
+    }
+
+    /// The same up to an angle with this cosine.
+    fn faces_within(&self, t: u32, (normal, triangle): (DVec3, u32), least: f64) -> bool {
         let cosine = self.normals[t as usize].dot(normal);
         match self.interfaces.sign(t as usize) * self.interfaces.sign(triangle as usize) {
-            0.0 => cosine.abs() >= SMOOTH_COSINE,
-            sign => sign * cosine >= SMOOTH_COSINE,
+            0.0 => cosine.abs() >= least,
+            sign => sign * cosine >= least,
         }
     }
 

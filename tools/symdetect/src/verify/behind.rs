@@ -47,20 +47,6 @@ impl Shape {
         }
     }
 
-    /// The same of triangles that face as the image of one does, whatever their regions.
-    pub fn near_alike(
-        &self,
-        (image, normal): (DVec3, DVec3),
-        triangle: u32,
-        bound: Bound,
-    ) -> Option<Nearest> {
-        let limit = bound.limit;
-        match bound.facets {
-            true => self.nearest_behind((image, Some(normal)), triangle, &Target::Any, limit),
-            false => self.nearest_alike((image, normal), triangle, limit),
-        }
-    }
-
     /// Whether the shapes that the facets stand for agree within a bound where the image of a sample is near a point
     /// of the surface.
     pub fn facets_explain(

@@ -21,7 +21,8 @@ impl Shape {
             let from = sample.triangle as usize;
             let normal = motion.linear * self.normals[from];
             let image = (motion.apply(sample.point), normal);
-            let Some(hit) = self.near_alike(image, sample.triangle, bound) else {
+            let within = (bound.limit, bound.facets);
+            let Some(hit) = self.nearest_alike(image, sample.triangle, within) else {
                 continue;
             };
             let to = hit.triangle as usize;

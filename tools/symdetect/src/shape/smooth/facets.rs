@@ -45,8 +45,8 @@ pub struct Fold {
 }
 
 impl Fold {
-    /// Whether one of the facets is no more than twice as wide as the one beyond the fold: what is wider is no facet of the
-    /// same curve.
+    /// Whether a facet, the first or the second, is no more than twice as wide as the one beyond the fold: what is wider is no
+    /// facet of the same curve.
     pub fn is_like(&self, i: usize) -> bool {
         self.widths[i] <= 2.0 * self.widths[1 - i]
     }
@@ -118,7 +118,8 @@ impl<'a> Facets<'a> {
         smooth.filter_map(|e| self.fold(e)).collect()
     }
 
-    /// The edges beside these folds that may be sharp or not: between facets of curved faces, up to [`BENT`].
+    /// The edges beside these folds that may be sharp or not: between facets of curved faces that are about as wide, up to
+    /// [`BENT`].
     pub fn doubtful(&self, folds: &[Fold]) -> Vec<Fold> {
         let mut bends = vec![false; self.flats.count()];
         for flat in folds.iter().flat_map(|f| f.flats) {
@@ -134,9 +135,7 @@ impl<'a> Facets<'a> {
         };
         let edges = (0..self.edges.len()).filter(is_doubtful);
         let folds = edges.filter_map(|e| self.fold(e));
-        folds
-            .filter(|f| [0, 1].iter().all(|i| f.is_like(*i)))
-            .collect()
+        folds.filter(|f| f.is_like(0) && f.is_like(1)).collect()
     }
 
     fn fold(&self, edge: usize) -> Option<Fold> {

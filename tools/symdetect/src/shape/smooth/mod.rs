@@ -30,5 +30,6 @@ mod sharp;
 mod slack;
 mod surface;
 
+pub use facets::BENT;
 pub use fit::Told;
 pub use surface::SmoothSurface;
