@@ -6,7 +6,7 @@
 //! a discrete shape operator, Grinspun, Gingold, Reisman and Zorin, Computer Graphics Forum 25, 2006).
 //!
 //! Edges up to half a radian are smooth. Steeper ones, up to a sixth of a turn, may be sharp or not where both facets bend
-//! into others: inside of faces that are curved in two directions CAD kernels draw coarser than they are told. They are read
+//! into others and are about as wide: inside of faces that are curved in two directions CAD kernels draw coarser than they are told. They are read
 //! both ways, and the shape may be anywhere between the two readings.
 //!
 //! Where all that leaves a symmetry that the drawing does not have unexplained, the vertices around a facet are asked, too: they are on the
