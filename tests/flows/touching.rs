@@ -136,6 +136,28 @@ fn a_shaft_divided_in_rows_in_a_coarser_bore() {
     meshed(&solids);
 }
 
+/// Where solids share triangles, the curved face between them is read from either as it is from a solid by itself: circles of 26
+/// corners are round to the four pins on them, though a quarter of a turn takes corners between corners.
+#[test]
+fn facets_that_solids_share_are_of_curved_faces() {
+    let circle = |radius: f64| Circle {
+        radius,
+        corners: 26,
+        phase: 0.0,
+    };
+    let pin = |x: f64, y: f64| cuboid([x - 0.5, y - 0.5, 1.0], [x + 0.5, y + 0.5, 4.0]);
+    let pins = [(10.0, 0.0), (0.0, 10.0), (-10.0, 0.0), (0.0, -10.0)];
+    let pins = pins.into_iter().flat_map(|(x, y)| pin(x, y)).collect();
+    let heights = [-3.0, 1.0];
+    let solids = [
+        ("core", cylinder(circle(7.0), heights)),
+        ("ring", tube(circle(7.0), circle(12.0), heights)),
+        ("pins", pins),
+    ];
+    let found = run("symdetect", &[], &ascii_stl(&solids));
+    assert!(found.stderr.contains("C4v about"), "{}", found.stderr);
+}
+
 /// A wedge that touches the axis along an edge only, whose surface is kept with the lengths asked for: vertices that divide this
 /// edge belong to all copies, which had one of their own each.
 #[test]

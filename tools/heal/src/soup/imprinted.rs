@@ -347,7 +347,8 @@ fn joined(
     }
 }
 
-/// The solids as they are drawn, none where triangles of one are not oriented alike.
+/// The solids as they are drawn, each with vertices of its own, so that at an edge only triangles of one meet; none where
+/// triangles of one are not oriented alike.
 fn drawn(surface: &Surface) -> Option<Template> {
     let edges = Edges::new(&surface.triangles);
     let solid = |u: &EdgeUse| surface.solid[u.triangle as usize];
@@ -365,21 +366,32 @@ fn drawn(surface: &Surface) -> Option<Template> {
         let [a, b, c] = surface.corners(t);
         volumes[solid as usize] += tet_volume(origin, a, b, c);
     }
+    let mut vertices = Vec::new();
+    let mut own = FxHashMap::default();
+    let mut own_vertex = |solid: u32, v: u32| {
+        *own.entry((solid, v)).or_insert_with(|| {
+            vertices.push(surface.points[v as usize]);
+            vertices.len() as u32 - 1
+        })
+    };
     let triangles = surface.triangles.iter().zip(&surface.solid);
-    let outwards = triangles.map(|(&[a, b, c], &solid)| Triangle {
-        vertices: if volumes[solid as usize] < 0.0 {
-            [a, c, b]
-        } else {
-            [a, b, c]
-        },
-        marker: 0,
-        front: OUTSIDE,
-        // Regions are numbered as solids are, from 1.
-        back: solid + 1,
+    let outwards = triangles.map(|(corners, &solid)| {
+        let [a, b, c] = corners.map(|v| own_vertex(solid, v));
+        Triangle {
+            vertices: if volumes[solid as usize] < 0.0 {
+                [a, c, b]
+            } else {
+                [a, b, c]
+            },
+            marker: 0,
+            front: OUTSIDE,
+            // Regions are numbered as solids are, from 1.
+            back: solid + 1,
+        }
     });
     Some(Template {
         triangles: outwards.collect(),
-        vertices: surface.points.clone(),
+        vertices,
         ..Template::default()
     })
 }
