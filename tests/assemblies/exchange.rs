@@ -99,6 +99,10 @@ fn balls_and_phases_that_are_regions_each_are_one_orbit() {
     });
     let (found, report, said) = detect(&body, &[]);
     assert_eq!(report["group"], "D12h");
+    // How far other orders are off is measured wherever regions are.
+    let rejected = report["rejected"].as_array().expect("orders");
+    let off = |r: &Value| r["residual"].as_f64().expect("a number");
+    assert!(!rejected.is_empty() && rejected.iter().all(|r| off(r) > 1e-3 && off(r) < 0.2));
     let orbits: Vec<Vec<u32>> = vec![(2..=4).collect(), (5..=16).collect()];
     assert_eq!(report["exchanged_regions"], json!(orbits));
     // The mirror plane across the axis keeps all.

@@ -69,7 +69,8 @@ impl Query<'_> {
     fn off(&self, frame: &Frame, order: u32, count: usize, most: f64) -> Deviation {
         let shape = self.shape;
         if order > 1 {
-            return shape.deviation_measured(frame, order, count, most);
+            let tolerance = self.params.tolerance * shape.radius(frame);
+            return shape.deviation_measured(frame, order, count, (tolerance, most));
         }
         let samples = &shape.samples.mixed;
         let operation = Operation::new(frame, Isometry::FLIP, shape.target_in_place());
@@ -95,8 +96,10 @@ impl Query<'_> {
         let directions = directions.iter().take(FIRST_DIRECTIONS);
         let measured = directions.filter_map(|&d| {
             let frame = self.frame_along(d)?;
-            let deviation = shape.deviation_measured(&frame, order, 2 * QUICK, f64::MAX);
-            let residual = deviation.value / self.radius_about(&frame);
+            let radius = self.radius_about(&frame);
+            let within = (self.params.tolerance * radius, f64::MAX);
+            let deviation = shape.deviation_measured(&frame, order, 2 * QUICK, within);
+            let residual = deviation.value / radius;
             Some((residual, deviation, frame))
         });
         let best = measured.min_by(|a, b| a.0.total_cmp(&b.0));

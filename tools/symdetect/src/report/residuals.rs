@@ -33,7 +33,8 @@ impl Query<'_> {
 
     /// Deviation under an order, relative to the radius; at most 1.
     fn residual(&self, frame: &Frame, radius: f64, order: u32, tests: usize) -> f64 {
-        let measured = (self.shape).deviation_measured(frame, order, tests, radius);
+        let within = (self.params.tolerance * radius, radius);
+        let measured = (self.shape).deviation_measured(frame, order, tests, within);
         measured.value.min(radius) / radius
     }
 
