@@ -158,6 +158,53 @@ fn facets_that_solids_share_are_of_curved_faces() {
     assert!(found.stderr.contains("C4v about"), "{}", found.stderr);
 }
 
+/// Facets turned about z and then x, moved, and rounded to so many significant digits.
+fn printed(facets: Vec<Facet>, [about_z, about_x]: [f64; 2], digits: usize) -> Vec<Facet> {
+    let ([s, c], [t, d]) = (
+        [about_z.sin(), about_z.cos()],
+        [about_x.sin(), about_x.cos()],
+    );
+    let place = |[x, y, z]: [f64; 3]| {
+        let (y, z) = (d * y - t * z, t * y + d * z);
+        [c * x - s * y + 20.0, s * x + c * y - 30.0, z + 10.0].map(|x| {
+            let text = format!("{x:.0$e}", digits - 1);
+            text.parse::<f64>().expect("a number")
+        })
+    };
+    facets.into_iter().map(|f| f.map(place)).collect()
+}
+
+/// Where no more is known of coordinates than the six digits that are printed of them, faces that touch cross by what was rounded
+/// away.
+#[test]
+fn solids_that_touch_as_far_as_digits_are_printed() {
+    let circle = |radius: f64| Circle {
+        radius,
+        corners: 26,
+        phase: 0.0,
+    };
+    for step in [2.0, 3.0, 6.0] {
+        let placed = |facets| printed(facets, [0.7 * step, 0.4 * step], 6);
+        let solids = [
+            ("core", placed(cylinder(circle(7.0), [-6.0, 4.0]))),
+            ("ring", placed(tube(circle(7.0), circle(12.0), [-3.0, 1.0]))),
+            ("plate", placed(tube(circle(7.0), circle(14.0), [1.0, 2.0]))),
+        ];
+        let found = run("symdetect", &[], &ascii_stl(&solids));
+        let says = |what: &str| assert!(found.stderr.contains(what), "{}", found.stderr);
+        says("no more is known of coordinates than the digits that are printed of them");
+        says("C26v about");
+        let [core, ring, plate] = [7.0, 12.0, 14.0].map(|r| circle(r).area());
+        let exact = [10.0 * core, 4.0 * (ring - core), plate - core];
+        for ((name, volume), exact) in meshed(&solids).into_iter().zip(exact) {
+            assert!(
+                (volume / exact - 1.0).abs() < 1e-4,
+                "{name}: {volume} for {exact}"
+            );
+        }
+    }
+}
+
 /// A wedge that touches the axis along an edge only, whose surface is kept with the lengths asked for: vertices that divide this
 /// edge belong to all copies, which had one of their own each.
 #[test]

@@ -17,6 +17,8 @@ pub struct Soup {
     pub group_word: &'static str,
     /// Largest error of a coordinate relative to the largest one.
     pub relative_precision: f64,
+    /// The same if a text has no more of its numbers than the digits that it prints; zero where it has all of them.
+    pub printed_precision: f64,
     /// What the user should know about the file.
     pub notices: Vec<String>,
 }

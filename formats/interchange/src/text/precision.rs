@@ -54,9 +54,39 @@ impl TextPrecision {
             (0.5 * unit(self.digits)).max(DOUBLE)
         }
     }
+
+    /// The same if numbers were rounded to the most digits that any of them is printed with, which those of a drawing with
+    /// round numbers are not.
+    pub fn printed(&self) -> f64 {
+        match self.digits {
+            0 => self.relative(),
+            digits => self.relative().max(0.5 * unit(digits)),
+        }
+    }
 }
 
 /// One unit in the last of so many significant decimal digits, relative to the number at most.
 fn unit(digits: u32) -> f64 {
     10.0_f64.powi(1 - digits as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_digits_that_are_printed_may_be_all_that_is_known() {
+        let of = |words: &[&str]| {
+            let mut precision = TextPrecision::default();
+            for word in words {
+                precision.note(word.as_bytes(), word.parse().expect("a number"));
+            }
+            (precision.relative(), precision.printed())
+        };
+        assert_eq!(of(&["1.23457", "12.5", "0"]), (SINGLE, 5e-6));
+        assert_eq!(of(&["1.23456789", "-0.5"]), (SINGLE, SINGLE));
+        let double = of(&["0.123456789012"]);
+        assert_eq!(double.0, double.1);
+        assert_eq!(of(&[]), (SINGLE, SINGLE));
+    }
 }

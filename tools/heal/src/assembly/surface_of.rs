@@ -55,7 +55,7 @@ pub fn surface_of(
     } else {
         0.0
     };
-    let mut mending = Mending::new(surface, relative.max(f64::EPSILON));
+    let mut mending = Mending::new(surface, [relative.max(f64::EPSILON), 0.0]);
     if solids == Solids::Whole {
         mending.unite()?;
     }

@@ -1,13 +1,13 @@
 //! From polygons in groups to a document.
 
-use super::imprinted::{imprinted, touching};
+use super::imprinted::{Unjoined, imprinted, touching};
 use super::mended::Mended;
 use super::mending::Mending;
 use super::solids::{label, tables};
 use super::surface::{NONE, Surface};
 use super::weld;
 use crate::document::{Imported, check_scale, document, tolerance};
-use crate::words::unique_names;
+use crate::words::{short, unique_names};
 use crate::{HealError, Repair, Repairing};
 use interchange::parsed::Soup;
 
@@ -25,6 +25,14 @@ pub fn build(soup: Soup, format: &str, repairing: Repairing) -> Result<Imported,
     label_mended(mend(soup, Solids::Groups, repairing)?, format, repairing)
 }
 
+/// What the precision is multiplied by where solids cannot be joined within it, as long as what is printed of the numbers explains more. A
+/// choice: no wider than what does by much, in a handful of steps.
+const WIDER: f64 = 8.0;
+
+/// Precision, relative to the largest coordinate, beyond which nothing is taken for rounding: what is nearer than sixteen times that is
+/// one, and the default tolerance of a symmetry is a thousandth.
+const LEAST_PRECISE: f64 = 1e-3 / 16.0;
+
 /// What the solids of a soup are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solids {
@@ -40,8 +48,8 @@ pub enum Solids {
 /// Surfaces that stay open; with [`Repairing::Off`], surfaces that have triangles to be dropped.
 pub fn mend(mut soup: Soup, solids: Solids, repairing: Repairing) -> Result<Mended, HealError> {
     let mut notices = std::mem::take(&mut soup.notices);
-    let relative_precision = soup.relative_precision;
-    let mut mending = Mending::new(welded(soup)?, relative_precision);
+    let precision = [soup.relative_precision, soup.printed_precision];
+    let mut mending = Mending::new(welded(soup)?, precision);
     mending.drop_collapsed()?;
     mending.merge(false)?;
     if repairing != Repairing::Off {
@@ -84,7 +92,8 @@ pub fn label_mended(
         surface,
         edges,
         repairs,
-        relative_precision,
+        mut relative_precision,
+        printed_precision,
         ..
     } = mending;
     let apart = apart.as_ref().unwrap_or(&surface);
@@ -104,7 +113,23 @@ pub fn label_mended(
             // Of several solids, another surface was labelled.
             let known = told.as_ref().ok().and_then(|labels| labels.met.as_ref());
             let known = known.filter(|_| !several);
-            match imprinted(apart, &tolerance, contacts, known) {
+            let mut made = imprinted(apart, &tolerance, contacts, known);
+            let mut wider = relative_precision;
+            let most = printed_precision.min(LEAST_PRECISE);
+            while made.as_ref().is_err_and(|e| e.may_be_rounding) && wider < most {
+                wider = (WIDER * wider).min(most);
+                let tolerance = self::tolerance(&apart.points, wider);
+                let Ok(again) = imprinted(apart, &tolerance, contacts, None) else {
+                    continue;
+                };
+                notices.push(format!(
+                    "no more is known of coordinates than the digits that are printed of them: what is nearer than {} is taken for one",
+                    short(tolerance.equal())
+                ));
+                relative_precision = wider;
+                made = Ok(again);
+            }
+            match made {
                 Ok(imprinted) if imprinted.is_slight && told.is_ok() => (surface, told?),
                 // What is drawn is a body as it is, and what looked like a contact is none; but where solids touch in edges or
                 // vertices alone, these are divided.
@@ -120,7 +145,7 @@ pub fn label_mended(
                     joined = Some(imprinted.joined);
                     (imprinted.surface, imprinted.labels)
                 }
-                Err(reason) => match told {
+                Err(Unjoined { reason, .. }) => match told {
                     Ok(mut labels) => {
                         labels.notices.push(reason);
                         (surface, labels)

@@ -29,19 +29,36 @@ pub struct Imprinted {
     pub is_slight: bool,
 }
 
+/// Why solids are no one complex.
+pub struct Unjoined {
+    /// For the end of a sentence.
+    pub reason: String,
+    /// Whether coordinates that are known less well than was thought may be why.
+    pub may_be_rounding: bool,
+}
+
+impl Unjoined {
+    fn by_rounding(reason: String) -> Self {
+        Self {
+            reason,
+            may_be_rounding: true,
+        }
+    }
+}
+
 /// Makes one complex of the triangles of all solids. Where what touches within facets cannot be joined, as it overlaps by
 /// more elsewhere, where nothing would be left of a solid that is thinner than facets explain, or where solids claim more of each other's
 /// space once they are joined than before, so that what looked like a contact is none, faces are divided where they cross; not
 /// where the gap was asked for. What meets of different faces may be `known`.
 ///
 /// # Errors
-/// Why that is not possible, for the end of a sentence.
+/// Why that is not possible.
 pub fn imprinted(
     surface: &Surface,
     tolerance: &Tolerance,
     contacts: Contacts,
     known: Option<&Met>,
-) -> Result<Imprinted, String> {
+) -> Result<Imprinted, Unjoined> {
     let mut complex = complex_of(surface, tolerance);
     let crossing = Crossing::of(surface, &complex, known);
     complex.break_up(&crossing.folded);
@@ -87,7 +104,7 @@ fn attempt(
     tolerance: &Tolerance,
     contacts: Contacts,
     crossing: &Crossing,
-) -> Result<Imprinted, String> {
+) -> Result<Imprinted, Unjoined> {
     let solid = &surface.solid;
     let (crosses_itself, meeting) = (&crossing.solids, crossing.pairs.as_slice());
     let overlay = overlay(complex, (solid, meeting), tolerance.equal(), contacts.gap);
@@ -98,14 +115,15 @@ fn attempt(
     };
     if let Some(first) = met.lowest {
         let (one, many) = ("pair of triangles is left", "pairs of triangles are left");
-        return Err(format!(
+        return Err(Unjoined::by_rounding(format!(
             "they could not be made one complex: {} that cross, the first at {}",
             counted(met.count, one, many),
             place(first.point)
-        ));
+        )));
     }
     let Some(settled) = settle(complex, solid, crosses_itself, contacts.overlap) else {
-        return Err("what is inside them cannot be told".to_owned());
+        let reason = "what is inside them cannot be told";
+        return Err(Unjoined::by_rounding(reason.to_owned()));
     };
     if contacts.overlap == Overlap::Refuse
         && let Some(first) = settled
@@ -113,12 +131,16 @@ fn attempt(
             .iter()
             .find(|c| !c.nested && c.thickness > tolerance.equal())
     {
-        return Err(format!(
+        let reason = format!(
             "{} and {} overlap by a volume of {}, which --overlap refuse does not allow",
             surface.solid_name(first.loser.min(first.winner)),
             surface.solid_name(first.loser.max(first.winner)),
             short(first.volume)
-        ));
+        );
+        return Err(Unjoined {
+            reason,
+            may_be_rounding: false,
+        });
     }
     let mut joined = joined(
         surface,

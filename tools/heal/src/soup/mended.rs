@@ -29,15 +29,19 @@ pub fn join(parts: Vec<Mended>) -> Mended {
         group_word: "region",
     };
     let (mut notices, mut repairs) = (Vec::new(), Vec::<Repair>::new());
-    let mut precision: f64 = 0.0;
+    let mut precision = [0.0_f64; 2];
     for part in parts {
         let Mending {
             surface,
             repairs: done,
             relative_precision,
+            printed_precision,
             ..
         } = part.mending;
-        precision = precision.max(relative_precision * largest_coordinate(&surface.points));
+        let largest = largest_coordinate(&surface.points);
+        for (most, of_part) in (precision.iter_mut()).zip([relative_precision, printed_precision]) {
+            *most = most.max(of_part * largest);
+        }
         let [point, group, solid] =
             [whole.points.len(), whole.groups.len(), whole.solids.len()].map(|n| n as u32);
         let triangles = surface.triangles.iter();
@@ -66,12 +70,11 @@ pub fn join(parts: Vec<Mended>) -> Mended {
     whole.partner = vec![NONE; whole.triangles.len()];
     whole.source = (0..whole.triangles.len() as u32).collect();
     let largest = largest_coordinate(&whole.points);
-    let relative = if largest > 0.0 {
-        precision / largest
-    } else {
-        0.0
+    let relative = |precision: f64| match largest > 0.0 {
+        true => precision / largest,
+        false => 0.0,
     };
-    let mut mending = Mending::new(whole, relative);
+    let mut mending = Mending::new(whole, precision.map(relative));
     mending.repairs = repairs;
     Mended { mending, notices }
 }

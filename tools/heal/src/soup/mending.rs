@@ -23,11 +23,14 @@ pub struct Mending {
     pub repairs: Vec<Repair>,
     /// Largest error of a coordinate relative to the largest one.
     pub relative_precision: f64,
+    /// The same if there is no more of the numbers than what is printed of them.
+    pub printed_precision: f64,
 }
 
 impl Mending {
-    /// Nothing is mended yet.
-    pub fn new(surface: Surface, relative_precision: f64) -> Self {
+    /// Nothing is mended yet. `precision` is the largest error of a coordinate relative to the largest one, and the same if there
+    /// is no more of the numbers than what is printed of them.
+    pub fn new(surface: Surface, [relative_precision, printed_precision]: [f64; 2]) -> Self {
         let edges = Edges::new(&surface.triangles);
         Self {
             odd: odd_edges(&edges),
@@ -35,6 +38,7 @@ impl Mending {
             edges,
             repairs: Vec::new(),
             relative_precision,
+            printed_precision,
         }
     }
 

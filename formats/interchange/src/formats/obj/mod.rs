@@ -94,6 +94,7 @@ pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
         }
     }
     soup.relative_precision = lines.precision.relative();
+    soup.printed_precision = lines.precision.printed();
     Ok(Parsed::Soup(soup))
 }
 

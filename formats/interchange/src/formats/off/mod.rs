@@ -76,5 +76,6 @@ pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
         tokens.rest_of_line();
     }
     soup.relative_precision = tokens.precision().relative();
+    soup.printed_precision = tokens.precision().printed();
     Ok(Parsed::Soup(soup))
 }

@@ -78,6 +78,9 @@ pub fn read(bytes: &[u8]) -> Result<Parsed, ReadError> {
         _ if position.double => DOUBLE,
         _ => SINGLE,
     };
+    if encoding == Encoding::Ascii {
+        soup.printed_precision = values.tokens.precision().printed();
+    }
     Ok(Parsed::Soup(soup))
 }
 

@@ -186,6 +186,7 @@ fn read_ascii(bytes: &[u8]) -> Result<Soup, ReadError> {
     soup.points = corners.points;
     soup.faces = Faces::Triangles(triangles);
     soup.relative_precision = tokens.precision().relative();
+    soup.printed_precision = tokens.precision().printed();
     Ok(soup)
 }
 
