@@ -17,7 +17,7 @@ pub struct Soup {
     pub group_word: &'static str,
     /// Largest error of a coordinate relative to the largest one.
     pub relative_precision: f64,
-    /// The same if a text has no more of its numbers than the digits that it prints; zero where it has all of them.
+    /// The same if a text has no more of its numbers than the digits that it prints; zero where that is not told.
     pub printed_precision: f64,
     /// What the user should know about the file.
     pub notices: Vec<String>,

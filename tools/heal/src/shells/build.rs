@@ -129,6 +129,7 @@ fn as_solids(
         group_word: "surface",
         points: shells.points,
         relative_precision: shells.relative_precision,
+        // Meshes of other programs, whose solids share triangles.
         printed_precision: 0.0,
         notices: shells.notices,
     };

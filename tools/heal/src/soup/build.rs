@@ -1,11 +1,12 @@
 //! From polygons in groups to a document.
 
-use super::imprinted::{Unjoined, imprinted, touching};
+use super::imprinted::{Imprinted, Unjoined, imprinted, touching};
 use super::mended::Mended;
 use super::mending::Mending;
 use super::solids::{label, tables};
 use super::surface::{NONE, Surface};
 use super::weld;
+use crate::contacts::Contacts;
 use crate::document::{Imported, check_scale, document, tolerance};
 use crate::words::{short, unique_names};
 use crate::{HealError, Repair, Repairing};
@@ -114,17 +115,16 @@ pub fn label_mended(
             let known = told.as_ref().ok().and_then(|labels| labels.met.as_ref());
             let known = known.filter(|_| !several);
             let mut made = imprinted(apart, &tolerance, contacts, known);
-            let mut wider = relative_precision;
-            let most = printed_precision.min(LEAST_PRECISE);
-            while made.as_ref().is_err_and(|e| e.may_be_rounding) && wider < most {
-                wider = (WIDER * wider).min(most);
-                let tolerance = self::tolerance(&apart.points, wider);
-                let Ok(again) = imprinted(apart, &tolerance, contacts, None) else {
-                    continue;
-                };
+            // What is sound as it is stays so.
+            if told.is_err()
+                && made.as_ref().is_err_and(|e| e.may_be_rounding)
+                && let Some((wider, again)) =
+                    as_printed(apart, [relative_precision, printed_precision], contacts)
+            {
+                let equal = self::tolerance(&apart.points, wider).equal();
                 notices.push(format!(
                     "no more is known of coordinates than the digits that are printed of them: what is nearer than {} is taken for one",
-                    short(tolerance.equal())
+                    short(equal)
                 ));
                 relative_precision = wider;
                 made = Ok(again);
@@ -170,6 +170,24 @@ pub fn label_mended(
     imported.joined = joined;
     imported.is_apart = is_apart;
     Ok(imported)
+}
+
+/// Solids that cannot be joined within the precision that coordinates seem to have, joined within the least that can be, no wider
+/// than what is printed of them explains; with that precision.
+fn as_printed(
+    surface: &Surface,
+    [mut precision, printed]: [f64; 2],
+    contacts: Contacts,
+) -> Option<(f64, Imprinted)> {
+    let most = printed.min(LEAST_PRECISE);
+    while precision < most {
+        precision = (WIDER * precision).min(most);
+        let tolerance = tolerance(&surface.points, precision);
+        if let Ok(imprinted) = imprinted(surface, &tolerance, contacts, None) {
+            return Some((precision, imprinted));
+        }
+    }
+    None
 }
 
 /// The triangles of a soup by distinct points, in groups that have triangles.
