@@ -104,6 +104,23 @@ fn the_edge_of_a_hub_follows_the_seam() {
     assert!(points < 1000, "{points}");
 }
 
+/// A seam between the blades whose wedge has needles between edges that stay features: remeshing does not take them away, and they were said to cost
+/// nothing.
+#[test]
+fn needles_between_features_count_against_a_seam() {
+    let dish = bodies::random_solid::solid(10_215_560);
+    let found = run("symdetect", &["-q"], &encode(&dish.body, dish.encoding)).success();
+    let options = "-v --domain rotation --seam auto --deviation 2.68e-4 --gradation 1.047 --feature-angle 5.497";
+    let options: Vec<&str> = options.split(' ').collect();
+    let cut = run("wedgecut", &options, &found);
+    let told = "between the blades is not taken";
+    assert!(cut.stderr.contains(told), "{}", cut.stderr);
+    let filled = run("tetwedge", &["-q"], &cut.success()).success();
+    let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+    let check = ["-q", "--check", "--fail-below", "min_dihedral_deg.min=15"];
+    run("meshqual", &check, &whole).success();
+}
+
 /// Where the wall of a hub passes a curved seam, both are on the surface: the edge of the cut is a chord of the seam there, and was left.
 #[test]
 fn corners_of_a_hub_lie_on_the_surface() {

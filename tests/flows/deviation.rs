@@ -229,6 +229,22 @@ fn no_triangles_of_noise_are_left() {
     }
 }
 
+/// A body that touches itself along the line that two of its wedge's walls meet at: edges there were never divided, and beside them others
+/// for ever, until a triangle was a millionth as high as long.
+#[test]
+fn edges_that_two_walls_meet_at_are_divided() {
+    let solid = bodies::random_solid::solid(10_215_535);
+    let found = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    let options =
+        "-q --deviation 4.11e-2 --edge-length 0.2864 --gradation 1.040 --feature-angle 8.498";
+    let options: Vec<&str> = options.split(' ').collect();
+    let wedge = run("wedgecut", &options, &found).success();
+    let filled = run("tetwedge", &["-q"], &wedge).success();
+    let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+    let check = ["-q", "--check", "--fail-below", "min_dihedral_deg.min=15"];
+    run("meshqual", &check, &whole).success();
+}
+
 /// A body whose parts touch in edges, of which remeshing makes a surface that crosses itself where facets are uneven, and cells that are both inside and outside:
 /// it is filled as it was cut then, whether a tool makes the surface by itself or not.
 #[test]

@@ -206,7 +206,7 @@ fn harm(body: &Document, wedge: &Document, volume: f64) -> f64 {
 impl Sample {
     fn estimate(&self, model: CostModel) -> Estimate {
         let size = edge_of_volume(self.volume);
-        let needles = estimate::needles(&self.body.templates[0], |_| size);
+        let needles = estimate::needles(&self.body.templates[0], |_| size, None);
         let wedge = Wedge::new(&self.probe.templates[0], 0, self.probe.instances.len());
         Estimate::new(model, &wedge, needles, |_| Some(self.volume), 1)
     }

@@ -10,8 +10,9 @@ use glam::DVec3;
 use tmesh::{Template, Triangle};
 
 /// Sum, over the triangles that are narrower than elements beside them, `size` in model units, and not part
-/// of a larger facet, of length over width less one: elements of the estimate.
-pub fn needles(body: &Template, size: impl Fn(&Triangle) -> f64) -> f64 {
+/// of a larger facet, of length over width less one: elements of the estimate. `feature`: where the surface is remeshed, the cosine of the angle
+/// at a feature edge; then a facet is what such edges and other faces leave together.
+pub fn needles(body: &Template, size: impl Fn(&Triangle) -> f64, feature: Option<f64>) -> f64 {
     let points = |t: usize| corners(&body.vertices, body.triangles[t]);
     let normals: Vec<DVec3> = (0..body.triangles.len())
         .map(|t| {
@@ -29,7 +30,9 @@ pub fn needles(body: &Template, size: impl Fn(&Triangle) -> f64) -> f64 {
         let [a, b] = ends.map(|v| body.vertices[v as usize]);
         let is_flat = matches!(around, [u, v] if {
             let [m, n] = [u, v].map(|u| normals[u.triangle as usize].normalize_or_zero());
-            m.dot(n).abs() > FLAT
+            let [s, t] = [u, v].map(|u| &body.triangles[u.triangle as usize]);
+            let is_alike = (s.marker, s.front, s.back) == (t.marker, t.front, t.back);
+            m.dot(n).abs() > FLAT || feature.is_some_and(|least| is_alike && m.dot(n) >= least)
         });
         for u in around {
             let t = u.triangle as usize;
@@ -74,10 +77,15 @@ mod tests {
     #[test]
     fn thin_triangles_count_unless_they_are_part_of_a_wider_facet() {
         let bent = body(DVec3::new(0.5, 0.0, 0.1));
-        assert!((needles(&bent, |_| 1.0) - 18.0).abs() < 1e-9);
+        assert!((needles(&bent, |_| 1.0, None) - 18.0).abs() < 1e-9);
         // Elements that are smaller anyway.
-        assert_eq!(needles(&bent, |_| 0.05), 0.0);
+        assert_eq!(needles(&bent, |_| 0.05, None), 0.0);
         let flat = body(DVec3::new(0.5, -0.1, 0.0));
-        assert_eq!(needles(&flat, |_| 1.0), 0.0);
+        assert_eq!(needles(&flat, |_| 1.0, None), 0.0);
+        // Remeshed, they are narrow where they meet at a feature.
+        let folded = body(DVec3::new(0.5, -0.1, 0.01));
+        assert!(needles(&folded, |_| 1.0, None) > 17.0);
+        assert_eq!(needles(&folded, |_| 1.0, Some(0.9)), 0.0);
+        assert!((needles(&bent, |_| 1.0, Some(0.9)) - 18.0).abs() < 1e-9);
     }
 }

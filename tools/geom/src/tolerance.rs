@@ -186,6 +186,14 @@ impl Tolerance {
             .max(2.0 * self.detail)
     }
 
+    /// The same for points of faces that a plane cuts at a small angle: what these are off across themselves is more along the plane, and
+    /// both points may be moved there as far as onto a plane.
+    pub fn partner_along(&self) -> f64 {
+        let slide = SLIDE * self.drift.max(self.equal());
+        self.partner()
+            .max(2.0 * slide.min(LARGEST_SLIDE * self.extent.radius))
+    }
+
     /// Edges shorter than this are collapsed; 0 for none.
     pub fn detail(&self) -> f64 {
         self.detail

@@ -131,12 +131,13 @@ impl Rules<'_> {
         self.spaces.get(label as usize).copied().unwrap_or(0)
     }
 
-    /// The point on all planes and lines of these bits, if one projection gets there: on a single one.
+    /// The point on all planes and lines of these bits, if one projection to each gets there: to planes that are upright to
+    /// each other, and at last to the line that planes meet at.
     pub fn put(&self, bound: u32, p: DVec3) -> Option<DVec3> {
-        match bound.count_ones() {
-            0 => Some(p),
-            1 => Some((self.onto)(bound.trailing_zeros(), p)),
-            _ => None,
-        }
+        let bits = (0..u32::BITS).filter(|bit| bound & 1 << bit != 0);
+        let place = bits.clone().fold(p, |p, bit| (self.onto)(bit, p));
+        let mut each = bits.map(|bit| (self.onto)(bit, place));
+        let is_there = each.all(|on| on.distance(place) <= self.flat);
+        is_there.then_some(place)
     }
 }

@@ -98,7 +98,7 @@ fn expected(shaped: &Shaped, index: usize, sizes: &Sizes, threads: usize) -> Opt
     // Remeshing leaves no needles of what surfaces are drawn with.
     let thin = match shaped.is_remeshed() {
         true => 0.0,
-        false => model.tetrahedra * needles(template, size),
+        false => model.tetrahedra * needles(template, size, None),
     };
     Some(IN_CUBE * share * wedges.elements(model) + thin)
 }

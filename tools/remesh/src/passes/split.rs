@@ -43,8 +43,10 @@ fn at(mesh: &mut Mesh<'_>, orbit: &Orbit, places: &[DVec3]) -> bool {
     true
 }
 
-/// Whether the middle of an edge is much nearer to a fold that stays than edges are to be long.
+/// Whether the middle of an edge is much nearer to a fold that stays than edges are to be long: halving edges beside it would go on until
+/// nothing is between.
 fn is_in_needle(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> bool {
+    let is_held = |side: [u32; 2]| side.iter().all(|&v| mesh.held[v as usize]);
     let near = BESIDE * 0.5 * (mesh.size[a as usize] + mesh.size[b as usize]);
     mesh.at_edge(a, b).iter().any(|&t| {
         let corners = mesh.triangles[t as usize];
@@ -54,7 +56,8 @@ fn is_in_needle(mesh: &Mesh<'_>, [a, b]: [u32; 2]) -> bool {
         apex.any(|apex| {
             [[a, apex], [b, apex]].into_iter().any(|side| {
                 let apart = 0.5 * area / mesh.length(side);
-                apart < near && apart * mesh.fold(side) > mesh.rules.deviation
+                let stays = is_held(side) || apart * mesh.fold(side) > mesh.rules.deviation;
+                apart < near && stays
             })
         })
     })

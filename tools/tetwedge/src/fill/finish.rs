@@ -4,6 +4,7 @@ use super::answer::{Origin, put_onto_relief};
 use super::filled::Filled;
 use super::measures::{volumes, walls};
 use super::orientations::orientations;
+use super::separation::separation;
 use geom::flat::FACE_FOLD_SINE;
 use geom::measure::corners;
 use glam::DVec3;
@@ -79,6 +80,8 @@ pub fn finish(
     let reach = climb.piece.document.frame.origin.length() + plc.extent;
     let template = &filled.template;
     orientations(template, origin.first_new, reach).map_err(unusable)?;
+    let diagonal = climb.piece.document.diagonal();
+    separation(template, climb.piece.index, diagonal).map_err(unusable)?;
     // What has slid was held against the input before.
     let surface = if filled.has_slid { template } else { input };
     volumes(surface, plc, template).map_err(unusable)?;

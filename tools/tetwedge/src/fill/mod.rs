@@ -6,6 +6,7 @@ mod finish;
 mod measures;
 mod orientations;
 mod preserved;
+mod separation;
 mod touching;
 mod walls;
 

@@ -53,7 +53,7 @@ pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> 
     // What gets edges of a length costs nothing, however narrow it is drawn.
     let needles = match body.takes_lengths() {
         true => 0.0,
-        false => estimate::needles(body.surface, body.element_size()),
+        false => estimate::needles(body.surface, body.element_size(), None),
     };
     let mut wedge = estimate::Wedge::new(&first.templates[0], 0, first.wedges);
     wedge.layers = f64::from(body.document.wishes.layers_across.unwrap_or(1));

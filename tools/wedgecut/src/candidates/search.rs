@@ -247,12 +247,12 @@ fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
         let counts = templates.map(|template| kit::sharp_edges(template, asked).len());
         counts.sum::<usize>()
     };
-    // What is remeshed costs nothing, however narrow it is drawn.
-    let is_kept = body.is_kept();
+    // Between features, what is remeshed costs nothing, however narrow it is drawn.
+    let feature = body.document.wishes.feature_angle().to_radians();
+    let feature = (!body.is_kept()).then(|| libm::cos(feature));
     let cost = |cut: &Cut| {
-        let needles = |t: &Template| estimate::needles(t, body.element_size());
-        let narrow = cut.templates.iter().map(needles).filter(|_| is_kept);
-        let narrow: f64 = narrow.sum();
+        let needles = |t: &Template| estimate::needles(t, body.element_size(), feature);
+        let narrow: f64 = cut.templates.iter().map(needles).sum();
         narrow + CostModel::CALIBRATED.sliced * cut.place.harm
     };
     let both = [&between, &planes];

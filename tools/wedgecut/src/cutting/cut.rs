@@ -338,6 +338,7 @@ impl Cutter<'_> {
                 join,
                 regions: &(self.regions)(join.step),
                 tolerance: self.tolerance.partner(),
+                along: self.tolerance.partner_along(),
                 frame: self.frame,
             };
             let matched = match_sections(surface, &matching)?;

@@ -7,7 +7,8 @@ use crate::error::CutError;
 use crate::section::{Chain, Piece, Section, chains};
 use crate::surface::Surface;
 use geom::grid::Grid;
-use glam::DVec2;
+use geom::measure::double_area_vector;
+use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use tmesh::{Frame, RegionMap};
 
@@ -59,6 +60,8 @@ pub struct Matching<'a> {
     pub regions: &'a RegionMap,
     /// Largest distance of a point from the other section, model units.
     pub tolerance: f64,
+    /// The same where that does not do but points are moved along faces: those that are cut at a small angle.
+    pub along: f64,
     /// Where the input is.
     pub frame: &'a Frame,
 }
@@ -74,7 +77,7 @@ impl Matching<'_> {
 
 /// Pairs the points of the two sections of a surface that are to be images of each other and moves each pair to its
 /// mean, the point here to the exact image of the one there. Points without partner are inserted into the other
-/// section.
+/// section. Where points are farther apart than the tolerance, none is moved across its faces by more than that.
 ///
 /// First the ends of chains are paired, then chains between them, then points along each chain.
 ///
@@ -82,7 +85,14 @@ impl Matching<'_> {
 /// Points that are farther from the other section; chains that have no counterpart; edges or regions
 /// that differ.
 pub fn match_sections(surface: &mut Surface, matching: &Matching<'_>) -> Result<Matched, CutError> {
-    let Matching { cell, join, .. } = *matching;
+    let mut matching = *matching;
+    let Matching {
+        cell,
+        join,
+        tolerance,
+        ..
+    } = matching;
+    let mut differ = None;
     let section = |part| {
         let piece = Piece {
             surface,
@@ -98,32 +108,38 @@ pub fn match_sections(surface: &mut Surface, matching: &Matching<'_>) -> Result<
         let (of_low, nodes_low) = chains(surface, cell, &low);
         let (of_high, nodes_high) = chains(surface, cell, &high);
         let mut matcher = Matcher {
-            matching,
+            matching: &matching,
             surface,
             low: &low,
             high: &high,
             partner: FxHashMap::default(),
             nodes: nodes_low.iter().chain(&nodes_high).copied().collect(),
         };
-        matcher.pair_nodes(&nodes_low, &nodes_high)?;
-        let paired = matcher.pair_chains(of_low, of_high)?;
-        let beginnings = matcher.beginnings(&paired)?;
-        if beginnings.is_empty() {
-            let (into_low, into_high) = matcher.align_all(&paired)?;
-            break (matcher.partner, into_low, into_high);
+        let found = matcher.find([&nodes_low, &nodes_high], [of_low, of_high]);
+        let partner = matcher.partner;
+        match found {
+            Err(error @ CutError::SectionsDiffer { .. }) if differ.is_none() => {
+                differ = Some(error);
+                matching.tolerance = matching.along;
+            }
+            Err(error) => return Err(differ.unwrap_or(error)),
+            Ok(Found::Beginnings(beginnings)) => {
+                inserted += beginnings.len();
+                insert(surface, cell, &mut high, &beginnings);
+            }
+            Ok(Found::All(into_low, into_high)) => break (partner, into_low, into_high),
         }
-        inserted += beginnings.len();
-        insert(surface, cell, &mut high, &beginnings);
     };
     inserted += into_low.len() + into_high.len();
     let new_high = insert(surface, cell, &mut high, &into_high);
     let new_low = insert(surface, cell, &mut low, &into_low);
     partner.extend(into_high.iter().map(|i| i.of).zip(new_high));
     partner.extend(new_low.into_iter().zip(into_low.iter().map(|i| i.of)));
-    check_edges(surface, matching, [&low, &high], &partner)?;
+    check_edges(surface, &matching, [&low, &high], &partner)?;
     let mut pairs: Vec<[u32; 2]> = partner.into_iter().map(|(v, w)| [v, w]).collect();
     pairs.sort_unstable();
     let mut moved = 0.0_f64;
+    let mut places: FxHashMap<u32, DVec3> = FxHashMap::default();
     for &[v, w] in &pairs {
         if v == w && matching.is_fixed(surface, v) {
             continue;
@@ -131,8 +147,16 @@ pub fn match_sections(surface: &mut Surface, matching: &Matching<'_>) -> Result<
         let (p, q) = (low.place(surface, cell, v), high.place(surface, cell, w));
         moved = moved.max(0.5 * p.distance(q));
         let p = join.there.at(&cell.faces, 0.5 * (p + q));
+        places.extend([(v, p), (w, join.step.apply(p))]);
+    }
+    if let Some(differ) = differ {
+        let across = across(surface, &places);
+        if across > tolerance {
+            return Err(differ);
+        }
+    }
+    for (v, p) in places {
         surface.points[v as usize] = p;
-        surface.points[w as usize] = join.step.apply(p);
     }
     Ok(Matched {
         pairs,
@@ -140,6 +164,27 @@ pub fn match_sections(surface: &mut Surface, matching: &Matching<'_>) -> Result<
         inserted,
         regions: matching.regions.clone(),
     })
+}
+
+/// How far points are from the planes of their faces at the places that they are moved to, at most; model units.
+fn across(surface: &Surface, places: &FxHashMap<u32, DVec3>) -> f64 {
+    let of_face = |corners: &[u32; 3]| {
+        let [a, b, c] = corners.map(|v| surface.points[v as usize]);
+        let normal = double_area_vector(a, b, c).normalize_or_zero();
+        let moved = corners.iter().zip([a, b, c]);
+        let off = moved.filter_map(|(v, p)| Some((*places.get(v)? - p).dot(normal).abs()));
+        off.fold(0.0, f64::max)
+    };
+    let faces = surface.faces.iter().map(|face| of_face(&face.vertices));
+    faces.fold(0.0, f64::max)
+}
+
+/// What the sections still need.
+enum Found {
+    /// Points of the second one that its closed curves begin at.
+    Beginnings(Vec<Insertion>),
+    /// Points that either has and the other one gets.
+    All(Vec<Insertion>, Vec<Insertion>),
 }
 
 /// Finds counterparts.
@@ -166,6 +211,22 @@ impl Matcher<'_> {
                 .frame
                 .to_world(self.surface.points[v as usize]),
         }
+    }
+
+    /// Pairs the points of both sections, given where chains end, and the chains.
+    fn find(
+        &mut self,
+        [nodes_low, nodes_high]: [&[u32]; 2],
+        [low, high]: [Vec<Chain>; 2],
+    ) -> Result<Found, CutError> {
+        self.pair_nodes(nodes_low, nodes_high)?;
+        let paired = self.pair_chains(low, high)?;
+        let beginnings = self.beginnings(&paired)?;
+        if !beginnings.is_empty() {
+            return Ok(Found::Beginnings(beginnings));
+        }
+        let (into_low, into_high) = self.align_all(&paired)?;
+        Ok(Found::All(into_low, into_high))
     }
 
     /// Pairs the points where chains end, those that are their own images with themselves.
