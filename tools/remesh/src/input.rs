@@ -63,7 +63,7 @@ pub struct Rules<'a> {
     /// element at the edge has a larger one, and no vertex is moved so that a corner of a facet gets sharper than that.
     pub sharp: f64,
     /// Whether all stays as it is drawn, unless some facets of curved patches are detail beside the edges wanted, and, where no lengths are
-    /// asked for, curved patches take less than a tenth of the triangles then.
+    /// asked for, curved patches take less than a third of the triangles then.
     pub exact: bool,
     /// How long edges are to be.
     pub sizes: Sizes<'a>,
