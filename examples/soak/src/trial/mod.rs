@@ -167,7 +167,11 @@ impl Laboratory {
             return Ok(verdict);
         }
         let report = report(folder, "symmetry.json")?;
-        let distance = surface::distance(subject, &folder.join(output), union::is_union(&report))?;
+        let distance = surface::distance(
+            subject,
+            &folder.join(output),
+            union::is_union(&report, subject.settled),
+        )?;
         let deviation = deviation + surface::moved(folder)?;
         Ok(verdict::of_distance(&report, deviation, &distance))
     }

@@ -33,6 +33,8 @@ pub struct Subject {
     pub symmetry: Symmetry,
     /// What regions have, in the order of the materials.
     pub regions: Vec<Claim>,
+    /// Whether that is so where solids overlap, too: otherwise they were not meant to.
+    pub settled: bool,
     /// Largest distance from the axis, or from the middle.
     pub radius: f64,
     /// Largest angle by which flat facets were bent, degrees.
@@ -119,6 +121,7 @@ impl From<Solid> for Subject {
                 mirrors: facts.group.has_vertical_mirrors(),
             },
             regions: (0..body.materials.len()).map(exact).collect(),
+            settled: false,
             radius: facts.radius,
             bent: 0.0,
             body,
@@ -149,6 +152,7 @@ impl From<Assembly> for Subject {
             description,
             symmetry: Symmetry::AtLeast(order),
             regions,
+            settled: true,
             radius: distances.fold(0.0, f64::max),
             bent: 0.0,
             body,

@@ -137,7 +137,7 @@ fn volumes(subject: &Subject, symmetry: &Value, quality: &Value, deviation: f64)
             volume: known,
             slack: facets,
         } = subject.regions[index];
-        let known = known - filled_twice(symmetry, name);
+        let known = known - filled_twice(symmetry, name, subject.settled);
         let moved = deviation * subject.radius * area(subject, index);
         let slack = slack + facets + moved;
         if (found - known).abs() > slack {
