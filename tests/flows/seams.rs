@@ -13,17 +13,6 @@ fn seam(template: &Template) -> &Gluing {
     seam.unwrap_or_else(|| panic!("{:?}", template.gluings))
 }
 
-/// A ring with noise whose faces are cut at a small angle where its wedge is to begin: their sections differ by more than the noise, along
-/// the cut.
-#[test]
-fn sections_of_faces_cut_at_a_small_angle_match() {
-    let ring = bodies::random_solid::solid(10_215_957);
-    let found = run("symdetect", &["-q"], &encode(&ring.body, ring.encoding)).success();
-    let options = ["-q", "--domain", "rotation", "--start-angle", "22.165"];
-    let wedge = run("wedgecut", &options, &found).success();
-    check_seam("ring", &read(&wedge));
-}
-
 /// Pairs equal under the rotation to the bit, all of both faces paired, axis vertices with
 /// themselves.
 fn check_seam(name: &str, document: &Document) {
@@ -130,6 +119,17 @@ fn impeller(order: u32, bore: f64) -> Body {
         ..Impeller::default()
     }
     .build()
+}
+
+/// A ring with noise whose faces are cut at a small angle where its wedge is to begin: their sections differ by more than the noise, along
+/// the cut.
+#[test]
+fn sections_of_faces_cut_at_a_small_angle_match() {
+    let ring = bodies::random_solid::solid(10_215_957);
+    let found = run("symdetect", &["-q"], &encode(&ring.body, ring.encoding)).success();
+    let options = ["-q", "--domain", "rotation", "--start-angle", "22.165"];
+    let wedge = run("wedgecut", &options, &found).success();
+    check_seam("ring", &read(&wedge));
 }
 
 proptest! {

@@ -92,6 +92,7 @@ pub fn match_sections(surface: &mut Surface, matching: &Matching<'_>) -> Result<
         tolerance,
         ..
     } = matching;
+    // What was wrong within the tolerance, once that is wider.
     let mut differ = None;
     let section = |part| {
         let piece = Piece {
