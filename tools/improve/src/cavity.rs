@@ -12,10 +12,12 @@ const ROOM: usize = 40;
 pub struct Cavity {
     /// The tetrahedra.
     pub old: Vec<u32>,
-    /// Faces that are filled from the vertex, seen from inside, with the tetrahedron inside.
-    pub hull: Vec<([u32; 3], u32)>,
+    /// Faces that are filled from the vertex, seen from inside.
+    pub hull: Vec<[u32; 3]>,
     /// Faces of the surface that the vertex is in.
     pub open: Vec<[u32; 3]>,
+    /// The smallest quality of what is filled from where the vertex starts.
+    pub least: f64,
 }
 
 impl Cavity {
@@ -28,51 +30,52 @@ impl Cavity {
         is_open: impl Fn([u32; 3]) -> bool,
     ) -> Option<Self> {
         let region = mesh.region(*old.first()?);
-        let mut hull: Vec<([u32; 3], u32)> = Vec::new();
-        let mut next = 0;
+        let mut hull = Hull::default();
         for &tet in &old {
-            wrap(mesh, (&mut hull, &mut next), tet);
+            hull.wrap(mesh, tet);
         }
         let mut open: Vec<[u32; 3]> = Vec::new();
-        while let Some(&(face, inside)) = hull.get(next) {
+        while let Some(face) = hull.next() {
             if is_open(face) {
                 open.push(face);
-                hull.remove(next);
+                hull.remove();
                 continue;
             }
-            let points = face.map(|v| mesh.positions[v as usize]);
-            let grade = mesh.of_points([points[0], points[1], points[2], start]);
-            if grade.quality > above {
-                next += 1;
+            let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+            let quality = mesh.of_points([a, b, c, start]).quality;
+            if quality > above {
+                hull.keep(quality);
                 continue;
             }
-            let other = beyond(mesh, face, inside)
+            let other = mesh
+                .beyond(face, hull.inside())
                 .filter(|&t| mesh.region(t) == region && !mesh.is_fixed_face(face))
                 .filter(|_| old.len() < ROOM);
             let Some(other) = other else {
                 // The vertex is moved later on.
-                if grade.quality <= HALF_DIGITS {
+                if quality <= HALF_DIGITS {
                     return None;
                 }
-                next += 1;
+                hull.keep(quality);
                 continue;
             };
             old.push(other);
-            wrap(mesh, (&mut hull, &mut next), other);
+            hull.wrap(mesh, other);
         }
-        let cavity = Self { old, hull, open };
+        let cavity = Self {
+            old,
+            least: hull.least(),
+            hull: hull.faces,
+            open,
+        };
         cavity.is_whole(mesh).then_some(cavity)
     }
 
     /// Whether all vertices stay, and all edges of triangles inside of the region.
     fn is_whole(&self, mesh: &Mesh<'_>) -> bool {
-        let kept = |v: &u32| self.hull.iter().any(|(face, _)| face.contains(v));
+        let kept = |v: &u32| self.hull.iter().any(|face| face.contains(v));
         let edge_kept = |a: u32, b: u32| {
-            !mesh.is_fixed_edge(a, b)
-                || self
-                    .hull
-                    .iter()
-                    .any(|(f, _)| f.contains(&a) && f.contains(&b))
+            !mesh.is_fixed_edge(a, b) || self.hull.iter().any(|f| f.contains(&a) && f.contains(&b))
         };
         self.old.iter().all(|&t| {
             let corners = mesh.corners(t);
@@ -84,33 +87,75 @@ impl Cavity {
     }
 }
 
-/// Adds a tetrahedron to what a hull is around: faces that both have in common are gone, the others are new ones. The place of the next
-/// face to look at stays that of the same one, or of the one after it.
-fn wrap(mesh: &Mesh<'_>, (hull, next): (&mut Vec<([u32; 3], u32)>, &mut usize), tet: u32) {
-    for (face, inside) in faces(mesh, tet) {
-        let same = |f: &([u32; 3], u32)| f.0.iter().all(|v| face.contains(v));
-        match hull.iter().position(same) {
-            Some(place) => {
-                hull.remove(place);
-                *next -= usize::from(place < *next);
+/// The faces around tetrahedra, seen from inside, while more of these are added. The first ones were looked at and kept.
+#[derive(Default)]
+struct Hull {
+    faces: Vec<[u32; 3]>,
+    /// The tetrahedron inside of each face.
+    insides: Vec<u32>,
+    /// The sum of the corners of each face: most faces are told from another by it.
+    sums: Vec<u32>,
+    /// What is filled from each face that was kept.
+    kept: Vec<f64>,
+}
+
+impl Hull {
+    /// The next face to look at.
+    fn next(&self) -> Option<[u32; 3]> {
+        self.faces.get(self.kept.len()).copied()
+    }
+
+    /// The tetrahedron inside of that face.
+    fn inside(&self) -> u32 {
+        self.insides[self.kept.len()]
+    }
+
+    /// Keeps that face, with the quality of what is filled from it.
+    fn keep(&mut self, quality: f64) {
+        self.kept.push(quality);
+    }
+
+    /// Takes that face out.
+    fn remove(&mut self) {
+        self.remove_at(self.kept.len());
+    }
+
+    /// Adds a tetrahedron to what the hull is around: faces that both have in common are gone, the others are new ones.
+    fn wrap(&mut self, mesh: &Mesh<'_>, tet: u32) {
+        for face in faces(mesh, tet) {
+            let [a, b, c] = face;
+            let sum = a.wrapping_add(b).wrapping_add(c);
+            let sums = self.sums.iter().zip(&self.faces);
+            let is_same =
+                |(&s, f): (&u32, &[u32; 3])| s == sum && f.iter().all(|v| face.contains(v));
+            match sums.map(is_same).position(|same| same) {
+                Some(place) => self.remove_at(place),
+                None => {
+                    self.faces.push(face);
+                    self.insides.push(tet);
+                    self.sums.push(sum);
+                }
             }
-            None => hull.push((face, inside)),
         }
+    }
+
+    fn remove_at(&mut self, place: usize) {
+        self.faces.remove(place);
+        self.insides.remove(place);
+        self.sums.remove(place);
+        if place < self.kept.len() {
+            self.kept.remove(place);
+        }
+    }
+
+    /// The smallest quality of what is filled from faces that were kept.
+    fn least(&self) -> f64 {
+        self.kept.iter().copied().fold(f64::INFINITY, f64::min)
     }
 }
 
 /// The faces of a tetrahedron, each positive with a vertex inside as the fourth.
-pub fn faces(mesh: &Mesh<'_>, tet: u32) -> impl Iterator<Item = ([u32; 3], u32)> + use<> {
+pub fn faces(mesh: &Mesh<'_>, tet: u32) -> [[u32; 3]; 4] {
     let corners = mesh.corners(tet);
-    FACES
-        .iter()
-        .map(move |&[i, j, k]| ([corners[i], corners[k], corners[j]], tet))
-}
-
-/// The tetrahedron on the other side of a face.
-fn beyond(mesh: &Mesh<'_>, face: [u32; 3], inside: u32) -> Option<u32> {
-    mesh.star(face[0]).iter().copied().find(|&t| {
-        let corners = mesh.corners(t);
-        t != inside && face.iter().all(|v| corners.contains(v))
-    })
+    FACES.map(|[i, j, k]| [corners[i], corners[k], corners[j]])
 }

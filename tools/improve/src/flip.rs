@@ -283,10 +283,7 @@ fn remove_face(mesh: &Mesh<'_>, tet: u32, top: u32, face: [u32; 3]) -> Option<Fl
         return None;
     }
     let region = mesh.region(tet);
-    let other = mesh.star(face[0]).iter().copied().find(|&t| {
-        let corners = mesh.corners(t);
-        t != tet && face.iter().all(|v| corners.contains(v))
-    });
+    let other = mesh.beyond(face, tet);
     let other = other.filter(|&t| mesh.region(t) == region)?;
     let apex = mesh.corners(other).into_iter().find(|v| !face.contains(v));
     let bottom = apex?;

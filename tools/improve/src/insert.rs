@@ -115,7 +115,8 @@ pub fn find(
     let corners = mesh.corners(tet);
     let points = corners.map(|v| mesh.positions[v as usize]);
     let inside = places(points).map(|p| (p, None));
-    let triangles = faces(mesh, tet).filter_map(|face| Support::triangle(mesh, freedoms, face));
+    let triangles = faces(mesh, tet).into_iter();
+    let triangles = triangles.filter_map(|face| Support::triangle(mesh, freedoms, (face, tet)));
     let edges = EDGES.iter().filter_map(|&[i, j]| {
         let ends = [corners[i], corners[j]];
         Support::edge(mesh, freedoms, ends)
@@ -178,13 +179,9 @@ fn place(
             grown(above).or_else(|| grown(HALF_DIGITS))?
         }
     };
-    let qualities = cavities.iter().flat_map(|cavity| cavity.hull.iter());
-    let qualities = qualities.map(|(face, _)| {
-        let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
-        mesh.of_points([a, b, c, start]).quality
-    });
+    let least = cavities.iter().map(|cavity| cavity.least);
     Some(Place {
-        least: qualities.fold(f64::INFINITY, f64::min),
+        least: least.fold(f64::INFINITY, f64::min),
         start,
         support,
         cavities,
@@ -210,7 +207,7 @@ fn fill(
     for cavity in &place.cavities {
         let (_, most) = mesh.bounds(&cavity.old, GAIN, HALF_DIGITS);
         let region = mesh.region(*cavity.old.first()?);
-        for &([a, b, c], _) in &cavity.hull {
+        for &[a, b, c] in &cavity.hull {
             star.add([a, b, c, vertex], region, most);
         }
     }

@@ -255,6 +255,16 @@ impl<'a> Mesh<'a> {
         ((worst + gain * worst.abs()).max(least), most)
     }
 
+    /// The tetrahedron on the other side of a face of one.
+    pub fn beyond(&self, face: [u32; 3], inside: u32) -> Option<u32> {
+        let stars = face.map(|v| self.star(v));
+        let fewest = stars.into_iter().min_by_key(|star| star.len())?;
+        fewest.iter().copied().find(|&t| {
+            let corners = self.corners(t);
+            t != inside && face.iter().all(|v| corners.contains(v))
+        })
+    }
+
     /// The number of a tetrahedron.
     pub fn number(&self, corners: Corners) -> Option<u32> {
         let at = self.star(corners[0]).iter().copied();

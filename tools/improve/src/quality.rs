@@ -137,8 +137,10 @@ impl Goal {
         let angle = six_volume / (steepest * self.tangent);
         let ratio =
             self.radius_edge * 2.0 * six_volume * (shortest / centre.length_squared()).sqrt();
+        let quality = self.quality(angle, ratio);
         Grade {
-            quality: self.quality(angle, ratio),
+            // Two corners may be in one place, and rounding leave a volume: it is flat then, and has no ratio.
+            quality: if quality.is_nan() { -1.0 } else { quality },
             six_volume,
         }
     }
@@ -268,5 +270,32 @@ mod tests {
         }
         assert!(signs[0] > 100 && signs[1] > 100);
         assert!(goal.grade([DVec3::ONE; 4]).quality < 0.0);
+    }
+
+    #[test]
+    fn corners_in_one_place_are_flat_whatever_rounding_leaves() {
+        let goal = Goal::new(25.0, 1.4, 10.0);
+        // Of a body that touches itself: a volume of 1.1e-22, and no length of the edge between the second corner and the fourth.
+        let there = DVec3::new(
+            0.062420532715942806,
+            -0.05644064164399939,
+            -0.034814499407566965,
+        );
+        let corners = [
+            DVec3::new(
+                0.07781231223484242,
+                -0.060136014098438766,
+                -0.034814499407566965,
+            ),
+            there,
+            DVec3::new(
+                0.05996807932762826,
+                -0.050273389400962584,
+                -0.018409177088635334,
+            ),
+            there,
+        ];
+        let grade = goal.grade(corners);
+        assert!(grade.six_volume > 0.0 && grade.quality < 0.0, "{grade:?}");
     }
 }
