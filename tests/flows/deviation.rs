@@ -264,6 +264,27 @@ fn what_remeshing_spoils_is_filled_as_it_was_cut() {
     run("meshqual", &["-q", "--check"], &filled).success();
 }
 
+/// A body between faces that meet at the axis at a small angle, of which remeshing makes a surface where refinement heaps up: what is shorter there than what
+/// TetGen tells apart is no surface to pass on.
+#[test]
+fn surfaces_on_which_refinement_heaps_up_are_filled_as_they_were_cut() {
+    let solid = bodies::random_solid::solid(10_218_355);
+    let found = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    let options = "-q --deviation 9.28e-2 --edge-length 0.1106 --segments-per-turn 32.3";
+    let options: Vec<&str> = options.split(' ').collect();
+    let cut = run("wedgecut", &options, &found).success();
+    let made = run("periodic-surf", &["-v"], &cut);
+    let told = "the surface is not remeshed, as that cannot be filled";
+    assert!(made.stderr.contains(told), "{}", made.stderr);
+    for surface in [cut, made.success()] {
+        let filled = run("tetwedge", &["-q"], &surface).success();
+        let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
+        // Two facets meet at 8.2 degrees.
+        let check = ["-q", "--check", "--fail-below", "min_dihedral_deg.min=8"];
+        run("meshqual", &check, &whole).success();
+    }
+}
+
 /// Solids with the symmetry whose curved faces touch are joined as their triangles are, which are cut in each sector in another way: what copies of one sector
 /// differ from all of them by is said, and allowed for.
 #[test]

@@ -24,7 +24,8 @@ pub use error::{Error, Fault, Place, RegionName};
 pub use faces::{Faces, NO_FACE, Upright, face_key, leads};
 pub use failure::{Failure, FailureKind};
 pub use ladder::{
-    Answer, Asks, Attempt, Change, Climb, EASING, Ending, IN_CUBE, Kept, LADDER, Room, Rung,
+    Answer, Asks, Attempt, Change, Climb, EASING, Ending, IN_CUBE, Kept, LADDER, RESOLUTION, Room,
+    Rung,
 };
 pub use log::{Log, Progress};
 pub use mesher::{Elements, Limits, Mesh, Mesher, Task};

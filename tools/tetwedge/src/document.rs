@@ -147,13 +147,17 @@ fn of_surface<T>(log: Log<'_>, work: impl FnOnce(Log<'_>) -> T) -> T {
     }
 }
 
-/// The surface that is to be filled. Faces of a seam that cannot be divided stay as they were cut.
+/// The surface that is to be filled. Faces of a seam that cannot be divided stay as they were cut, unless that is for what remeshing made of
+/// the surface.
 ///
 /// # Errors
 /// What another attempt would not change: time, memory, what is asked for.
 fn settled(shaped: &Shaped, log: Log<'_>) -> Result<Settled, Error> {
     match shaped.settled(Guide::Mesher, log) {
         Err(SurfaceError::Mesher(error)) if !error.is_chance() => Err(error),
+        Err(SurfaceError::Changed { template, what }) if shaped.is_remeshed() => {
+            Err(Error::Unusable { template, what })
+        }
         Err(error) => Ok(Settled {
             advice: vec![format!(
                 "the faces that copies share stay as they were cut, which costs elements or their quality: {error}"

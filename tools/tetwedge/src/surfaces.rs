@@ -19,7 +19,7 @@ pub fn surfaces(document: Document, params: &Params, log: Log<'_>) -> Result<Mes
     }
     let spoils = |error: &SurfaceError| match error {
         SurfaceError::Mesher(error) => error.fault() == Fault::Input,
-        _ => false,
+        _ => true,
     };
     or_as_cut(
         document,

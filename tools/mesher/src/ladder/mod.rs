@@ -9,5 +9,5 @@ mod rungs;
 pub use attempt::{Answer, Asks, Attempt, EASING, Kept};
 pub use climb::Climb;
 pub use layers::IN_CUBE;
-pub use room::Room;
+pub use room::{RESOLUTION, Room};
 pub use rungs::{Change, Ending, LADDER, Rung};

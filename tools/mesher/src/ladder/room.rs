@@ -21,9 +21,9 @@ const LEAST: f64 = 5e4;
 /// for heaps, a larger one lets heaps grow.
 const FAR: f64 = 20.0;
 
-/// Points that TetGen takes for one, in the mesher's unit (the diagonal is from 1 to 2): its tolerance, switch `T`, which is not
-/// set. Refinement that comes as near has not ended by itself, and what it leaves has no interior to speak of.
-const RESOLUTION: f64 = 1e-8;
+/// How far apart points are that TetGen takes for one, by the diagonal (in the mesher's unit, that is from 1 to 2): its tolerance, switch
+/// `T`, which is not set. Refinement that comes as near has not ended by itself, and what it leaves has no interior to speak of.
+pub const RESOLUTION: f64 = 1e-8;
 
 /// Points that may be added to a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,8 @@
 //! What a new surface must have in common with the old one.
 
 use geom::measure::{corners, triangle_area, volume_of_region};
+use glam::DVec3;
+use mesher::RESOLUTION;
 use tmesh::{OUTSIDE, Template};
 
 /// Every region closed, with its volume unchanged but for what comes of a surface that is off by `rounding` (model
@@ -64,7 +66,7 @@ fn same_regions(
     }
     for t in &after.triangles {
         let [a, b, c] = corners(&after.vertices, t);
-        if (b - a).cross(c - a) == glam::DVec3::ZERO {
+        if (b - a).cross(c - a) == DVec3::ZERO {
             return Err(format!(
                 "a triangle has no area near ({}, {}, {})",
                 a.x, a.y, a.z
@@ -72,6 +74,41 @@ fn same_regions(
         }
     }
     Ok(())
+}
+
+/// No two vertices at an edge so near to each other that the mesher takes them for one, unless there were such before: points heap up where
+/// refinement did not come to an end.
+pub fn apart(before: &Template, after: &Template) -> Result<(), String> {
+    let used = before.triangles.iter().flat_map(|t| t.vertices);
+    let used = used.map(|v| before.vertices[v as usize]);
+    let (low, high) = used.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+        (low.min(p), high.max(p))
+    });
+    let least = RESOLUTION * (high - low).length();
+    let (old, _) = shortest(before);
+    let (new, place) = shortest(after);
+    if new > least || new >= old {
+        return Ok(());
+    }
+    Err(format!(
+        "two vertices are {new:e} apart near ({}, {}, {}), which the mesher takes for one",
+        place.x, place.y, place.z
+    ))
+}
+
+/// The length of the shortest edge, and where it is.
+fn shortest(template: &Template) -> (f64, DVec3) {
+    let triangles = template.triangles.iter();
+    let edges = triangles.flat_map(|t| {
+        let [a, b, c] = corners(&template.vertices, t);
+        [[a, b], [b, c], [c, a]]
+    });
+    let lengths = edges.map(|[a, b]| (a.distance(b), a));
+    let first = (f64::INFINITY, DVec3::ZERO);
+    lengths.fold(
+        first,
+        |least, edge| if edge.0 < least.0 { edge } else { least },
+    )
 }
 
 /// Volumes and the area of the boundary unchanged but for what comes of a surface that is off by `drift`, model units: each region's by what that is
@@ -116,7 +153,6 @@ fn boundary(template: &Template, index: usize) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec3;
     use tmesh::Triangle;
 
     /// Adds a regular tetrahedron about the origin in a cube with half sides of a length, of which one region is outside and another inside.
@@ -140,6 +176,22 @@ mod tests {
         add_tetrahedron(&mut template, 5.0, [OUTSIDE, 1]);
         add_tetrahedron(&mut template, inner, [1, 2]);
         template
+    }
+
+    #[test]
+    fn vertices_that_the_mesher_takes_for_one_are_found() {
+        let before = nested(0.1);
+        let heaped = |distance: f64| {
+            let mut after = before.clone();
+            let [a, b, _] = after.triangles[0].vertices.map(|v| v as usize);
+            after.vertices[b] = after.vertices[a] + DVec3::X * distance;
+            after
+        };
+        assert_eq!(apart(&before, &heaped(1e-6)), Ok(()));
+        let told = apart(&before, &heaped(1e-9)).unwrap_err();
+        assert!(told.contains("which the mesher takes for one"), "{told}");
+        // The input is as it is.
+        assert_eq!(apart(&heaped(1e-9), &heaped(1e-9)), Ok(()));
     }
 
     #[test]

@@ -100,12 +100,12 @@ fn made_by(climb: &Climb<'_>, guide: Refined) -> Result<Made, SurfaceError> {
     made.gluings = gluings;
     let facets = &guide.facets.facets;
     let slack = facets.iter().map(|f| 2.0 * f.area * f.deviation).sum();
-    check::same_body(input, &made, (guide.rounding, slack)).map_err(|what| {
-        SurfaceError::Changed {
+    check::same_body(input, &made, (guide.rounding, slack))
+        .and_then(|()| check::apart(input, &made))
+        .map_err(|what| SurfaceError::Changed {
             template: index,
             what,
-        }
-    })?;
+        })?;
     let shared = (0..face_of.len() as u32).filter(|&t| climb.piece.shares(face_of[t as usize]));
     Ok(Made {
         shared: shared.collect(),
