@@ -55,7 +55,7 @@ pub enum SurfaceError {
         /// Where.
         place: DVec3,
     },
-    /// The new surface does not bound what the old one did.
+    /// The new surface does not bound what the old one did, or has vertices that the mesher takes for one.
     #[error("the new surface of template {template} is wrong: {what}")]
     Changed {
         /// Template index.

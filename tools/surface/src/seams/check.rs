@@ -1,4 +1,4 @@
-//! What a new surface must have in common with the old one.
+//! What a new surface must have in common with the old one, and what it must not have that the old one had not.
 
 use geom::measure::{corners, triangle_area, volume_of_region};
 use glam::DVec3;
