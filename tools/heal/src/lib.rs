@@ -10,6 +10,7 @@ mod document;
 mod error;
 mod facet;
 mod imprint;
+mod interface;
 mod leak;
 mod meeting;
 mod mesh;

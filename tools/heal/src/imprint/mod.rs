@@ -16,9 +16,10 @@ mod overlay;
 mod relate;
 mod settle;
 
-pub use curves::Curves;
+pub use curves::{Curves, Patch};
+pub use divide::{Division, Parts};
 pub use faces::{Complex, Faces, Incidence};
-pub use near::{crossing, is_over};
+pub use near::{Spot, crossing, is_over};
 pub use overlay::overlay;
 pub use relate::{Reach, is_related};
 pub use settle::{Settled, settle};

@@ -6,6 +6,7 @@ use crate::contacts::{Changed, Claimed, Contacts, Joined, Overlap};
 use crate::imprint::{
     Complex, Curves, Faces, Incidence, Reach, Settled, is_related, overlay, settle,
 };
+use crate::interface::draw_once;
 use crate::meeting::{Met, contacts_within, meetings, meetings_within};
 use crate::words::{place, short};
 use geom::contacts::contacts;
@@ -68,10 +69,22 @@ pub fn imprinted(
     };
     let again = complex.clone();
     let first = attempt((surface, complex), tolerance, contacts, &crossing);
-    let is_enough =
-        |made: &Imprinted| contacts.gap.is_some() || made.has_all() && made.claimed() == 0.0;
-    if first.as_ref().is_ok_and(is_enough) {
+    let is_clean = |made: &Imprinted| made.has_all() && made.claimed() == 0.0;
+    let fits = |made: &Imprinted| is_clean(made) && made.joined.points == 0;
+    if first.as_ref().is_ok_and(fits) {
         return first;
+    }
+    let once = match contacts.gap {
+        Some(0.0) => None,
+        _ => interfaces_once((surface, &again), tolerance, contacts, &crossing),
+    };
+    let is_enough = |made: &Imprinted| contacts.gap.is_some() || is_clean(made);
+    if first.as_ref().is_ok_and(is_enough) {
+        // Where nothing had to be divided, all that touches is drawn once.
+        return once.filter(fits).map_or(first, Ok);
+    }
+    if let Some(once) = once {
+        return Ok(once);
     }
     match (first, attempt((surface, again), tolerance, flat, &crossing)) {
         (Ok(first), Ok(second)) => {
@@ -82,6 +95,29 @@ pub fn imprinted(
         (Err(_), second) => second,
         (first, Err(_)) => first,
     }
+}
+
+/// The solids with the facets of one of two where curved faces touch, and all else divided where it crosses; `None` where there
+/// are no such faces, or solids would cross that did not, or claim each other's space.
+fn interfaces_once(
+    (surface, complex): (&Surface, &Complex),
+    tolerance: &Tolerance,
+    contacts: Contacts,
+    crossing: &Crossing,
+) -> Option<Imprinted> {
+    let drawn = draw_once(surface, complex, tolerance.equal(), contacts.gap)?;
+    let complex = complex_of(&drawn.surface, tolerance);
+    let after = Crossing::of(&drawn.surface, &complex, None);
+    if after.solids != crossing.solids {
+        return None;
+    }
+    let flat = Contacts {
+        gap: Some(0.0),
+        ..contacts
+    };
+    let mut made = attempt((&drawn.surface, complex), tolerance, flat, &after).ok()?;
+    made.joined.largest = made.joined.largest.max(drawn.largest);
+    (made.has_all() && made.claimed() == 0.0).then_some(made)
 }
 
 impl Imprinted {
