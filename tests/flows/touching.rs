@@ -1,12 +1,13 @@
 //! Assemblies whose solids touch, overlap or cross themselves, each drawn for itself.
 
+use bodies::Dice;
 use bodies::facets::{Facet, ascii_stl, cuboid};
-use bodies::rounds::{Circle, cylinder, tube};
+use bodies::rounds::{Circle, Scattered, cylinder, tube};
 use serde_json::Value;
 use support::{encode, pipe, run};
 
-/// Volumes of regions of the mesh that the pipe makes, which must pass its check.
-fn meshed(solids: &[(&str, Vec<Facet>)]) -> Vec<(String, f64)> {
+/// The mesh that the pipe makes, which must pass its check.
+fn mesh_of(solids: &[(&str, Vec<Facet>)]) -> Vec<u8> {
     let stages: [&[&str]; 4] = [
         &["symdetect", "--allow-asymmetric"],
         &["wedgecut"],
@@ -16,7 +17,12 @@ fn meshed(solids: &[(&str, Vec<Facet>)]) -> Vec<(String, f64)> {
     let mesh = pipe(&stages, &ascii_stl(solids)).pop().expect("a stage");
     let mesh = mesh.success();
     run("meshqual", &["--check"], &mesh).success();
-    let report = run("meshqual", &["--json", "-"], &mesh).success();
+    mesh
+}
+
+/// Volumes of regions of a mesh.
+fn volumes_of(mesh: &[u8]) -> Vec<(String, f64)> {
+    let report = run("meshqual", &["--json", "-"], mesh).success();
     let report: Value = serde_json::from_slice(&report).expect("JSON");
     let regions = report["regions"].as_array().expect("regions").iter();
     let region = |r: &Value| {
@@ -24,6 +30,10 @@ fn meshed(solids: &[(&str, Vec<Facet>)]) -> Vec<(String, f64)> {
         (name, r["volume"].as_f64().expect("a number"))
     };
     regions.map(region).collect()
+}
+
+fn meshed(solids: &[(&str, Vec<Facet>)]) -> Vec<(String, f64)> {
+    volumes_of(&mesh_of(solids))
 }
 
 fn expect(solids: &[(&str, Vec<Facet>)], wanted: &[(&str, f64)]) {
@@ -103,6 +113,45 @@ fn a_shaft_in_a_bore_that_is_drawn_with_other_corners() {
     within(shaft, 8.0 * circle(5.0, 32, 0.0).area(), 8.0 * disc);
     let ring = |bore: f64| 4.0 * (circle(8.0, 32, 0.0).area() - bore);
     within(hub, ring(disc), ring(circle(5.0, 32, 0.0).area()));
+}
+
+/// A shaft in a sleeve, as a mesher draws each of them that knows nothing of the other one: the facets of one of both are the interface, so
+/// that no sliver is between them, and all that a sleeve and a shaft have between them is what facets are off the bore.
+#[test]
+fn a_shaft_and_a_sleeve_that_are_meshed_apart() {
+    let mut dice = Dice::new(7);
+    for [corners, others] in [[24, 20], [36, 36], [30, 48], [48, 25]] {
+        let circle = |radius: f64, corners: u32| Circle {
+            radius,
+            corners,
+            phase: 0.0,
+        };
+        let shaft = Scattered::new(circle(1.0, corners), [-1.5, 2.5], 15, &mut dice);
+        let sleeve = Scattered::new(circle(1.0, others), [0.0, 1.5], 7, &mut dice);
+        let solids = [
+            ("shaft", shaft.cylinder()),
+            ("sleeve", sleeve.tube(circle(1.8, others))),
+        ];
+        let mesh = mesh_of(&solids);
+        run(
+            "meshqual",
+            &["--fail-below", "min_dihedral_deg.min=10"],
+            &mesh,
+        )
+        .success();
+        let volumes = volumes_of(&mesh);
+        let most = circle(1.0, 360).disc();
+        let [shaft, sleeve] = [0, 1].map(|i: usize| volumes[i].1);
+        let off = 4.0 * most - shaft;
+        assert!(off > 0.0 && off < 0.05 * 4.0 * most, "a shaft of {shaft}");
+        let both = 2.5 * most + 1.5 * circle(1.8, others).area();
+        let lost = both - shaft - sleeve;
+        assert!(
+            lost > 0.0 && lost < 0.05 * 2.5 * most,
+            "both of {}",
+            shaft + sleeve
+        );
+    }
 }
 
 /// A shaft whose wall is divided along its length, in a coarser bore: few of its vertices are corners of flat faces in there, and

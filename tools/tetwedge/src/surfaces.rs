@@ -18,7 +18,7 @@ pub fn surfaces(document: Document, params: &Params, log: Log<'_>) -> Result<Mes
         return Err(SurfaceError::AlreadyFilled(tets));
     }
     let spoils = |error: &SurfaceError| match error {
-        SurfaceError::Mesher(error) => error.fault() == Fault::Input,
+        SurfaceError::Mesher(error) => error.is_chance() || error.fault() == Fault::Input,
         _ => true,
     };
     or_as_cut(

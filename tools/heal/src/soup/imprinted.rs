@@ -80,8 +80,12 @@ pub fn imprinted(
     };
     let is_enough = |made: &Imprinted| contacts.gap.is_some() || is_clean(made);
     if first.as_ref().is_ok_and(is_enough) {
-        // Where nothing had to be divided, all that touches is drawn once.
-        return once.filter(fits).map_or(first, Ok);
+        let is_finer = |once: &Imprinted| {
+            let first = first.as_ref().map_or(0.0, Imprinted::shortest);
+            fits(once) && first + tolerance.equal() < once.shortest()
+        };
+        // Facets that were laid over each other leave detail that neither solid has.
+        return once.filter(is_finer).map_or(first, Ok);
     }
     if let Some(once) = once {
         return Ok(once);
@@ -117,6 +121,10 @@ fn interfaces_once(
     };
     let mut made = attempt((&drawn.surface, complex), tolerance, flat, &after).ok()?;
     made.joined.largest = made.joined.largest.max(drawn.largest);
+    made.joined.volumes = volumes(surface);
+    if !crossing.solids.contains(&true) {
+        made.joined.drawn = self::drawn(surface);
+    }
     (made.has_all() && made.claimed() == 0.0).then_some(made)
 }
 
@@ -126,6 +134,15 @@ impl Imprinted {
         let sides = self.labels.front.iter().chain(&self.labels.back);
         let there: FxHashSet<u32> = sides.copied().filter(|&s| s != NONE).collect();
         there.len() == self.surface.solids.len()
+    }
+
+    /// The length of the shortest edge, model units.
+    fn shortest(&self) -> f64 {
+        let lengths = (0..self.surface.triangles.len() as u32).flat_map(|t| {
+            let [a, b, c] = self.surface.corners(t);
+            [a.distance(b), b.distance(c), c.distance(a)]
+        });
+        lengths.fold(f64::INFINITY, f64::min)
     }
 
     /// The volume that solids claim of each other, model units cubed, but for those that lie inside of others.
@@ -374,13 +391,6 @@ fn joined(
         .overlaps
         .iter()
         .filter(|c| c.thickness > tolerance.equal());
-    let solids = surface.solids.len();
-    let mut before = vec![0.0; solids];
-    let origin = surface.corners(0)[0];
-    for (t, &solid) in (0..).zip(&surface.solid) {
-        let [a, b, c] = surface.corners(t);
-        before[solid as usize] += tet_volume(origin, a, b, c);
-    }
     Joined {
         drawn: None,
         interfaces: settled.triangles.iter().filter(|t| t.2[0] != NONE).count(),
@@ -394,15 +404,26 @@ fn joined(
                 nested: c.nested,
             })
             .collect(),
-        volumes: (0_u32..)
-            .zip(before)
-            .map(|(solid, volume)| Changed {
-                name: name(solid),
-                before: volume.abs(),
-                after: 0.0,
-            })
-            .collect(),
+        volumes: volumes(surface),
     }
+}
+
+/// The volumes of solids before, model units cubed.
+fn volumes(surface: &Surface) -> Vec<Changed> {
+    let mut before = vec![0.0; surface.solids.len()];
+    let origin = surface.corners(0)[0];
+    for (t, &solid) in (0..).zip(&surface.solid) {
+        let [a, b, c] = surface.corners(t);
+        before[solid as usize] += tet_volume(origin, a, b, c);
+    }
+    let named = surface.solids.iter().zip(before);
+    named
+        .map(|(name, before): (&String, f64)| Changed {
+            name: name.clone(),
+            before: before.abs(),
+            after: 0.0,
+        })
+        .collect()
 }
 
 /// The solids as they are drawn, each with vertices of its own, so that at an edge only triangles of one meet; none where
