@@ -39,7 +39,7 @@ struct Around {
 
 impl Around {
     /// Whether one of the facets has the corner of the other one inside of the circle around it, or no area.
-    fn is_longer(&self) -> bool {
+    fn has_corner_in_circle(&self) -> bool {
         let [a, b, c, d] = self.flat;
         orient2d(a, b, c) <= 0.0 || orient2d(b, a, d) <= 0.0 || incircle(a, b, c, d) > 0.0
     }
@@ -173,7 +173,7 @@ impl Skin {
         self.add(t, [c, a, v]);
         self.legalize(vec![[a, b], [b, c], [c, a]], solid, |skin, around| {
             let [t, u] = around.facets;
-            skin.origin[t as usize] == skin.origin[u as usize] && around.is_longer()
+            skin.origin[t as usize] == skin.origin[u as usize] && around.has_corner_in_circle()
         });
         true
     }
@@ -201,8 +201,8 @@ impl Skin {
         None
     }
 
-    /// Flips edges between facets that are in one plane, or stand for one surface, until those around vertices that were
-    /// put in are as short as they can be; `vertices` has them.
+    /// Flips edges around vertices that were put in, which are given, until facets that stand for one surface are as those of a Delaunay
+    /// triangulation, seen along both.
     pub fn settle(&mut self, vertices: &[[u32; 2]]) {
         for &[v, solid] in vertices {
             let edges = self.fan(v, solid).into_iter().flat_map(|t| {
@@ -211,7 +211,7 @@ impl Skin {
             });
             let edges = edges.collect();
             self.legalize(edges, solid, |skin, around| {
-                around.is_longer() && skin.stays_flat(around)
+                around.has_corner_in_circle() && skin.stays_flat(around)
             });
         }
     }
@@ -305,6 +305,9 @@ impl Skin {
 
     /// The edges between two vertices, in order, and a direction in which they are seen; `None` where one of them stays.
     fn crossed(&self, a: u32, b: u32, solid: u32) -> Option<(Vec<[u32; 2]>, DVec3)> {
+        if !(self.has(a, solid) && self.has(b, solid)) {
+            return None;
+        }
         let (from, to) = (self.place(a), self.place(b));
         let along = (to - from).normalize_or_zero();
         let mut first: Option<(f64, u32)> = None;
@@ -385,4 +388,43 @@ impl Skin {
 fn coord(frame: &Frame, p: DVec3) -> Coord<f64> {
     let p = frame.project(p);
     Coord { x: p.x, y: p.y }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of two facets with vertices in two rows across the diagonal.
+    #[test]
+    fn edges_are_recovered_across_others() {
+        let place = |x: f64, y: f64| DVec3::new(x, y, 0.1 * x * (4.0 - x));
+        let mut points = vec![
+            place(0.0, 0.0),
+            place(4.0, 0.0),
+            place(4.0, 4.0),
+            place(0.0, 4.0),
+        ];
+        let rows = [1.0, 2.0, 3.0].map(|x| [place(x, 1.5), place(x, 2.5)]);
+        points.extend(rows.as_flattened());
+        points.extend([place(0.5, 2.0), place(3.5, 2.1)]);
+        let border = |t: u32| [t == 0, true, t == 1];
+        let mut skin = Skin::new(points, vec![[0, 1, 2], [0, 2, 3]], vec![0; 2], border);
+        let facet = |p: DVec3| u32::from(p.y > p.x);
+        for v in 4..12 {
+            assert!(skin.insert(v, facet(skin.place(v))), "vertex {v}");
+        }
+        assert!(!skin.insert(4, 0), "it is there");
+        assert!(skin.recover(10, 11, 0));
+        skin.settle(&[[10, 0], [11, 0]]);
+        assert!(skin.side(10, 11, 0).is_some() && skin.side(11, 10, 0).is_some());
+        assert!(!skin.recover(0, 99, 0), "no such vertex");
+        let seen = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| skin.place(v).truncate());
+            0.5 * (b - a).perp_dot(c - a)
+        };
+        let areas: Vec<f64> = skin.corners.iter().map(seen).collect();
+        assert!(areas.iter().all(|&area| area > 0.0), "{areas:?}");
+        assert!((areas.iter().sum::<f64>() - 16.0).abs() < 1e-12);
+        assert_eq!(areas.len(), 18);
+    }
 }
