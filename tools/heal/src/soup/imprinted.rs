@@ -70,23 +70,15 @@ pub fn imprinted(
     let again = complex.clone();
     let first = attempt((surface, complex), tolerance, contacts, &crossing);
     let is_clean = |made: &Imprinted| made.has_all() && made.claimed() == 0.0;
-    let fits = |made: &Imprinted| is_clean(made) && made.joined.points == 0;
-    if first.as_ref().is_ok_and(fits) {
+    let is_enough = |made: &Imprinted| contacts.gap.is_some() || is_clean(made);
+    // What is drawn alike all around stays so where it is divided as it is.
+    if first.as_ref().is_ok_and(is_enough) {
         return first;
     }
     let once = match contacts.gap {
         Some(0.0) => None,
         _ => interfaces_once((surface, &again), tolerance, contacts, &crossing),
     };
-    let is_enough = |made: &Imprinted| contacts.gap.is_some() || is_clean(made);
-    if first.as_ref().is_ok_and(is_enough) {
-        let is_finer = |once: &Imprinted| {
-            let first = first.as_ref().map_or(0.0, Imprinted::shortest);
-            fits(once) && first + tolerance.equal() < once.shortest()
-        };
-        // Facets that were laid over each other leave detail that neither solid has.
-        return once.filter(is_finer).map_or(first, Ok);
-    }
     if let Some(once) = once {
         return Ok(once);
     }
@@ -134,15 +126,6 @@ impl Imprinted {
         let sides = self.labels.front.iter().chain(&self.labels.back);
         let there: FxHashSet<u32> = sides.copied().filter(|&s| s != NONE).collect();
         there.len() == self.surface.solids.len()
-    }
-
-    /// The length of the shortest edge, model units.
-    fn shortest(&self) -> f64 {
-        let lengths = (0..self.surface.triangles.len() as u32).flat_map(|t| {
-            let [a, b, c] = self.surface.corners(t);
-            [a.distance(b), b.distance(c), c.distance(a)]
-        });
-        lengths.fold(f64::INFINITY, f64::min)
     }
 
     /// The volume that solids claim of each other, model units cubed, but for those that lie inside of others.
