@@ -1,5 +1,6 @@
 //! The solids with interfaces that are drawn once.
 
+use super::faces::Faces;
 use super::redivide::redivided;
 use super::regions::{Match, Regions};
 use super::rims::Rims;
@@ -8,7 +9,6 @@ use super::touch::{Facets, Touches};
 use crate::imprint::{Complex, Curves, Spot};
 use crate::soup::Surface;
 use geom::edges::Edges;
-use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -31,28 +31,22 @@ pub fn draw_once(
 ) -> Option<Drawn> {
     let edges = Edges::new(&surface.triangles);
     let curves = Curves::new(complex, &edges, &surface.solid, gap);
-    let mut edge = vec![[0; 3]; surface.triangles.len()];
-    for e in 0..edges.len() {
-        for u in edges.around(e) {
-            edge[u.triangle as usize][u.corner as usize] = e as u32;
-        }
-    }
-    let is_curved = curved(surface, &edges, &curves, equal);
+    let faces = Faces::new(surface, &edges, &curves, equal);
     let facets = Facets {
         complex,
         edges: &edges,
-        edge: &edge,
+        edge: &faces.edge,
         curves: &curves,
         shortest: &shortest(&edges, &surface.points),
         rims: &Rims::new(&edges, &curves, &surface.solid),
         solid: &surface.solid,
-        is_curved: &is_curved,
+        is_curved: &faces.is_curved,
         equal,
     };
     let mut touches = facets.touches()?;
     // What is imprinted where nothing matches then is left out the next time.
     loop {
-        let mut drawing = Drawing::new(surface, facets, touches)?;
+        let mut drawing = Drawing::new(surface, facets, &faces.stays, touches)?;
         let chains = drawing.divide_edges();
         drawing.insert();
         drawing.recover(&chains);
@@ -82,42 +76,6 @@ fn shortest(edges: &Edges, points: &[DVec3]) -> Vec<f64> {
     shortest
 }
 
-/// Of each facet: whether it belongs to a smooth face that is curved somewhere, of a solid that is closed and oriented.
-fn curved(surface: &Surface, edges: &Edges, curves: &Curves, equal: f64) -> Vec<bool> {
-    let count = surface.triangles.len();
-    let solid = |t: u32| surface.solid[t as usize];
-    let mut is_closed = vec![true; surface.solids.len()];
-    let mut sets = DisjointSets::new(count);
-    for e in 0..edges.len() {
-        for u in edges.around(e) {
-            let of_it = || {
-                edges
-                    .around(e)
-                    .iter()
-                    .filter(|w| solid(w.triangle) == solid(u.triangle))
-            };
-            let forward = of_it().filter(|w| w.forward).count();
-            if of_it().count() != 2 || forward != 1 {
-                is_closed[solid(u.triangle) as usize] = false;
-            }
-            if curves.patches[u.triangle as usize].smooth[u.corner as usize] {
-                of_it().for_each(|w| {
-                    sets.join(u.triangle, w.triangle);
-                });
-            }
-        }
-    }
-    let mut is_curved = vec![false; count];
-    for t in 0..count as u32 {
-        if curves.patches[t as usize].sagitta > equal {
-            is_curved[sets.find(t) as usize] = true;
-        }
-    }
-    (0..count as u32)
-        .map(|t| is_curved[sets.find(t) as usize] && is_closed[solid(t) as usize])
-        .collect()
-}
-
 /// Vertices along sharp edges of solids: edge, solid, and all vertices from the lower end to the higher one.
 type Chains = Vec<(u32, u32, Vec<u32>)>;
 
@@ -136,7 +94,12 @@ struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(surface: &'a Surface, facets: Facets<'a>, mut touches: Touches) -> Option<Self> {
+    fn new(
+        surface: &'a Surface,
+        facets: Facets<'a>,
+        stays: &[[bool; 3]],
+        mut touches: Touches,
+    ) -> Option<Self> {
         if touches.of.is_empty() {
             return None;
         }
@@ -152,25 +115,11 @@ impl<'a> Drawing<'a> {
             return None;
         }
         touches.renumber(&id, &corners, &surface.solid);
-        let group = &surface.group;
-        let stays = |t: u32| {
-            let patch = &facets.curves.patches[t as usize];
-            [0, 1, 2].map(|i| {
-                let around = facets.edges.around(facets.edge[t as usize][i] as usize);
-                let has_own = |u: u32| group[u as usize] == group[t as usize];
-                !patch.smooth[i]
-                    || !facets.is_curved[t as usize]
-                    || !around.iter().all(|u| {
-                        facets.solid[u.triangle as usize] != facets.solid[t as usize]
-                            || has_own(u.triangle)
-                    })
-            })
-        };
         let skin = Skin::new(
             surface.points.clone(),
             corners,
             surface.solid.clone(),
-            stays,
+            |t| stays[t as usize],
         );
         Some(Self {
             surface,

@@ -7,10 +7,11 @@
 //! and the facets of one stand for it.
 
 mod drawing;
+mod faces;
 mod redivide;
 mod regions;
 mod rims;
 mod skin;
 mod touch;
 
-pub use drawing::draw_once;
+pub use drawing::{Drawn, draw_once};

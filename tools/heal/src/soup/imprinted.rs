@@ -6,7 +6,7 @@ use crate::contacts::{Changed, Claimed, Contacts, Joined, Overlap};
 use crate::imprint::{
     Complex, Curves, Faces, Incidence, Reach, Settled, is_related, overlay, settle,
 };
-use crate::interface::draw_once;
+use crate::interface::{Drawn, draw_once};
 use crate::meeting::{Met, contacts_within, meetings, meetings_within};
 use crate::words::{place, short};
 use geom::contacts::contacts;
@@ -69,17 +69,15 @@ pub fn imprinted(
     };
     let again = complex.clone();
     let first = attempt((surface, complex), tolerance, contacts, &crossing);
-    let is_clean = |made: &Imprinted| made.has_all() && made.claimed() == 0.0;
-    let is_enough = |made: &Imprinted| contacts.gap.is_some() || is_clean(made);
-    // What is drawn alike all around stays so where it is divided as it is.
+    let is_enough = |made: &Imprinted| contacts.gap.is_some() || made.is_clean();
+    // What is drawn alike all around stays so where facets of both are divided: flips would not be alike.
     if first.as_ref().is_ok_and(is_enough) {
         return first;
     }
-    let once = match contacts.gap {
-        Some(0.0) => None,
-        _ => interfaces_once((surface, &again), tolerance, contacts, &crossing),
-    };
-    if let Some(once) = once {
+    if contacts != flat
+        && let Some(drawn) = draw_once(surface, &again, tolerance.equal(), contacts.gap)
+        && let Some(once) = interfaces_once(surface, &drawn, tolerance, flat, &crossing)
+    {
         return Ok(once);
     }
     match (first, attempt((surface, again), tolerance, flat, &crossing)) {
@@ -93,31 +91,30 @@ pub fn imprinted(
     }
 }
 
-/// The solids with the facets of one of two where curved faces touch, and all else divided where it crosses; `None` where there
-/// are no such faces, or solids would cross that did not, or claim each other's space.
+/// The complex of solids with interfaces that are drawn once, which is divided where it crosses; `None` where solids cross
+/// themselves that did not, or claim each other's space. `surface` has the solids as they are in the file.
 fn interfaces_once(
-    (surface, complex): (&Surface, &Complex),
+    surface: &Surface,
+    once: &Drawn,
     tolerance: &Tolerance,
-    contacts: Contacts,
+    flat: Contacts,
     crossing: &Crossing,
 ) -> Option<Imprinted> {
-    let drawn = draw_once(surface, complex, tolerance.equal(), contacts.gap)?;
-    let complex = complex_of(&drawn.surface, tolerance);
-    let after = Crossing::of(&drawn.surface, &complex, None);
+    let complex = complex_of(&once.surface, tolerance);
+    let after = Crossing::of(&once.surface, &complex, None);
     if after.solids != crossing.solids {
         return None;
     }
-    let flat = Contacts {
-        gap: Some(0.0),
-        ..contacts
-    };
-    let mut made = attempt((&drawn.surface, complex), tolerance, flat, &after).ok()?;
-    made.joined.largest = made.joined.largest.max(drawn.largest);
+    let mut made = attempt((&once.surface, complex), tolerance, flat, &after).ok()?;
+    if !made.is_clean() {
+        return None;
+    }
+    made.joined.largest = made.joined.largest.max(once.largest);
     made.joined.volumes = volumes(surface);
     if !crossing.solids.contains(&true) {
-        made.joined.drawn = self::drawn(surface);
+        made.joined.drawn = drawn(surface);
     }
-    (made.has_all() && made.claimed() == 0.0).then_some(made)
+    Some(made)
 }
 
 impl Imprinted {
@@ -126,6 +123,11 @@ impl Imprinted {
         let sides = self.labels.front.iter().chain(&self.labels.back);
         let there: FxHashSet<u32> = sides.copied().filter(|&s| s != NONE).collect();
         there.len() == self.surface.solids.len()
+    }
+
+    /// Whether something is left of each solid, and none claims space of another one.
+    fn is_clean(&self) -> bool {
+        self.has_all() && self.claimed() == 0.0
     }
 
     /// The volume that solids claim of each other, model units cubed, but for those that lie inside of others.
