@@ -270,3 +270,28 @@ fn copies_that_only_touch_share_what_divides_their_edge() {
     let whole = run("rotassemble", &["-q", "--to", "tmesh"], &filled).success();
     run("meshqual", &["-q", "--check"], &whole).success();
 }
+
+/// A shaft and a sleeve with numbers of corners that have a small divisor in common: what has that order is not what is around them.
+#[test]
+fn a_divisor_of_two_counts_is_no_number_of_facets() {
+    let circle = |radius: f64, corners: u32| Circle {
+        radius,
+        corners,
+        phase: 0.0,
+    };
+    let any = "order 840 stands for any";
+    for (corners, told) in [
+        ([93, 102], any),
+        ([96, 48], "with 48 facets around the axis"),
+        ([15, 90], "with 15 facets around the axis"),
+    ] {
+        let [bore, outer] = [circle(1.0, corners[0]), circle(2.0, corners[1])];
+        let solids = [
+            ("shaft", cylinder(bore, [-2.0, 2.5])),
+            ("sleeve", tube(bore, outer, [-0.5, 0.5])),
+        ];
+        let found = run("symdetect", &[], &ascii_stl(&solids));
+        assert!(found.stderr.contains(told), "{corners:?}: {}", found.stderr);
+        found.success();
+    }
+}

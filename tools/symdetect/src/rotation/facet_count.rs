@@ -3,6 +3,7 @@
 use crate::budget::{GLANCE, SCAN};
 use crate::rotation::find::OrderSearch;
 use crate::shape::{Faces, Motion, Random, Shape, Target};
+use std::f64::consts::PI;
 use tmesh::{Frame, Isometry};
 
 /// Factor by which the deviations of all other orders exceed those of the facet count's divisors. Those of a polygon
@@ -91,6 +92,20 @@ impl OrderSearch<'_> {
         let most = *self.orders.end();
         let wanted = || (3..=most).rev();
         (looks.iter()).find_map(|look| look.tell(wanted(), most, limit))
+    }
+
+    /// Whether facets may number `n` where the body is `off` one of revolution. A polygon is off a circle by its sagitta,
+    /// so that this is more than what all circles that vertices are on are off, unless it is only what the counts of several have in common.
+    pub fn may_number(&self, frame: &Frame, n: u32, off: f64) -> bool {
+        let shape = self.shape;
+        let sagitta = 1.0 - libm::cos(PI / f64::from(n));
+        let widest = SEPARATION * off / sagitta;
+        let corners = shape.faces().map_or(&shape.vertices[..], Faces::corners);
+        let radii = corners.iter().map(|&p| {
+            let p = frame.to_canonical(p);
+            p.truncate().length()
+        });
+        radii.filter(|r| *r > off).any(|r| r <= widest)
     }
 
     /// The order under which corners of flat faces land on corners to rounding, and under no other but its divisors;

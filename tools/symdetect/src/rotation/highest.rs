@@ -40,6 +40,7 @@ impl OrderSearch<'_> {
             distinct: false,
         };
         if let Some(order) = self.facet_count(frame, bound.limit)
+            && self.may_number(frame, order, off.value)
             && let Ok((deviation, permutation)) =
                 self.shape.verify_rotation(frame, order, bound, self.depth)
         {
