@@ -295,3 +295,69 @@ fn a_divisor_of_two_counts_is_no_number_of_facets() {
         found.success();
     }
 }
+
+/// Rings around each other with as many corners as they like have any order. Wedges that are narrower than what the remeshed surface asks for would
+/// get many times the elements.
+#[test]
+fn bodies_of_revolution_are_cut_no_narrower_than_pays() {
+    let circle = |radius: f64, corners: u32| Circle {
+        radius,
+        corners,
+        phase: 0.25,
+    };
+    for corners in [[50, 37, 41], [31, 64, 45]] {
+        let [bore, middle, outer] =
+            [(1.0, corners[0]), (1.4, corners[1]), (2.0, corners[2])].map(|(r, n)| circle(r, n));
+        let solids = [
+            ("shaft", cylinder(bore, [-1.0, 2.5])),
+            ("bush", tube(bore, middle, [-0.5, 1.5])),
+            ("ring", tube(middle, outer, [0.0, 1.0])),
+        ];
+        let found = run("symdetect", &[], &ascii_stl(&solids)).success();
+        let count = |arguments: &[&str]| {
+            let wedge = run("wedgecut", arguments, &found).success();
+            let stages: [&[&str]; 2] = [&["tetwedge"], &["rotassemble", "--to", "tmesh"]];
+            let mesh = pipe(&stages, &wedge).pop().expect("a stage").success();
+            let report = run("meshqual", &["--json", "-"], &mesh).success();
+            let report: Value = serde_json::from_slice(&report).expect("JSON");
+            report["tetrahedra"].as_u64().expect("a count")
+        };
+        let [free, wide] = [count(&[]), count(&["--order", "4"])];
+        assert!(free < 3 * wide, "{corners:?}: {free} for {wide}");
+    }
+}
+
+/// Where facets are alike all around, they stay so; otherwise those of one solid stand for both.
+#[test]
+fn interfaces_are_drawn_once_where_facets_are_not_alike() {
+    let circle = |radius: f64, corners: u32| Circle {
+        radius,
+        corners,
+        phase: 0.0,
+    };
+    let told = |solids: &[(&str, Vec<Facet>)]| {
+        let found = run("symdetect", &[], &ascii_stl(solids));
+        let told = found.stderr.contains("drawn once");
+        found.success();
+        told
+    };
+    let [bore, outer] = [circle(1.0, 48), circle(1.8, 24)];
+    let alike = [
+        ("shaft", cylinder(circle(1.0, 96), [-1.5, 2.5])),
+        ("sleeve", tube(bore, outer, [0.0, 1.5])),
+    ];
+    assert!(!told(&alike));
+    for (seed, corners, others) in [(12, 24, 20), (12, 36, 36), (8, 30, 48)] {
+        let mut dice = Dice::new(seed);
+        let shaft = Scattered::new(circle(1.0, corners), [-1.5, 2.5], 15, &mut dice);
+        let sleeve = Scattered::new(circle(1.0, others), [0.0, 1.5], 7, &mut dice);
+        let scattered = [
+            ("shaft", shaft.cylinder()),
+            ("sleeve", sleeve.tube(circle(1.8, others))),
+        ];
+        assert!(told(&scattered), "{corners} {others}");
+        let mesh = mesh_of(&scattered);
+        let arguments = ["--fail-below", "min_dihedral_deg.min=10"];
+        run("meshqual", &arguments, &mesh).success();
+    }
+}

@@ -30,6 +30,8 @@ pub struct Estimate {
     solid: bool,
     /// Radii blocked by steep faces, increasing, disjoint.
     steep: Vec<[f64; 2]>,
+    /// The least size that layers are counted down to, of what there will be and what is drawn, model units.
+    thinnest: f64,
     /// What thin triangles cost, see [`crate::needles::needles`].
     needles: f64,
 }
@@ -79,7 +81,7 @@ impl Estimate {
         let radius = vertices.iter().map(|p| p.x.hypot(p.y));
         let radius = radius.fold(0.0, f64::max);
         let extent = vertices.iter().fold(radius, |most, p| most.max(p.z.abs()));
-        let mut samples = edge_samples(wedge);
+        let (mut samples, drawn) = edge_samples(wedge);
         let edges = samples.len();
         for section in &sections {
             Outline::new(section).thickness(extent, wedge.has_open_corners(), &mut samples);
@@ -109,6 +111,7 @@ impl Estimate {
             skin: 0.0,
             solid: sections.iter().flatten().any(|(t, _)| on_axis(t)),
             steep: steep(wedge),
+            thinnest: classes.least.min(drawn),
             needles,
         };
         estimate.skin = estimate.boundary(wedge);
@@ -223,7 +226,7 @@ impl Estimate {
     }
 
     /// Elements, on either side of the hub's wall of the given area, in layers between it and steep faces nearer
-    /// than the size wanted at the wall, down to the least size there is.
+    /// than the size wanted at the wall, down to the thinnest there are.
     fn layers(&self, cut: &Cut, hub: f64, wall: f64, wanted: f64) -> f64 {
         let mut sum = 0.0;
         for &[low, high] in &self.steep {
@@ -235,7 +238,7 @@ impl Estimate {
                 0.0
             };
             if gap < wanted {
-                let gap = gap.max(self.classes.least.min(wanted));
+                let gap = gap.max(self.thinnest.min(wanted));
                 sum += wall / (2.0 * self.model.growth) * (gap.powi(-2) - wanted.powi(-2));
             }
         }

@@ -14,9 +14,9 @@ use tmesh::OUTSIDE;
 /// of a plane whose size is the geometric mean of the body's and of the rounding.
 pub const FLAT: f64 = 1.0 - f32::EPSILON as f64;
 
-/// Lengths of the edges of the body, at their ends. Edges in the walls are cuts; those that end at a
+/// Lengths of the edges of the body, at their ends, and the least of those that are drawn. Edges in the walls are cuts; those that end at a
 /// mirror plane go on behind it, and those that end at a seam go on from its other face.
-pub fn edge_samples(wedge: &Wedge<'_>) -> Vec<Sample> {
+pub fn edge_samples(wedge: &Wedge<'_>) -> (Vec<Sample>, f64) {
     let (on, partner) = (&wedge.faces, &wedge.partner);
     let vertices = &wedge.template.vertices;
     let triangles = &wedge.template.triangles;
@@ -50,23 +50,23 @@ pub fn edge_samples(wedge: &Wedge<'_>) -> Vec<Sample> {
     let made = wedge.asked.as_ref();
     let made = made.map(|asked| Remade::new(wedge, asked));
     let mut samples = Vec::with_capacity(2 * pieces.len());
+    let mut least = f64::INFINITY;
     for (ends, length) in pieces {
         let behind = |v: u32| match partner.get(&v) {
             Some(other) => longest.get(other).copied().unwrap_or(0.0),
             None if on[v as usize] != 0 => length,
             None => 0.0,
         };
+        let drawn = length + behind(ends[0]).max(behind(ends[1]));
+        least = least.min(drawn);
         let made = made.as_ref().and_then(|made| made.lengths(ends));
-        let sizes = made.unwrap_or_else(|| {
-            let drawn = length + behind(ends[0]).max(behind(ends[1]));
-            [drawn; 2]
-        });
+        let sizes = made.unwrap_or([drawn; 2]);
         samples.extend([0, 1].map(|k| Sample {
             at: flat(vertices[ends[k] as usize]),
             size: sizes[k],
         }));
     }
-    samples
+    (samples, least)
 }
 
 /// An edge of the section's outline or between two regions; material on either side.

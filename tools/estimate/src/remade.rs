@@ -27,13 +27,18 @@ pub struct Asked {
     pub folds: f64,
 }
 
+impl Asked {
+    /// Whether a length is asked for, anywhere.
+    pub fn has_lengths(&self) -> bool {
+        self.length.iter().any(|length| length.is_finite())
+    }
+}
+
 /// The lengths that edges of a wedge will have.
 pub struct Remade {
     wanted: Wanted,
     /// Curve of each feature edge, lower vertex first.
     features: FxHashMap<[u32; 2], u32>,
-    /// Of each vertex, the shortest length asked for at its triangles, model units.
-    longest: Vec<f64>,
     /// The cut faces that each vertex is on, a bit each.
     faces: Vec<u8>,
 }
@@ -45,7 +50,6 @@ impl Remade {
         // What is on different sides of an edge between regions or faces stays apart.
         let mut labels: FxHashMap<(u32, u32, u8), u32> = FxHashMap::default();
         let mut lengths: Vec<f64> = Vec::new();
-        let mut longest = vec![f64::INFINITY; template.vertices.len()];
         let label = |(t, triangle): (usize, &tmesh::Triangle)| {
             let face = match wedge.is_cut[t] {
                 true => {
@@ -54,9 +58,6 @@ impl Remade {
                 }
                 false => 0,
             };
-            for v in triangle.vertices {
-                longest[v as usize] = longest[v as usize].min(asked.length[t]);
-            }
             let next = labels.len() as u32;
             let key = (triangle.front, triangle.back, face);
             *labels.entry(key).or_insert_with(|| {
@@ -97,21 +98,18 @@ impl Remade {
         Self {
             features: wanted.features.iter().copied().collect(),
             wanted,
-            longest,
             faces: wedge.faces.clone(),
         }
     }
 
-    /// Lengths at both ends of what becomes of an edge; `None` where no length is asked for.
+    /// Lengths at both ends of what becomes of an edge; `None` where neither a length that is asked for nor the shape says what.
     pub fn lengths(&self, ends: [u32; 2]) -> Option<[f64; 2]> {
-        if ends.iter().any(|&v| self.longest[v as usize].is_infinite()) {
-            return None;
-        }
         let [a, b] = ends;
         let curve = self.features.get(&[a.min(b), a.max(b)]);
         let curve = curve.and_then(|&c| self.wanted.curves[c as usize].as_ref());
         let room = curve.map_or(f64::INFINITY, |curve| self.room(curve));
-        Some(ends.map(|v| self.wanted.at[v as usize].min(room)))
+        let lengths = ends.map(|v| self.wanted.at[v as usize].min(room));
+        lengths.iter().all(|l| l.is_finite()).then_some(lengths)
     }
 
     /// The longest edge that a curve has room for: one that is closed has three at least, and one that ends at a cut face goes on behind it; where
@@ -197,9 +195,13 @@ mod tests {
                 "{a} {b}"
             );
         }
-        // Nothing is known where nothing is asked for.
-        let remade = Remade::new(&wedge, &asked(&template, f64::INFINITY));
-        assert_eq!(remade.lengths([3, 4]), None);
+        // Where nothing is asked for, the shape alone tells.
+        let any = Asked {
+            length: vec![f64::INFINITY; template.triangles.len()],
+            ..asked(&template, 5.0)
+        };
+        let [a, b] = Remade::new(&wedge, &any).lengths([3, 4]).unwrap();
+        assert!((a - 2.0).abs() < 1e-9 && (b - 2.0).abs() < 1e-9, "{a} {b}");
     }
 
     #[test]

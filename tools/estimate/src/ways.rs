@@ -78,7 +78,8 @@ impl<'a> Ways<'a> {
         let mut left = self.list.clone();
         let mut ranked = Vec::with_capacity(left.len());
         while let Some(best) = self.best(&left, 1.0) {
-            left.retain(|w| *w != best);
+            // Each order is there once, whatever its cost is.
+            left.retain(|w| w.cut != best.cut);
             ranked.push(best);
         }
         ranked

@@ -87,7 +87,7 @@ impl<'a> Wedge<'a> {
     /// Whether nothing is thin in the corners of sections: they tell nothing where the body has no mirror plane, and elements that are to have
     /// some length fit into corners as they are wide. The coefficients are measured with corners of what is drawn exactly.
     pub fn has_open_corners(&self) -> bool {
-        !self.partner.is_empty() || self.asked.is_some()
+        !self.partner.is_empty() || self.asked.as_ref().is_some_and(Asked::has_lengths)
     }
 }
 

@@ -23,6 +23,16 @@ pub struct Contacts {
     pub gap: Option<f64>,
 }
 
+impl Contacts {
+    /// The same, where facets explain no gap.
+    pub(crate) fn flat(self) -> Self {
+        Self {
+            gap: Some(0.0),
+            ..self
+        }
+    }
+}
+
 /// What was done to make one body of solids that touch or overlap.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Joined {

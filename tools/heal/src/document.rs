@@ -3,6 +3,7 @@
 use crate::HealError;
 use crate::contacts::Joined;
 use crate::repair::Repair;
+use crate::soup::Undrawn;
 use crate::words::short;
 use geom::measure::{area_of_region, corners, tet_volume, triangle_area};
 use geom::tolerance::{Extent, Tolerance};
@@ -21,6 +22,8 @@ pub struct Imported {
     pub repairs: Vec<Repair>,
     /// What was done to make one body of solids that touch or overlap, where that was needed.
     pub joined: Option<Joined>,
+    /// Solids that could be made one body in another way.
+    pub undrawn: Option<Undrawn>,
     /// Whether it was made sure that no two triangles meet away from common corners and edges.
     pub is_apart: bool,
 }
@@ -98,6 +101,7 @@ pub fn document(labelled: Labelled, format: &str) -> Result<Imported, HealError>
         notices,
         repairs,
         joined: None,
+        undrawn: None,
         is_apart: false,
     })
 }

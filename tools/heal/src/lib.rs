@@ -29,3 +29,4 @@ pub use document::{Imported, check_scale};
 pub use error::{HealError, OddEdges};
 pub use read::{read, read_with};
 pub use repair::{Repair, RepairKind, Repairing};
+pub use soup::Undrawn;

@@ -37,6 +37,7 @@ pub fn heal(parsed: Parsed, format: Format, repairing: Repairing) -> Result<Impo
             notices: Vec::new(),
             repairs: Vec::new(),
             joined: None,
+            undrawn: None,
             is_apart: false,
         }),
         Parsed::Soup(soup) => soup::build(soup, format, repairing),

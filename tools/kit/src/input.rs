@@ -129,6 +129,7 @@ impl Session {
             notices,
             repairs,
             joined,
+            undrawn,
             is_apart,
         } = imported;
         for notice in &notices {
@@ -139,6 +140,9 @@ impl Session {
         let _ = self.is_apart.set(is_apart);
         if let Some(joined) = joined {
             let _ = self.joined.set(joined);
+        }
+        if let Some(undrawn) = undrawn {
+            let _ = self.undrawn.set(undrawn);
         }
         document
     }

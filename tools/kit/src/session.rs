@@ -2,7 +2,7 @@
 
 use crate::messages::{self, Level};
 use crate::{CommonArgs, InputFile, MessageFormat};
-use heal::{Joined, OddEdges, Repair};
+use heal::{Joined, OddEdges, Repair, Undrawn};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::ffi::OsString;
 use std::io::IsTerminal;
@@ -25,6 +25,7 @@ pub struct Session {
     pub(crate) repairs: OnceLock<Vec<Repair>>,
     /// What was done to make one body of the input's solids.
     pub(crate) joined: OnceLock<Joined>,
+    pub(crate) undrawn: OnceLock<Undrawn>,
     pub(crate) is_apart: OnceLock<bool>,
     /// Why the input could not be read, when its surface is not closed.
     pub(crate) odd_edges: OnceLock<OddEdges>,
@@ -51,6 +52,7 @@ impl Session {
             notices: OnceLock::new(),
             repairs: OnceLock::new(),
             joined: OnceLock::new(),
+            undrawn: OnceLock::new(),
             is_apart: OnceLock::new(),
             odd_edges: OnceLock::new(),
         }
@@ -74,6 +76,11 @@ impl Session {
     /// What was done to make one body of the input's solids, where they touch or overlap.
     pub fn joined(&self) -> Option<&Joined> {
         self.joined.get()
+    }
+
+    /// The input's solids, where curved faces of them touch whose facets could be drawn once instead.
+    pub fn undrawn(&self) -> Option<&Undrawn> {
+        self.undrawn.get()
     }
 
     /// Whether it is known of the input that no two of its triangles meet away from common corners and edges.

@@ -4,6 +4,7 @@ use crate::detect::detect;
 use crate::enclosure::{self, Content, Enclosure, Impossible};
 use crate::error::Error;
 use crate::params::Params;
+use crate::redrawn::redrawn;
 use crate::report::{Defects, Detection, FailureReport, Report, ReportGap, svg};
 use crate::threads;
 use glam::DVec3;
@@ -298,13 +299,17 @@ impl Cli {
         let (defects, found) = threads::with(params.threads, || {
             threads::both(|| self.defects(document, session.is_apart()), search)
         });
-        if let Some(defects) = &defects {
+        self.tell_defects(defects.as_ref(), session);
+        (defects.unwrap_or_default(), found)
+    }
+
+    fn tell_defects(&self, defects: Option<&Defects>, session: &Session) {
+        if let Some(defects) = defects {
             for note in defects.notes() {
                 session.note(&note);
             }
             session.info("surface checked");
         }
-        (defects.unwrap_or_default(), found)
     }
 
     /// The names of the files.
@@ -351,13 +356,31 @@ impl Command for Cli {
             let defects = session.odd_edges().map(Defects::of_open);
             self.report_failure(failure, &defects.unwrap_or_default(), session);
         })?;
-        let (defects, found) = self.examine(&document, &params, session);
-        let gaps = self.gaps(&document, session);
+        let (mut defects, found) = self.examine(&document, &params, session);
         let mut found = found.map_err(|error| {
+            self.gaps(&document, session);
             let failure = Failure::from(error);
             self.report_failure(&failure, &defects, session);
             failure
         })?;
+        let undrawn = session.undrawn();
+        let redrawn = undrawn.and_then(|undrawn| redrawn(&document, undrawn, &found, &params));
+        let mut joined_once = None;
+        if let Some((once, residual)) = redrawn {
+            session.info("the solids are not drawn alike all around");
+            for notice in &once.notices {
+                let note = format!("interfaces of curved faces are drawn once: {notice}");
+                found.notes.push(note);
+            }
+            found.symmetry.residual = residual;
+            document = once.document;
+            joined_once = once.joined;
+            let of_once = self.defects(&document, once.is_apart);
+            self.tell_defects(of_once.as_ref(), session);
+            defects = of_once.unwrap_or_default();
+        }
+        let joined = joined_once.as_ref().or(session.joined());
+        let gaps = self.gaps(&document, session);
         if let Some(reason) = &found.asymmetric {
             session.note(&format!("passed on as C1: {reason}"));
         }
@@ -392,7 +415,12 @@ impl Command for Cli {
         if let Some(path) = &self.report {
             write_text(
                 path,
-                &json(&Report::new(&document, &found, (&defects, &gaps), session))?,
+                &json(&Report::new(
+                    &document,
+                    &found,
+                    (joined, &defects, &gaps),
+                    session,
+                ))?,
             )?;
         }
         if let Some((path, picture)) = picture {

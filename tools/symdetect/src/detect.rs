@@ -35,7 +35,7 @@ pub fn detect(
     if template.triangles.is_empty() {
         return Err(Error::NoSurface);
     }
-    let precision = document.source.as_ref().map(|s| s.precision);
+    let precision = precision_of(document);
     threads::with(params.threads, || {
         let drawn = joined.and_then(|j| Some((j, j.drawn.as_ref()?)));
         let of_drawn = drawn.and_then(|(joined, drawn)| {
@@ -50,6 +50,11 @@ pub fn detect(
         found.notes.extend(found.exchange(document));
         Ok(found)
     })
+}
+
+/// How precise the coordinates of a document are, world units, if that is known.
+pub fn precision_of(document: &Document) -> Option<f64> {
+    document.source.as_ref().map(|s| s.precision)
 }
 
 /// Whether no operation takes a solid that has space of another one to one that has lost it to the other's image.

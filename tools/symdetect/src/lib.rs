@@ -14,6 +14,7 @@ mod error;
 mod group;
 mod nearly;
 mod params;
+mod redrawn;
 mod report;
 mod rotation;
 mod shape;

@@ -96,9 +96,10 @@ impl<'a> Body<'a> {
         regions.filter_map(|r| of_region(r.id)).sum()
     }
 
-    /// What will be asked of a template's surface, if it is remeshed for lengths of edges; sizes that change from place to place count by their mean.
+    /// What will be asked of a template's surface, if it is remeshed; sizes that change from place to place count by their mean.
     pub fn asked(&self, template: &Template) -> Option<Asked> {
-        if !self.document.moves_for_lengths() {
+        let for_lengths = self.document.moves_for_lengths();
+        if !for_lengths && self.is_kept() {
             return None;
         }
         let (wishes, radius) = (&self.document.wishes, self.tolerance.extent().radius);
@@ -118,13 +119,15 @@ impl<'a> Body<'a> {
         };
         let length: Vec<f64> = template.triangles.iter().map(length).collect();
         let finite = length.iter().copied().filter(|l| l.is_finite());
+        let longest = finite.reduce(f64::max).filter(|_| for_lengths);
+        let room = longest.map_or(0.0, |longest| wishes.room_for(longest, radius));
         let noise = (radius * self.deviation()).max(self.tolerance.equal());
         Some(Asked {
             turn: wishes.turn(),
             turn_is_asked: wishes.segments_per_turn.is_some(),
             growth: wishes.gradation() - 1.0,
             feature: libm::cos(wishes.feature_angle().to_radians()),
-            deviation: wishes.room_for(finite.reduce(f64::max)?, radius).max(noise),
+            deviation: room.max(noise),
             noise,
             flat: self.tolerance.flat(),
             folds: self.document.unevenness(),
@@ -145,6 +148,12 @@ impl<'a> Body<'a> {
     /// Whether every triangle of the surface stays as it is drawn.
     pub fn is_kept(&self) -> bool {
         self.deviation() <= self.equal()
+    }
+
+    /// The cosine of the angle at a feature edge, where the surface will be remeshed: between features, what is narrow costs nothing then.
+    pub fn feature(&self) -> Option<f64> {
+        let angle = self.document.wishes.feature_angle().to_radians();
+        (!self.is_kept()).then(|| libm::cos(angle))
     }
 
     /// Whether surfaces will get edges of a length that is asked for, longer ones than those that there are, too, however they are

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rustc_hash::FxHashSet;
 
 /// Triangles that may cross, in flat faces. What a face is made of inside its border may change.
-#[derive(Clone, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Complex {
     /// Places.
     pub points: Vec<DVec3>,

@@ -72,6 +72,7 @@ pub fn build(mesh: Mesh, format: &'static str) -> Result<Imported, HealError> {
             notices,
             repairs: Vec::new(),
             joined: None,
+            undrawn: None,
             is_apart: false,
         }
     };

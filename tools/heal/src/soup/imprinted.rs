@@ -28,6 +28,34 @@ pub struct Imprinted {
     /// Whether all that was done is to take out what a single solid has twice, and that is less of it than single
     /// precision tells: noise makes thin layers cross, and what is taken out leaves slivers.
     pub is_slight: bool,
+    /// What the solids were before, where facets of both were divided at each other.
+    pub divided: Option<Divided>,
+}
+
+/// Solids whose facets were divided at each other where they touch along curved faces: interfaces may be drawn once instead.
+#[derive(Clone, Debug)]
+pub struct Divided {
+    surface: Surface,
+    complex: Complex,
+    tolerance: Tolerance,
+    contacts: Contacts,
+    crossing: Crossing,
+}
+
+impl Divided {
+    /// The complex with the facets of one solid for both where curved faces touch; `None` where there is no such contact, or what would come of it
+    /// crosses or loses something.
+    pub fn drawn_once(&self) -> Option<Imprinted> {
+        let Self {
+            surface,
+            complex,
+            tolerance,
+            contacts,
+            crossing,
+        } = self;
+        let drawn = draw_once(surface, complex, tolerance.equal(), contacts.gap)?;
+        interfaces_once(surface, &drawn, tolerance, contacts.flat(), crossing)
+    }
 }
 
 /// Why solids are no one complex.
@@ -63,24 +91,37 @@ pub fn imprinted(
     let mut complex = complex_of(surface, tolerance);
     let crossing = Crossing::of(surface, &complex, known);
     complex.break_up(&crossing.folded);
-    let flat = Contacts {
-        gap: Some(0.0),
-        ..contacts
-    };
     let again = complex.clone();
-    let first = attempt((surface, complex), tolerance, contacts, &crossing);
-    let is_enough = |made: &Imprinted| contacts.gap.is_some() || made.is_clean();
+    let as_read = |complex: Complex| Solids {
+        surface,
+        complex,
+        moved: 0.0,
+    };
+    let mut first = attempt(as_read(complex), tolerance, contacts, &crossing);
+    let flat = contacts.flat();
+    let divided = Divided {
+        surface: surface.clone(),
+        complex: again,
+        tolerance: *tolerance,
+        contacts,
+        crossing,
+    };
     // What is drawn alike all around stays so where facets of both are divided: flips would not be alike.
-    if first.as_ref().is_ok_and(is_enough) {
+    if let Ok(made) = &mut first
+        && (contacts.gap.is_some() || made.is_clean())
+    {
+        made.divided = (contacts.gap.is_none() && made.joined.points > 0).then_some(divided);
         return first;
     }
     if contacts != flat
-        && let Some(drawn) = draw_once(surface, &again, tolerance.equal(), contacts.gap)
-        && let Some(once) = interfaces_once(surface, &drawn, tolerance, flat, &crossing)
+        && let Some(once) = divided.drawn_once()
     {
         return Ok(once);
     }
-    match (first, attempt((surface, again), tolerance, flat, &crossing)) {
+    let Divided {
+        complex, crossing, ..
+    } = divided;
+    match (first, attempt(as_read(complex), tolerance, flat, &crossing)) {
         (Ok(first), Ok(second)) => {
             let is_better = first.has_all() && first.claimed() <= second.claimed();
             // What is lost in both is lost to other solids.
@@ -105,11 +146,15 @@ fn interfaces_once(
     if after.solids != crossing.solids {
         return None;
     }
-    let mut made = attempt((&once.surface, complex), tolerance, flat, &after).ok()?;
+    let solids = Solids {
+        surface: &once.surface,
+        complex,
+        moved: once.largest,
+    };
+    let mut made = attempt(solids, tolerance, flat, &after).ok()?;
     if !made.is_clean() {
         return None;
     }
-    made.joined.largest = made.joined.largest.max(once.largest);
     made.joined.volumes = volumes(surface);
     if !crossing.solids.contains(&true) {
         made.joined.drawn = drawn(surface);
@@ -137,12 +182,25 @@ impl Imprinted {
     }
 }
 
+/// Solids to be made one complex.
+struct Solids<'a> {
+    surface: &'a Surface,
+    complex: Complex,
+    /// How far anything of them was moved before, model units.
+    moved: f64,
+}
+
 fn attempt(
-    (surface, complex): (&Surface, Complex),
+    solids: Solids<'_>,
     tolerance: &Tolerance,
     contacts: Contacts,
     crossing: &Crossing,
 ) -> Result<Imprinted, Unjoined> {
+    let Solids {
+        surface,
+        complex,
+        moved,
+    } = solids;
     let solid = &surface.solid;
     let (crosses_itself, meeting) = (&crossing.solids, crossing.pairs.as_slice());
     let overlay = overlay(complex, (solid, meeting), tolerance.equal(), contacts.gap);
@@ -183,7 +241,7 @@ fn attempt(
     let mut joined = joined(
         surface,
         &settled,
-        (overlay.largest, overlay.added),
+        (overlay.largest.max(moved), overlay.added),
         tolerance,
     );
     if !crosses_itself.contains(&true) {
@@ -195,6 +253,7 @@ fn attempt(
     let is_slight =
         surface.solids.len() == 1 && doubled > 0.0 && doubled <= f64::from(f32::EPSILON) * volume;
     Ok(Imprinted {
+        divided: None,
         is_slight,
         labels: labels(&settled, notices),
         surface: sided(surface, complex, &settled),
@@ -242,10 +301,7 @@ pub fn touching(surface: &Surface, tolerance: &Tolerance, contacts: Contacts) ->
     if any(&|a, b| !joined(a, b), curved) {
         return Some(contacts);
     }
-    any(&joined, None).then_some(Contacts {
-        gap: Some(0.0),
-        ..contacts
-    })
+    any(&joined, None).then_some(contacts.flat())
 }
 
 /// What solids have in common.
@@ -285,6 +341,7 @@ impl Shared {
 }
 
 /// What meets away from common vertices and edges.
+#[derive(Clone, Debug)]
 struct Crossing {
     /// Which solids have triangles that do.
     solids: Vec<bool>,

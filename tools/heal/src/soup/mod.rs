@@ -12,7 +12,7 @@ mod stitch;
 mod surface;
 mod weld;
 
-pub use build::{Solids, build, label_mended, mend};
+pub use build::{Solids, Undrawn, build, label_mended, mend};
 pub use closure::odd_edges;
 pub use mended::{Mended, join};
 pub use mending::Mending;

@@ -6,7 +6,7 @@ use glam::DVec3;
 pub const NONE: u32 = u32::MAX;
 
 /// A welded surface whose triangles belong to solids.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Surface {
     /// Distinct points.
     pub points: Vec<DVec3>,

@@ -4,7 +4,7 @@ use crate::nearly::Nearly;
 use crate::report::defects::Defects;
 use crate::report::detection::{Detection, OrderResidual};
 use crate::report::deviations::Deviations;
-use heal::{Gap, Repair};
+use heal::{Gap, Joined, Repair};
 use kit::{InputFile, Session};
 use serde::Serialize;
 use tmesh::{Axis, Document, Group, Isometry, OtherAxis, RejectedOrder, Symmetry};
@@ -160,7 +160,7 @@ impl<'a> Report<'a> {
     pub fn new(
         document: &'a Document,
         found: &'a Detection,
-        (defects, gaps): (&'a Defects, &[Gap]),
+        (joined, defects, gaps): (Option<&'a Joined>, &'a Defects, &[Gap]),
         session: &'a Session,
     ) -> Self {
         let symmetry = &found.symmetry;
@@ -194,7 +194,7 @@ impl<'a> Report<'a> {
             files: session.inputs().iter().map(InputFile::label).collect(),
             input: session.notices(),
             repairs: session.repairs().iter().map(ReportRepair::of).collect(),
-            joined: session.joined().map(ReportJoined::of),
+            joined: joined.map(ReportJoined::of),
             gaps: gaps.iter().map(|g| ReportGap::of(g, document)).collect(),
             notes: &found.notes,
         }
@@ -265,7 +265,7 @@ pub struct ReportVolume<'a> {
 }
 
 impl<'a> ReportJoined<'a> {
-    fn of(joined: &'a heal::Joined) -> Self {
+    fn of(joined: &'a Joined) -> Self {
         let overlap = |c: &'a heal::Claimed| ReportOverlap {
             by: &c.by,
             from: &c.from,

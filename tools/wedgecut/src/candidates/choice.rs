@@ -50,14 +50,19 @@ impl Ranking {
 
 /// Orders what is left of the groups by the cost that a first wedge tells.
 pub fn choose(body: &Body<'_>, groups: &Groups, orders: &[u32], first: &Cut) -> Option<Choice> {
+    // What a seam slices is measured as it is drawn, and then so is all that this is compared with.
+    let is_sliced = !first.candidate.group.has_vertical_mirrors();
+    let feature = body.feature().filter(|_| !is_sliced);
     // What gets edges of a length costs nothing, however narrow it is drawn.
     let needles = match body.takes_lengths() {
         true => 0.0,
-        false => estimate::needles(body.surface, body.element_size(), None),
+        false => estimate::needles(body.surface, body.element_size(), feature),
     };
     let mut wedge = estimate::Wedge::new(&first.templates[0], 0, first.wedges);
     wedge.layers = f64::from(body.document.wishes.layers_across.unwrap_or(1));
-    wedge.asked = body.asked(&first.templates[0]);
+    wedge.asked = body
+        .asked(&first.templates[0])
+        .filter(|asked| asked.has_lengths() || !is_sliced);
     let max_volume = |region| body.max_volume(region);
     let model = CostModel::CALIBRATED;
     let estimate = Estimate::new(model, &wedge, needles, max_volume, body.params.threads);

@@ -247,9 +247,7 @@ fn better(body: &Body<'_>, between: Option<Cut>, planes: Cut) -> Cut {
         let counts = templates.map(|template| kit::sharp_edges(template, asked).len());
         counts.sum::<usize>()
     };
-    // Between features, what is remeshed costs nothing, however narrow it is drawn.
-    let feature = body.document.wishes.feature_angle().to_radians();
-    let feature = (!body.is_kept()).then(|| libm::cos(feature));
+    let feature = body.feature();
     let cost = |cut: &Cut| {
         let needles = |t: &Template| estimate::needles(t, body.element_size(), feature);
         let narrow: f64 = cut.templates.iter().map(needles).sum();
