@@ -653,8 +653,9 @@ fn edges_of_a_length_need_a_wedge_without_a_hub() {
     };
     let templates = |options: &[&str]| read(&cut(options)).templates.len();
     assert_eq!(templates(&[]), 1);
-    // Not where it would make no difference, and not against the user's word.
-    assert_eq!(templates(&["--deviation", "1e-3"]), 2);
+    assert_eq!(templates(&["--deviation", "1e-3"]), 1);
+    // Not where surfaces stay as they are drawn, and not against the user's word.
+    assert_eq!(templates(&["--deviation", "0"]), 2);
     assert_eq!(templates(&["--hub", "0.2"]), 2);
     let count = |options: &[&str]| {
         let filled = run("tetwedge", &["-q"], &cut(options)).success();
@@ -662,8 +663,10 @@ fn edges_of_a_length_need_a_wedge_without_a_hub() {
         run("meshqual", &["-q", "--check"], &whole).success();
         read(&whole).templates[0].tets.len()
     };
-    let [without, with] = [count(&[]), count(&["--hub", "0.2"])];
-    assert!(without < with, "{without} {with}");
+    for more in [&[][..], &["--deviation", "1e-3"]] {
+        let [without, with] = [&[][..], &["--hub", "0.2"]].map(|hub| count(&[more, hub].concat()));
+        assert!(without < with, "{without} {with}");
+    }
 }
 
 /// The faces of seams and half turns are remeshed with the surface beside them, as images of each other to the bit: where they

@@ -1,4 +1,4 @@
-//! How long edges will be where surfaces are remeshed for lengths that are asked for, however they are drawn.
+//! How long edges will be where surfaces are remeshed, however they are drawn.
 
 use crate::wedge::Wedge;
 use glam::DVec3;

@@ -19,7 +19,7 @@ pub struct Wedge<'a> {
     pub faces: Vec<u8>,
     /// Elements asked for across walls, at least.
     pub layers: f64,
-    /// What is asked of edges, where surfaces are remeshed for that.
+    /// What is asked of edges, where surfaces are remeshed.
     pub asked: Option<Asked>,
     /// The image of a vertex on the partner of its cut face.
     pub partner: FxHashMap<u32, u32>,
