@@ -8,7 +8,7 @@ use crate::redrawn::redrawn;
 use crate::report::{Defects, Detection, FailureReport, Report, ReportGap, svg};
 use crate::threads;
 use glam::DVec3;
-use heal::{Contacts, Gap, Overlap, Repairing, gaps};
+use heal::{Contacts, Gap, Imported, Overlap, Repairing, gaps};
 use kit::{Command, CommonArgs, Failure, InputFile, Output, Session, ThreadArgs, number};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -284,32 +284,42 @@ impl Cli {
         found
     }
 
-    /// Defects of the surface, told to the user, and its symmetry; both at the same time where threads allow.
+    /// Defects of the surface, where they are looked for, and its symmetry; both at the same time where threads allow.
     fn examine(
         &self,
         document: &Document,
         params: &Params,
         session: &Session,
-    ) -> (Defects, Result<Detection, Error>) {
+    ) -> (Option<Defects>, Result<Detection, Error>) {
         let search = || {
             detect(document, session.joined(), params, &mut |text| {
                 session.info(text)
             })
         };
-        let (defects, found) = threads::with(params.threads, || {
+        threads::with(params.threads, || {
             threads::both(|| self.defects(document, session.is_apart()), search)
-        });
-        self.tell_defects(defects.as_ref(), session);
-        (defects.unwrap_or_default(), found)
+        })
     }
 
-    fn tell_defects(&self, defects: Option<&Defects>, session: &Session) {
-        if let Some(defects) = defects {
-            for note in defects.notes() {
-                session.note(&note);
-            }
-            session.info("surface checked");
+    /// The body with interfaces drawn once, where that suits the symmetry found, which it may be farther off than the drawing.
+    fn redrawn(
+        document: &Document,
+        found: &mut Detection,
+        params: &Params,
+        session: &Session,
+    ) -> Option<Imported> {
+        let undrawn = session.undrawn()?;
+        let redrawn = threads::with(params.threads, || redrawn(document, undrawn, found, params));
+        let (once, residual) = redrawn?;
+        let mut off = String::new();
+        if residual > found.symmetry.residual {
+            off = format!("; with them, the residual is {residual:.1e}");
+            found.symmetry.residual = residual;
         }
+        let notices = once.notices.iter();
+        let notes = notices.map(|n| format!("interfaces of curved faces are drawn once: {n}{off}"));
+        found.notes.extend(notes);
+        Some(once)
     }
 
     /// The names of the files.
@@ -357,29 +367,33 @@ impl Command for Cli {
             self.report_failure(failure, &defects.unwrap_or_default(), session);
         })?;
         let (mut defects, found) = self.examine(&document, &params, session);
-        let mut found = found.map_err(|error| {
-            self.gaps(&document, session);
-            let failure = Failure::from(error);
-            self.report_failure(&failure, &defects, session);
-            failure
-        })?;
-        let undrawn = session.undrawn();
-        let redrawn = undrawn.and_then(|undrawn| redrawn(&document, undrawn, &found, &params));
-        let mut joined_once = None;
-        if let Some((once, residual)) = redrawn {
-            session.info("the solids are not drawn alike all around");
-            for notice in &once.notices {
-                let note = format!("interfaces of curved faces are drawn once: {notice}");
-                found.notes.push(note);
+        let tell = |defects: Option<Defects>| {
+            if let Some(defects) = &defects {
+                for note in defects.notes() {
+                    session.note(&note);
+                }
+                session.info("surface checked");
             }
-            found.symmetry.residual = residual;
-            document = once.document;
-            joined_once = once.joined;
-            let of_once = self.defects(&document, once.is_apart);
-            self.tell_defects(of_once.as_ref(), session);
-            defects = of_once.unwrap_or_default();
+            defects.unwrap_or_default()
+        };
+        let mut found = match found {
+            Ok(found) => found,
+            Err(error) => {
+                let defects = tell(defects);
+                self.gaps(&document, session);
+                let failure = Failure::from(error);
+                self.report_failure(&failure, &defects, session);
+                return Err(failure);
+            }
+        };
+        let mut once = Self::redrawn(&document, &mut found, &params, session);
+        if let Some(once) = &mut once {
+            document = std::mem::take(&mut once.document);
+            defects = self.defects(&document, once.is_apart);
         }
-        let joined = joined_once.as_ref().or(session.joined());
+        let defects = tell(defects);
+        let joined = once.as_ref().and_then(|once| once.joined.as_ref());
+        let joined = joined.or(session.joined());
         let gaps = self.gaps(&document, session);
         if let Some(reason) = &found.asymmetric {
             session.note(&format!("passed on as C1: {reason}"));

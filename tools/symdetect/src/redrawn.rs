@@ -14,7 +14,7 @@ use tmesh::{Document, Frame, Symmetry};
 const AS_FAR: f64 = 2.0;
 
 /// The body with interfaces of curved faces drawn once, and how far it is off the symmetry found, if it is as symmetric as the solids in the file are. Where
-/// facets are alike all around, and explain nothing of what a body is off, they stay as they are.
+/// facets are alike all around, and explain nothing of what a body is off, they stay as they are; of a body without symmetry there is nothing to lose.
 pub fn redrawn(
     document: &Document,
     undrawn: &Undrawn,

@@ -1,17 +1,17 @@
 //! From polygons in groups to a document.
 
-use super::imprinted::{Divided, Imprinted, Unjoined, imprinted, touching};
+use super::imprinted::{Imprinted, Unjoined, imprinted, touching};
 use super::mended::Mended;
 use super::mending::Mending;
-use super::solids::{Labels, label, tables};
+use super::solids::label;
 use super::surface::{NONE, Surface};
+use super::undrawn::{Reading, Undrawn};
 use super::weld;
-use crate::contacts::{Contacts, Joined};
-use crate::document::{Imported, check_scale, document, tolerance};
+use crate::contacts::Contacts;
+use crate::document::{Imported, check_scale, tolerance};
 use crate::words::{short, unique_names};
 use crate::{HealError, Repair, Repairing};
 use interchange::parsed::Soup;
-use tmesh::Document;
 
 /// Builds the document of a surface: welded, closed, with regions on the inside.
 ///
@@ -165,86 +165,10 @@ pub fn label_mended(
         notices,
         repairs,
     };
-    let undrawn = divided.map(|divided| Undrawn {
-        reading: Reading {
-            notices: Vec::new(),
-            repairs: Vec::new(),
-            ..reading.clone()
-        },
-        divided,
-    });
+    let undrawn = divided.map(|divided| Undrawn::new(&reading, divided));
     let mut imported = reading.finished((surface, labels), joined)?;
     imported.undrawn = undrawn;
     Ok(imported)
-}
-
-/// What is the same of a surface however its solids are made one body.
-#[derive(Clone, Debug)]
-struct Reading {
-    format: String,
-    relative_precision: f64,
-    notices: Vec<String>,
-    repairs: Vec<Repair>,
-}
-
-impl Reading {
-    fn finished(
-        mut self,
-        (surface, mut labels): (Surface, Labels),
-        mut joined: Option<Joined>,
-    ) -> Result<Imported, HealError> {
-        let is_apart = labels.is_apart;
-        self.notices.append(&mut labels.notices);
-        let mut labelled = tables(surface, labels);
-        labelled.relative_precision = self.relative_precision;
-        labelled.notices = self.notices;
-        labelled.repairs = self.repairs;
-        let mut imported = document(labelled, &self.format)?;
-        if let Some(joined) = &mut joined {
-            joined.tell_volumes(&imported.document);
-        }
-        imported.joined = joined;
-        imported.is_apart = is_apart;
-        Ok(imported)
-    }
-}
-
-/// Solids with curved faces that touch, of which the facets of both were divided at each other. Where they are drawn alike all around, the outcome is as
-/// well; otherwise those of one solid may stand for both, which leaves no finer detail.
-#[derive(Clone, Debug)]
-pub struct Undrawn {
-    reading: Reading,
-    divided: Divided,
-}
-
-impl Undrawn {
-    /// A document as it was read of these solids, with the facets of one solid for both where curved faces touch, and what is told of that; `None` where
-    /// that cannot be. Linear, but for the search for what is near.
-    pub fn draw_once(&self, read: &Document) -> Option<Imported> {
-        let made = self.divided.drawn_once()?;
-        let reading = self.reading.clone();
-        let once = reading.finished((made.surface, made.labels), Some(made.joined));
-        let mut once = once.ok()?;
-        let Document {
-            templates,
-            mut regions,
-            markers,
-            source,
-            ..
-        } = once.document;
-        for region in &mut regions {
-            let known = read.regions.iter().find(|r| r.name == region.name);
-            region.size = known.and_then(|r| r.size);
-        }
-        once.document = Document {
-            templates,
-            regions,
-            markers,
-            source,
-            ..read.clone()
-        };
-        Some(once)
-    }
 }
 
 /// Solids that cannot be joined within the precision that coordinates seem to have, joined within the least that can be, no wider

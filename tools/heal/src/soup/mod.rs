@@ -10,10 +10,12 @@ mod needles;
 mod solids;
 mod stitch;
 mod surface;
+mod undrawn;
 mod weld;
 
-pub use build::{Solids, Undrawn, build, label_mended, mend};
+pub use build::{Solids, build, label_mended, mend};
 pub use closure::odd_edges;
 pub use mended::{Mended, join};
 pub use mending::Mending;
 pub use surface::{NONE, Surface};
+pub use undrawn::Undrawn;

@@ -94,8 +94,9 @@ impl OrderSearch<'_> {
         (looks.iter()).find_map(|look| look.tell(wanted(), most, limit))
     }
 
-    /// Whether facets may number `n` where the body is `off` one of revolution. A polygon is off a circle by its sagitta,
-    /// so that this is more than what all circles that vertices are on are off, unless it is only what the counts of several have in common.
+    /// Whether facets may number `n` where the body is as much as `off` from one of revolution: a polygon of `n` sides is off its circle by its
+    /// sagitta. Where that is more, at all radii that there are vertices at, circles have more facets, and `n` is a divisor that their numbers have in
+    /// common.
     pub fn may_number(&self, frame: &Frame, n: u32, off: f64) -> bool {
         let shape = self.shape;
         let sagitta = 1.0 - libm::cos(PI / f64::from(n));
