@@ -21,6 +21,7 @@ mod output;
 mod placement;
 mod polar;
 pub mod random_solid;
+pub mod rounded;
 pub mod rounds;
 pub mod structured;
 pub mod swept;

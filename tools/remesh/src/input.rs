@@ -1,6 +1,7 @@
 //! What is to be remeshed, and what must stay.
 
 use glam::DVec3;
+use std::sync::Arc;
 
 /// A surface: a complex of triangles, in which more than two may meet at an edge.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,7 +31,7 @@ pub struct Link {
     /// Labels of the triangles of both faces.
     pub labels: Vec<u32>,
     /// The image of a point.
-    pub image: Box<dyn Fn(DVec3) -> DVec3 + Sync>,
+    pub image: Arc<dyn Fn(DVec3) -> DVec3 + Send + Sync>,
 }
 
 /// What must stay, and how far the rest may move.
@@ -124,6 +125,12 @@ impl Rules<'_> {
     pub fn deviation_at(&self, v: usize) -> f64 {
         let nearer = self.nearer.get(v).map(|nearer| nearer.max(self.noise));
         nearer.map_or(self.deviation, |nearer| nearer.min(self.deviation))
+    }
+
+    /// The height that triangles have at least whose direction coordinates tell, model units: that of lower ones is uncertain by more than half the angle of
+    /// features, so that two of them make one by chance.
+    pub fn told(&self) -> f64 {
+        self.flat / libm::tan(0.5 * libm::acos(self.feature))
     }
 
     /// The space that triangles of a label are in.

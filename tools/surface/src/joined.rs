@@ -4,6 +4,7 @@ use glam::DVec3;
 use mesher::{Faces, Piece};
 use remesh::{Link, Surface};
 use rustc_hash::FxHashMap;
+use std::sync::Arc;
 use tmesh::{Document, FixedSet, Gluing, Template, Triangle};
 
 /// The bit of the axis; mirror walls have those below.
@@ -201,7 +202,7 @@ impl<'a> Joined<'a> {
             Link {
                 pairs: pairs.map(|&[h, t]| [t + there, h + here]).collect(),
                 labels: glued.labels.concat(),
-                image: Box::new(move |p| step.apply(p)),
+                image: Arc::new(move |p| step.apply(p)),
             }
         };
         self.glued.iter().map(link).collect()

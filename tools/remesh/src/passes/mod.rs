@@ -1,6 +1,7 @@
 //! Passes over a surface.
 
 mod collapse;
+mod decimate;
 mod flip;
 mod relocate;
 mod remesh;

@@ -1,6 +1,7 @@
 //! The whole of it.
 
 use super::collapse::collapse;
+use super::decimate::Decimated;
 use super::flip::flip;
 use super::relocate::relocate;
 use super::ridges::sample_folds;
@@ -90,6 +91,19 @@ pub fn remesh(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     if rules.links.len() > MOST_LINKS {
         return None;
     }
+    if let Some(first) = Decimated::new(surface, rules) {
+        let (left, rules) = (&first.remeshed.surface, first.rules(rules));
+        if crossings(left, &rules).is_empty()
+            && let Some(remeshed) = of_told(left, &rules)
+        {
+            return Some(first.then(remeshed));
+        }
+    }
+    of_told(surface, rules)
+}
+
+/// The same of a surface that coordinates tell.
+fn of_told(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     let joined = uncrossed(surface, rules, true);
     if let Some((joined, _)) = &joined
         && joined.told.joined == 0
@@ -472,7 +486,7 @@ fn move_all(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
 }
 
 /// The surface that is left, numbered anew.
-fn taken(surface: &Surface, mesh: Mesh<'_>, told: Told) -> Remeshed {
+pub(super) fn taken(surface: &Surface, mesh: Mesh<'_>, told: Told) -> Remeshed {
     let mut vertices = vec![NONE; mesh.points.len()];
     let mut remeshed = Remeshed {
         told,

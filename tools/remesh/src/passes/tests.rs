@@ -12,6 +12,7 @@ use geom::measure::volume_of_region;
 use geom::tree::{Tree, closest_point};
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 
 /// Angles between triangles: ten degrees.
 const SHARP: f64 = std::f64::consts::PI / 18.0;
@@ -441,7 +442,7 @@ fn an_edge_along_which_a_body_touches_its_image_stays_its_image() {
     let links = [Link {
         pairs: vec![[24, 24], [25, 25]],
         labels: Vec::new(),
-        image: Box::new(|p| DVec3::new(-p.x, -p.y, p.z)),
+        image: Arc::new(|p| DVec3::new(-p.x, -p.y, p.z)),
     }];
     let free = vec![false; surface.points.len()];
     let done = linked(&surface, 1e-2, (&free, Some(0.2)), &links).unwrap();
@@ -471,7 +472,7 @@ fn an_edge_with_one_image_by_two_links_is_split_with_it() {
     let half_turn = |angle: f64| Link {
         pairs: vec![[24, 25], [middle, middle]],
         labels: Vec::new(),
-        image: Box::new(move |p| {
+        image: Arc::new(move |p| {
             let (sine, cosine) = (2.0 * angle).sin_cos();
             DVec3::new(cosine * p.x + sine * p.y, sine * p.x - cosine * p.y, -p.z)
         }),

@@ -7,6 +7,7 @@ use geom::edges::{EdgeUse, apex_of};
 use geom::eigen::symmetric;
 use geom::measure::triangle_area;
 use glam::{DMat3, DVec3};
+use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -62,7 +63,7 @@ impl Allowance {
     /// the height of that arc above its chord. n log n.
     pub fn new(surface: &Surface, rules: &Rules<'_>, patches: &Patches, curves: &Curves) -> Self {
         let bent = bent(surface, rules, patches);
-        let mut bends = bends(surface, rules, patches, &bent);
+        let (mut bends, hidden) = bends(surface, rules, patches, &bent);
         // Once more over the neighbours: needles have normals that mean nothing.
         let mut around = vec![Bend::NONE; bends.len()];
         for t in curved(patches, &bent) {
@@ -75,6 +76,7 @@ impl Allowance {
             }
         }
         std::mem::swap(&mut bends, &mut around);
+        spread(&mut bends, &hidden, patches);
         let longest = rules.sizes.longest(surface);
         let mut size = longest.clone();
         let mut width = vec![f64::INFINITY; bends.len()];
@@ -152,6 +154,8 @@ struct Fold {
     told: f64,
     /// Width of the narrower triangle.
     width: f64,
+    /// Curvature that coordinates hide there.
+    hidden: f64,
     /// A patch that bends.
     patch: u32,
 }
@@ -180,35 +184,57 @@ fn folds(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool])
             turn,
             told: turn * (1.0 - (noise / turn).powi(2)).max(0.0),
             width: curved().map(width).fold(f64::INFINITY, f64::min),
+            hidden: noise / both.iter().map(|u| 0.5 * width(u)).sum::<f64>(),
             patch,
         })
     };
-    let mut folds: Vec<Fold> = (0..patches.edges.len()).filter_map(fold).collect();
-    take_told(&mut folds, patches.planes.len());
-    folds
+    (0..patches.edges.len()).filter_map(fold).collect()
 }
 
 /// Takes of each fold what is told of its turn: at the poles of rounded corners facets are as thin as coordinates are uncertain, and
-/// turn to and fro. Where that would be less than half of how a patch turns, all of it is drawn as finely, and is taken as it is.
+/// turn to and fro. What tells less of how it turns is taken as it is.
 fn take_told(folds: &mut [Fold], patches: usize) {
-    let mut turns = vec![[0.0; 2]; patches];
-    for fold in folds.iter() {
-        let [all, told] = &mut turns[fold.patch as usize];
-        *all += fold.turn.abs() * fold.length;
-        *told += fold.told.abs() * fold.length;
-    }
+    let tells = tells(folds, patches);
     for fold in folds {
-        let [all, told] = turns[fold.patch as usize];
-        if told >= 0.5 * all {
-            fold.turn = fold.told;
+        match tells[fold.patch as usize] {
+            true => fold.turn = fold.told,
+            false => fold.hidden = 0.0,
         }
     }
 }
 
+/// Of each patch, whether its folds tell at least half of how it turns.
+fn tells(folds: &[Fold], patches: usize) -> Vec<bool> {
+    let mut turns = vec![[0.0; 2]; patches];
+    for fold in folds {
+        let [all, told] = &mut turns[fold.patch as usize];
+        *all += fold.turn.abs() * fold.length;
+        *told += fold.told.abs() * fold.length;
+    }
+    turns
+        .into_iter()
+        .map(|[all, told]| told >= 0.5 * all)
+        .collect()
+}
+
+/// Of each patch, whether it is drawn so finely that coordinates tell less than half of how it turns.
+pub fn untold(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Vec<bool> {
+    let bent = bent(surface, rules, patches);
+    let folds = folds(surface, rules, patches, &bent);
+    let tells = tells(&folds, patches.planes.len());
+    tells.into_iter().map(|tells| !tells).collect()
+}
+
 /// How the curved patches bend around each vertex. A fold beside a triangle that is narrower than those around it moves
-/// the surface by less, and counts for less: at needles normals mean nothing.
-fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool]) -> Vec<Bend> {
-    let folds = folds(surface, rules, patches, bent);
+/// the surface by less, and counts for less: at needles normals mean nothing. Also the curvature that coordinates hide around each vertex.
+fn bends(
+    surface: &Surface,
+    rules: &Rules<'_>,
+    patches: &Patches,
+    bent: &[bool],
+) -> (Vec<Bend>, Vec<f64>) {
+    let mut folds = folds(surface, rules, patches, bent);
+    take_told(&mut folds, patches.planes.len());
     let mut widths = vec![[0.0; 2]; surface.points.len()];
     for fold in &folds {
         for v in fold.ends {
@@ -223,7 +249,11 @@ fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool])
             bends[v as usize].area += triangle_area(a, b, c) / 3.0;
         }
     }
+    let mut hidden = vec![f64::INFINITY; surface.points.len()];
     for fold in &folds {
+        for v in fold.ends {
+            hidden[v as usize] = hidden[v as usize].min(fold.hidden);
+        }
         let mean = fold.ends.map(|v| widths[v as usize]).into_iter();
         let [sum, length] = mean.fold([0.0; 2], |[s, l], [x, y]| [s + x, l + y]);
         let counts = (fold.width * length / sum).min(1.0);
@@ -235,7 +265,53 @@ fn bends(surface: &Surface, rules: &Rules<'_>, patches: &Patches, bent: &[bool])
             bend.turn[1] += turn * turn * fold.length;
         }
     }
-    bends
+    (bends, hidden)
+}
+
+/// Where nothing is told of how a surface bends, it bends as it does around, unless coordinates would tell that it does.
+fn spread(bends: &mut [Bend], hidden: &[f64], patches: &Patches) {
+    let may_take = |v: u32, bends: &[Bend]| {
+        let hidden = hidden[v as usize];
+        hidden > 0.0 && hidden.is_finite() && bends[v as usize].read().is_none()
+    };
+    let count = bends.len() as u32;
+    let mut beside: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+    for v in (0..count).filter(|&v| may_take(v, bends)) {
+        beside.insert(v, Vec::new());
+    }
+    if beside.is_empty() {
+        return;
+    }
+    for &[a, b] in &patches.edges.ends {
+        for [v, w] in [[a, b], [b, a]] {
+            beside.entry(v).and_modify(|beside| beside.push(w));
+        }
+    }
+    let mut open: Vec<u32> = beside.keys().copied().collect();
+    open.sort_unstable();
+    while !open.is_empty() {
+        let taken = open.iter().filter_map(|v| {
+            let mut sum = Bend::NONE;
+            for w in &beside[v] {
+                let bend = &bends[*w as usize];
+                let arc = bend.read();
+                if arc.is_some_and(|arc| arc.curvature <= hidden[*v as usize]) {
+                    sum.add(bend);
+                }
+            }
+            sum.read().map(|_| (*v, sum))
+        });
+        let taken: Vec<(u32, Bend)> = taken.collect();
+        // What is beside one that has one now is next.
+        open.clear();
+        for (v, bend) in taken {
+            bends[v as usize] = bend;
+            open.extend(beside.remove(&v).unwrap_or_default());
+        }
+        open.sort_unstable();
+        open.dedup();
+        open.retain(|v| beside.contains_key(v));
+    }
 }
 
 /// The matrix of the products of a vector's components.

@@ -24,16 +24,14 @@ pub struct Curves {
     pub reach: Vec<f64>,
     /// The arc that the curve follows at each vertex, if it is on one.
     pub arcs: Vec<Option<Arc>>,
+    /// How far along the surface each feature edge may be off where it is drawn, for what coordinates tell, model units.
+    uncertain: Vec<f64>,
 }
 
 impl Curves {
     /// Finds the feature edges: where patches meet, end, or are sharp.
     pub fn new(surface: &Surface, rules: &Rules<'_>, patches: &Patches) -> Self {
-        let is_inner = |edge: &usize| {
-            let smooth = patches.smooth(surface, rules, *edge);
-            let of = |t: u32| patches.of[t as usize];
-            smooth.is_some_and(|[u, v]| of(u.triangle) == of(v.triangle))
-        };
+        let is_inner = |edge: &usize| patches.is_inner(surface, rules, *edge);
         let features: Vec<usize> = (0..patches.edges.len()).filter(|e| !is_inner(e)).collect();
         let ends: Vec<[u32; 2]> = features.iter().map(|&e| patches.edges.ends[e]).collect();
         let mut at = vec![Vec::new(); surface.points.len()];
@@ -85,6 +83,9 @@ impl Curves {
             of: Vec::with_capacity(ends.len()),
             count: 0,
             reach: Vec::new(),
+            uncertain: (features.iter())
+                .map(|&edge| uncertainty(surface, rules, patches, edge))
+                .collect(),
             arcs: vec![None; surface.points.len()],
             corner,
             ends,
@@ -139,7 +140,9 @@ impl Curves {
                 .map(|v| own(v, sum / count))
                 .fold([0.0; 3], |[a, b, c], [x, y, z]| [a + x, b + y, c + z]);
             let (angle, curvature) = (sums[1] / sums[0], sums[0] / sums[2]);
-            if sums[0] > 0.0 && curvature > 0.0 {
+            let uncertain = here.iter().map(|&i| self.uncertain[i as usize]);
+            let uncertain = ROUND * uncertain.fold(0.0, f64::max);
+            if sums[0] > 0.0 && curvature > 0.0 && curvature * uncertain < 1.0 {
                 self.arcs[v as usize] = Some(Arc { angle, curvature });
             }
         }
@@ -185,13 +188,27 @@ impl Curves {
                 }
             }
         }
-        let reach = |ends: &[u32; 2]| {
+        let reach = |(ends, uncertain): (&[u32; 2], &f64)| {
             let [a, b] = ends.map(|v| own[v as usize].map_or(0.0, |own| own.0));
             let [p, q] = ends.map(|v| beside[v as usize]);
-            a.max(b).max(p.min(q)).max(rules.flat)
+            a.max(b).max(p.min(q)).max(rules.flat).max(*uncertain)
         };
-        self.ends.iter().map(reach).collect()
+        self.ends.iter().zip(&self.uncertain).map(reach).collect()
     }
+}
+
+/// Radius of an arc over how far it is from the corner that it rounds off, for a right angle.
+const ROUND: f64 = std::f64::consts::SQRT_2 + 1.0;
+
+/// How far along the surface a feature edge may be off where it is drawn, for what coordinates tell, model units: where a flat face and what is curved
+/// go on smoothly, the facets between them that are in the plane but for what is uncertain belong to either.
+fn uncertainty(surface: &Surface, rules: &Rules<'_>, patches: &Patches, edge: usize) -> f64 {
+    let Some(both) = patches.smooth(surface, rules, edge) else {
+        return 0.0;
+    };
+    let rise = libm::sin(patches.turn(surface, both).abs());
+    let ends = patches.edges.ends[edge].map(|v| rules.deviation_at(v as usize));
+    (rules.told() / rise).min(ends[0]).min(ends[1])
 }
 
 #[cfg(test)]

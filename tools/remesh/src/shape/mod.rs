@@ -10,7 +10,7 @@ mod ground;
 mod patches;
 mod wanted;
 
-pub use allowance::Allowance;
+pub use allowance::{Allowance, untold};
 pub use arc::LONG;
 pub use curves::Curves;
 pub use envelope::{Envelope, Near};

@@ -47,19 +47,13 @@ impl Patches {
             cosine: FOLD_COSINE,
         };
         let flats = Flats::new(points, triangles, &across, |_| [even, folded], alike);
-        let normals = (0..surface.triangles.len() as u32)
-            .map(|t| {
-                let [a, b, c] = surface.corners(t);
-                double_area_vector(a, b, c).normalize_or_zero()
-            })
-            .collect();
         let mut patches = Self {
             edges,
             of: Vec::new(),
             planes: Vec::new(),
             off: Vec::new(),
             facet: flats.regions.of,
-            normals,
+            normals: normals(surface),
         };
         let mut off = vec![rules.flat; flats.planes.len()];
         for (t, &facet) in (0..).zip(&patches.facet) {
@@ -105,6 +99,30 @@ impl Patches {
             patches.of.push(number[first]);
         }
         patches.leave_strips(surface, rules);
+        patches
+    }
+
+    /// The parts of a surface that go on smoothly, flat faces and curved ones as one.
+    pub fn of_labels(surface: &Surface, rules: &Rules<'_>) -> Self {
+        let mut patches = Self {
+            edges: Edges::new(&surface.triangles),
+            of: Vec::new(),
+            planes: Vec::new(),
+            off: Vec::new(),
+            facet: Vec::new(),
+            normals: normals(surface),
+        };
+        let mut sets = DisjointSets::new(surface.triangles.len());
+        for edge in 0..patches.edges.len() {
+            if let Some([u, v]) = patches.smooth(surface, rules, edge) {
+                sets.join(u.triangle, v.triangle);
+            }
+        }
+        let (of, count) = sets.numbered();
+        patches.facet = of.clone();
+        patches.of = of;
+        patches.planes = vec![None; count];
+        patches.off = vec![rules.flat; count];
         patches
     }
 
@@ -171,14 +189,31 @@ impl Patches {
         rules: &Rules<'_>,
         edge: usize,
     ) -> Option<[EdgeUse; 2]> {
+        let [u, v] = self.pair(surface, edge)?;
+        let [m, n] = [u, v].map(|u| self.normals[u.triangle as usize]);
+        (m.dot(n) >= rules.feature).then_some([u, v])
+    }
+
+    /// The two triangles at an edge, if there are no others, they have one label and face the same side.
+    fn pair(&self, surface: &Surface, edge: usize) -> Option<[EdgeUse; 2]> {
         let &[u, v] = self.edges.around(edge) else {
             return None;
         };
-        let [s, t] = [u, v].map(|u| u.triangle as usize);
-        let smooth = u.forward != v.forward
-            && surface.labels[s] == surface.labels[t]
-            && self.normals[s].dot(self.normals[t]) >= rules.feature;
-        smooth.then_some([u, v])
+        let [s, t] = [u, v].map(|u| surface.labels[u.triangle as usize]);
+        (u.forward != v.forward && s == t).then_some([u, v])
+    }
+
+    /// Whether an edge is inside of a patch, and no feature. Triangles of a flat face fold by more than features do only where they
+    /// are lower than what may be off its plane.
+    pub fn is_inner(&self, surface: &Surface, rules: &Rules<'_>, edge: usize) -> bool {
+        let of = |[u, v]: [EdgeUse; 2]| {
+            let [p, q] = [u, v].map(|u| self.of[u.triangle as usize]);
+            (p == q).then_some(p)
+        };
+        let Some(patch) = self.pair(surface, edge).and_then(of) else {
+            return false;
+        };
+        self.planes[patch as usize].is_some() || self.smooth(surface, rules, edge).is_some()
     }
 
     /// The angle between the triangles at a smooth edge, radians, positive where the edge is convex seen from the front.
@@ -309,6 +344,15 @@ impl Patches {
         };
         (0..3).map(|i| u32::from(is_beyond(i))).sum()
     }
+}
+
+/// Unit normals of the triangles.
+fn normals(surface: &Surface) -> Vec<DVec3> {
+    let vector = |t| {
+        let [a, b, c] = surface.corners(t);
+        double_area_vector(a, b, c).normalize_or_zero()
+    };
+    (0..surface.triangles.len() as u32).map(vector).collect()
 }
 
 #[cfg(test)]
