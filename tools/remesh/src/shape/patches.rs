@@ -250,6 +250,7 @@ impl Patches {
         for (t, &facet) in (0..).zip(&self.facet) {
             beside[facet as usize].triangles += self.images_in_plane(surface, rules, t);
         }
+        self.beyond_walls(surface, rules, &mut beside);
         let same = self.beyond_links(surface, rules, &mut beside);
         // A single triangle is one of the facets of whatever goes on smoothly beside it.
         let is_face = |(beside, off): (&Beside, &f64)| match beside.triangles {
@@ -259,6 +260,38 @@ impl Patches {
         };
         let one: Vec<bool> = beside.iter().zip(off).map(is_face).collect();
         same.into_iter().map(|first| one[first as usize]).collect()
+    }
+
+    /// Takes what facets end at in mirror walls for no border, if their images beyond are in one plane with them, and for one beside which the
+    /// surface goes on with a facet like it, if it is smooth there.
+    fn beyond_walls(&self, surface: &Surface, rules: &Rules<'_>, beside: &mut [Beside]) {
+        for (edge, ends) in self.edges.ends.iter().enumerate() {
+            let [walls, others] = ends.map(|v| rules.bound[v as usize]);
+            if walls & others == 0 {
+                continue;
+            }
+            let [a, b] = ends.map(|v| surface.points[v as usize]);
+            for u in self.edges.around(edge) {
+                let apex = apex_of(&surface.triangles[u.triangle as usize], u.corner) as usize;
+                let beyond = walls & others & !rules.bound[apex];
+                if beyond == 0 {
+                    continue;
+                }
+                let p = surface.points[apex];
+                let image = (rules.onto)(beyond.trailing_zeros(), p) * 2.0 - p;
+                let plane = Plane::of(surface.corners(u.triangle));
+                let beside = &mut beside[self.facet[u.triangle as usize] as usize];
+                if plane.off([image; 3]) <= rules.flat {
+                    beside.border -= a.distance(b);
+                    continue;
+                }
+                let [m, n] = [p, image].map(|p| double_area_vector(a, b, p).normalize_or_zero());
+                if -m.dot(n) >= rules.feature {
+                    beside.smooth += a.distance(b);
+                    beside.like += a.distance(b);
+                }
+            }
+        }
     }
 
     /// Takes facets that go on beyond a face that is glued to another one, as facets do that were cut there, for one with what
@@ -526,6 +559,41 @@ mod tests {
         assert_eq!(faces_between(&surface, 0.0, &bound), [1, 1]);
         // It may be any facet of what is curved where it ends there.
         assert_eq!(faces(&surface, 0.0), [0, 1]);
+    }
+
+    #[test]
+    fn a_facet_that_mirror_planes_cut_is_one_with_its_images() {
+        // What x = 0 and x = y leave of the level facet on top of a dome, beside half of which the dome goes on. The other half ends at
+        // an upright facet, which turns to its image by less than features do.
+        let at = |polar: f64, around: f64| {
+            let (z, r) = (polar.to_radians().cos(), polar.to_radians().sin());
+            let around = around.to_radians();
+            DVec3::new(r * around.cos(), r * around.sin(), z)
+        };
+        let mut surface = Surface::default();
+        let mut bound = Vec::new();
+        surface.points.push(DVec3::Z);
+        bound.push(3);
+        for polar in [5.0, 10.0, 15.0, 20.0] {
+            surface.points.extend([at(polar, 45.0), at(polar, 67.5)]);
+            bound.extend([2, 0]);
+        }
+        let end = DVec3::new(0.0, at(5.0, 90.0).y, at(5.0, 90.0).z);
+        surface
+            .points
+            .extend([end, end - DVec3::Z, surface.points[2] - DVec3::Z]);
+        bound.extend([1, 1, 0]);
+        surface
+            .triangles
+            .extend([[0, 1, 2], [0, 2, 9], [2, 11, 10], [2, 10, 9]]);
+        for ring in 0..3 {
+            let [a, b, c, d] = [1, 3, 4, 2].map(|v| v + 2 * ring);
+            surface.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+        surface.labels = vec![0; surface.triangles.len()];
+        assert_eq!(faces_between(&surface, 0.0, &bound), [0, 2]);
+        // Without planes, most of both ends there.
+        assert_eq!(faces(&surface, 0.0), [2, 1]);
     }
 
     #[test]
