@@ -281,7 +281,8 @@ impl Patches {
                 let image = (rules.onto)(beyond.trailing_zeros(), p) * 2.0 - p;
                 let plane = Plane::of(surface.corners(u.triangle));
                 let beside = &mut beside[self.facet[u.triangle as usize] as usize];
-                if plane.off([image; 3]) <= rules.flat {
+                // The ends of the edge and what is beside them are off one plane by that, and the image by twice as much.
+                if plane.off([image; 3]) <= 4.0 * rules.flat {
                     beside.border -= a.distance(b);
                     continue;
                 }
