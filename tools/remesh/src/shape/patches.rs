@@ -247,9 +247,6 @@ impl Patches {
             rise: rules.noise,
         };
         let mut beside = facets.beside(off.len(), mate);
-        for (t, &facet) in (0..).zip(&self.facet) {
-            beside[facet as usize].triangles += self.images_in_plane(surface, rules, t);
-        }
         self.beyond_walls(surface, rules, &mut beside);
         let same = self.beyond_links(surface, rules, &mut beside);
         // A single triangle is one of the facets of whatever goes on smoothly beside it.
@@ -262,8 +259,8 @@ impl Patches {
         same.into_iter().map(|first| one[first as usize]).collect()
     }
 
-    /// Takes what facets end at in mirror walls for no border, if their images beyond are in one plane with them, and for one beside which the
-    /// surface goes on with a facet like it, if it is smooth there.
+    /// Takes facets that end at planes and lines for one with their images beyond, if these are in one plane with them, and for what goes on there with a facet
+    /// like them, if the surface is smooth.
     fn beyond_walls(&self, surface: &Surface, rules: &Rules<'_>, beside: &mut [Beside]) {
         for (edge, ends) in self.edges.ends.iter().enumerate() {
             let [walls, others] = ends.map(|v| rules.bound[v as usize]);
@@ -283,6 +280,7 @@ impl Patches {
                 let beside = &mut beside[self.facet[u.triangle as usize] as usize];
                 // The ends of the edge and what is beside them are off one plane by that, and the image by twice as much.
                 if plane.off([image; 3]) <= 4.0 * rules.flat {
+                    beside.triangles += 1;
                     beside.border -= a.distance(b);
                     continue;
                 }
@@ -363,20 +361,6 @@ impl Patches {
             }
         }
         first
-    }
-
-    /// Beyond how many of the planes and lines that its sides are on the image of a triangle is in its plane, and of one facet with it.
-    fn images_in_plane(&self, surface: &Surface, rules: &Rules<'_>, t: u32) -> u32 {
-        let corners = surface.triangles[t as usize];
-        let plane = Plane::of(surface.corners(t));
-        let is_beyond = |i: usize| {
-            let [a, b, c] = [0, 1, 2].map(|k| corners[(i + k) % 3] as usize);
-            let walls = rules.bound[a] & rules.bound[b] & !rules.bound[c];
-            let p = surface.points[c];
-            let image = |wall: u32| (rules.onto)(wall, p) * 2.0 - p;
-            walls != 0 && plane.off([image(walls.trailing_zeros()); 3]) <= rules.flat
-        };
-        (0..3).map(|i| u32::from(is_beyond(i))).sum()
     }
 }
 
