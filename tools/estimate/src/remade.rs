@@ -2,7 +2,7 @@
 
 use crate::wedge::Wedge;
 use glam::DVec3;
-use remesh::{Curve, Rules, Sizes, Surface, Wanted};
+use remesh::{Curve, Drawn, Rules, Sizes, Surface, Wanted};
 use rustc_hash::FxHashMap;
 
 /// What is asked of a surface that will be remeshed.
@@ -85,7 +85,7 @@ impl Remade {
             folds: asked.folds,
             feature: asked.feature,
             sharp: 0.0,
-            exact: false,
+            drawn: Drawn::Roughly,
             sizes: Sizes {
                 turn: asked.turn,
                 turn_is_asked: asked.turn_is_asked,

@@ -61,13 +61,23 @@ pub struct Rules<'a> {
     /// Cosine of the angle between the normals at a feature edge, from which on it is one.
     pub feature: f64,
     /// The smallest angle asked of elements, radians: no change leaves triangles that meet at an edge in a smaller one where there was none, as no
-    /// element at the edge has a larger one, and no vertex is moved so that a corner of a facet gets sharper than that.
+    /// element at the edge has a larger one.
     pub sharp: f64,
-    /// Whether all stays as it is drawn, unless some facets of curved patches are detail beside the edges wanted, and, where no lengths are
-    /// asked for, curved patches take less than a third of the triangles then.
-    pub exact: bool,
+    /// What the triangles of curved patches stand for.
+    pub drawn: Drawn,
     /// How long edges are to be.
     pub sizes: Sizes<'a>,
+}
+
+/// What the triangles of curved patches stand for, where no lengths are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawn {
+    /// Themselves: they stay, unless some are detail beside the edges wanted, and curved patches take less than a third of the triangles without.
+    Exactly,
+    /// Themselves, but for needles: patches where facets have sharp corners are remeshed, and what is detail.
+    WithNeedles,
+    /// A shape, which gets edges as long as is wanted.
+    Roughly,
 }
 
 /// How long edges are to be.
@@ -121,6 +131,11 @@ impl Sizes<'_> {
 }
 
 impl Rules<'_> {
+    /// Whether curved patches of a label get edges as long as is wanted, however they are drawn.
+    pub fn remakes(&self, label: u32) -> bool {
+        self.drawn == Drawn::Roughly || self.sizes.are_asked_at(label)
+    }
+
     /// How far the surface may move at a vertex of the input, model units.
     pub fn deviation_at(&self, v: usize) -> f64 {
         let nearer = self.nearer.get(v).map(|nearer| nearer.max(self.noise));

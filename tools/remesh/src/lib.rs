@@ -13,7 +13,7 @@ mod passes;
 mod shape;
 mod smooth;
 
-pub use input::{Link, MOST_LINKS, Rules, Sizes, Surface};
+pub use input::{Drawn, Link, MOST_LINKS, Rules, Sizes, Surface};
 pub use mesh::Sample;
 pub use passes::{Remeshed, Told, remesh};
 pub use shape::{Curve, Ground, Wanted};

@@ -3,7 +3,7 @@
 use crate::footing::{Footing, point};
 use crate::joined::{AXIS, Joined, Part};
 use glam::DVec3;
-use remesh::{Remeshed, Rules, Sizes, Told, remesh};
+use remesh::{Drawn, Remeshed, Rules, Sizes, Told, remesh};
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 use tmesh::{Document, Gluing, Template, Triangle};
@@ -32,8 +32,8 @@ pub struct Remeshing<'a> {
     pub noise: f64,
     /// Within this of a plane, triangles are in one plane, model units.
     pub flat: f64,
-    /// Whether all facets stay, unless some are far finer than the edges asked for, or cost more than the shape does.
-    pub exact: bool,
+    /// What the triangles of curved faces stand for.
+    pub drawn: Drawn,
     /// How long edges are to be.
     pub sizes: &'a mesher::Sizes,
 }
@@ -82,7 +82,7 @@ pub fn remeshed(
         folds: document.unevenness(),
         feature: libm::cos(document.wishes.feature_angle().to_radians()),
         sharp: document.wishes.min_dihedral().to_radians(),
-        exact: remeshing.exact,
+        drawn: remeshing.drawn,
         sizes,
     };
     let done = remesh(&joined.surface, &rules)?;

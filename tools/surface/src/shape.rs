@@ -9,12 +9,12 @@ use crate::seams::{same_body, same_size};
 use geom::tolerance::Tolerance;
 use kit::tolerance;
 use mesher::{Description, Error, Log, Params, Piece, Plc, Progress, Sizes, thickness};
-use remesh::Told;
+use remesh::{Drawn, Told};
 use tmesh::{Deviation, Document};
 
 /// What a deviation is multiplied by where it changes volumes by too much. A choice: what a deviation changes of them is at most
 /// proportional to it, so that a few steps of this size are enough, and none gives up much more than needed.
-const NARROWER: f64 = 0.25;
+const NARROWER: f64 = 0.5;
 
 /// How far a face of a wall may move for the sake of lengths, over the wall's thickness: as both do at most, half of it is left.
 const OF_WALL: f64 = 0.25;
@@ -63,7 +63,10 @@ pub fn follow_shape(
         deviation: wide.max(noise),
         noise,
         drift: None,
-        exact,
+        drawn: match exact {
+            true => Drawn::Exactly,
+            false => Drawn::Roughly,
+        },
     });
     let is_auto = document.wishes.deviation() == Deviation::Auto;
     let mut farthest = 0.0_f64;
@@ -136,8 +139,8 @@ struct Attempt {
     noise: f64,
     /// Volumes and areas stay what they are within what comes of a surface that is off by this, model units.
     drift: Option<f64>,
-    /// Whether all facets stay, unless some are far finer than the edges asked for, or cost more than the shape does.
-    exact: bool,
+    /// What the triangles of curved faces stand for.
+    drawn: Drawn,
 }
 
 impl Attempt {
@@ -157,7 +160,7 @@ impl Attempt {
             nearer: &nearer,
             noise: self.noise,
             flat,
-            exact: self.exact,
+            drawn: self.drawn,
             sizes,
         };
         let (all, told) = remeshed(document, group, &remeshing)?;
@@ -179,7 +182,7 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
         deviation,
         noise: deviation,
         drift,
-        exact: false,
+        drawn: Drawn::Roughly,
     };
     let drift = tolerance.drift();
     match document.wishes.deviation() {
@@ -221,7 +224,10 @@ fn for_drawing(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
         deviation,
         noise: tolerance.equal(),
         drift: None,
-        exact: !has_needles,
+        drawn: match has_needles {
+            true => Drawn::WithNeedles,
+            false => Drawn::Exactly,
+        },
     })
 }
 

@@ -3,7 +3,6 @@
 use super::worth::{GAIN, GOOD};
 use crate::mesh::{Change, Mesh};
 use crate::shape::Near;
-use geom::flat::Plane;
 use geom::measure::triangle_area;
 use glam::DVec3;
 
@@ -42,9 +41,7 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
         .map(|&(t, patch)| mesh.quality_of(t, patch));
     let after = after.fold(1.0, f64::min);
     let is_better = after > before + GAIN || (after >= GOOD && before >= GOOD);
-    // Where lengths are asked for, needles are divided by them.
-    let is_sharper = || !mesh.rules.sizes.are_asked() && sharpens(mesh, &change, v);
-    let fitted = match is_better && !is_sharper() {
+    let fitted = match is_better {
         true => mesh.fit(&change),
         false => None,
     };
@@ -57,51 +54,6 @@ pub fn relocate(mesh: &mut Mesh<'_>, v: u32) -> bool {
             mesh.points[v as usize] = old;
             false
         }
-    }
-}
-
-/// Whether the move of a vertex folds facets so that the mesher has to keep a corner sharper than is asked of elements, and sharper than those before.
-fn sharpens(mesh: &Mesh<'_>, change: &Change, v: u32) -> bool {
-    let after = sharpest_kept(mesh, v, |w| mesh.points[w as usize]);
-    after < mesh.rules.sharp && after < sharpest_kept(mesh, v, |w| mesh.before(change, w))
-}
-
-/// The sharpest corner that triangles at a vertex have together with those that are flat with them, radians.
-fn sharpest_kept(mesh: &Mesh<'_>, v: u32, at: impl Fn(u32) -> DVec3) -> f64 {
-    let corners = |t: u32| mesh.triangles[t as usize].map(&at);
-    let angle = |t: u32, w: u32| {
-        let [a, b] = others(mesh.triangles[t as usize], w).map(|u| at(u) - at(w));
-        a.angle_between(b)
-    };
-    // A triangle that is flat with another one across an edge.
-    let flat_with = |t: u32, [a, b]: [u32; 2]| {
-        let at_edge = mesh.at_edge(a, b);
-        let [x, y] = at_edge[..] else { return None };
-        let beside = if x == t { y } else { x };
-        if mesh.curve(a, b).is_some() {
-            return None;
-        }
-        let (p, q) = (corners(t), corners(beside));
-        let is_flat = |p, q| Plane::of(p).off(q) <= mesh.rules.flat;
-        (is_flat(p, q) || is_flat(q, p)).then_some(beside)
-    };
-    let of_triangle = |t: u32| {
-        mesh.triangles[t as usize].map(|w| {
-            let sides = others(mesh.triangles[t as usize], w).map(|u| [u, w]);
-            let beside = sides.into_iter().filter_map(|side| flat_with(t, side));
-            angle(t, w) + beside.map(|s| angle(s, w)).sum::<f64>()
-        })
-    };
-    let kept = mesh.around(v).iter().flat_map(|&t| of_triangle(t));
-    kept.fold(f64::INFINITY, f64::min)
-}
-
-/// The corners other than one.
-fn others([a, b, c]: [u32; 3], v: u32) -> [u32; 2] {
-    match v {
-        v if v == a => [b, c],
-        v if v == b => [c, a],
-        _ => [a, b],
     }
 }
 

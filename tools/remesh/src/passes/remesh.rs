@@ -9,7 +9,7 @@ use super::rows::Rows;
 use super::split::split;
 use super::uncap::uncap;
 use super::worth::{DETAIL, FINE, GOOD, LONG, SHORT};
-use crate::input::{MOST_LINKS, Rules, Surface};
+use crate::input::{Drawn, MOST_LINKS, Rules, Surface};
 use crate::mesh::{Mesh, NONE, Sample};
 use crate::shape::{Allowance, Curves, Envelope, Ground, Patches};
 use geom::contacts::contacts;
@@ -66,11 +66,10 @@ impl Told {
 /// Sharpest corner of a facet, degrees, below which a patch is remeshed: what the mesher keeps of a corner between segments is
 /// an angle of elements, and below 20 degrees that is less than what they get elsewhere.
 const SHARP: f64 = 20.0;
-/// Rounds of splitting, collapsing, flipping and moving: vertices settle within five (Botsch and Kobbelt).
-const ROUNDS: usize = 6;
-/// Rounds more where lengths are asked for: a fine drawing takes all of the others to become a coarse one, and needles on the way mean
-/// nothing.
-const SETTLING: usize = 2;
+/// Rounds after which needles are split: a fine drawing takes that many to become a coarse one, and needles on the way mean nothing.
+const SETTLED: usize = 4;
+/// Rounds of splitting, collapsing, flipping and moving, these among them: vertices settle within five (Botsch and Kobbelt).
+const ROUNDS: usize = 8;
 /// How often needles are split in each round: in all, strips between features become squares that are up to 64 times as long
 /// as wide. Measured on fans, impellers and wheels from CAD kernels: with one, the first percentile of the dihedral angle
 /// is 14.4 to 21 degrees, with two 16.6 to 24 for 2 % more elements over all parts tried; with four, an impeller whose blades end in strips of
@@ -181,58 +180,49 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     );
     mesh.joins = joins;
     let mut told = Told::default();
-    if rules.exact && !fine(&mesh).contains(&true) {
+    let is_exact = rules.drawn == Drawn::Exactly;
+    if is_exact && !fine(&mesh).contains(&true) {
         return None;
     }
     let is_sized = rules.sizes.are_asked();
-    // Of what is drawn exactly, and asked for no lengths.
-    let drawn = (rules.exact && !is_sized).then(|| triangles_wanted(&mesh));
+    let drawn = (is_exact && !is_sized).then(|| triangles_wanted(&mesh));
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
     let none = vec![false; patches.planes.len()];
     told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL], Rows::unknown());
     told.flipped += uncap_all(&mut mesh);
-    let rows = |mesh: &Mesh<'_>| match is_sized {
-        true => Rows::new(mesh),
-        false => Rows::unknown(),
-    };
     let mut active = sharp(&mesh);
     for (&patch, &label) in patches.of.iter().zip(&surface.labels) {
         let is_curved = mesh.planes[patch as usize].is_none();
-        active[patch as usize] |= is_curved && rules.sizes.are_asked_at(label);
+        active[patch as usize] |= is_curved && rules.remakes(label);
     }
     told.flipped += flip_all(&mut mesh, &active);
-    let (rounds, settled) = match is_sized {
-        true => (ROUNDS + SETTLING, ROUNDS - 2),
-        false => (ROUNDS, 1),
-    };
-    for round in 0..rounds {
+    for round in 0..ROUNDS {
         // What is done in a patch moves curves that others share, and facets there, such as strips along a cylinder, get
         // diagonals that nothing hides any more.
-        let found = if !told.is_nothing() && !is_sized {
-            sharp(&mesh)
-        } else {
-            Vec::new()
+        let found = match told.is_nothing() || is_sized || rules.drawn == Drawn::Roughly {
+            true => Vec::new(),
+            false => sharp(&mesh),
         };
         let both = active.iter_mut().zip(found);
         both.for_each(|(active, found)| *active |= found);
-        if round + 2 < rounds {
-            // Lengths that are asked for may be many halvings away.
+        if round + 2 < ROUNDS {
+            // The lengths that are wanted may be many halvings away.
             loop {
-                let known = rows(&mesh);
-                let split = split_all(&mut mesh, &active, known);
+                let rows = Rows::new(&mesh);
+                let split = split_all(&mut mesh, &active, rows);
                 told.split += split;
-                if split == 0 || !is_sized {
+                if split == 0 {
                     break;
                 }
             }
-            if round >= settled {
+            if round >= SETTLED {
                 for _ in 0..HALVINGS {
                     told.split += split_needles(&mut mesh, &active);
                 }
             }
         }
-        let known = rows(&mesh);
-        told.collapsed += collapse_all(&mut mesh, &active, [SHORT, DETAIL], known);
+        let rows = Rows::new(&mesh);
+        told.collapsed += collapse_all(&mut mesh, &active, [SHORT, DETAIL], rows);
         told.flipped += uncap_all(&mut mesh);
         told.flipped += flip_all(&mut mesh, &active);
         told.moved += move_all(&mut mesh, &active);
@@ -413,11 +403,10 @@ fn split_all(mesh: &mut Mesh<'_>, active: &[bool], mut rows: Rows) -> usize {
 }
 
 /// Splits the longest sides of needles that collapsing has left, as between features that are near each other: what the mesher
-/// makes at their corners is as sharp as they are. Where lengths are asked for, of those with a corner that is too sharp: of others,
-/// the longest side is as long as somebody wants it. On 37 parts from CAD kernels at three lengths that is 3 % fewer elements than
-/// without splitting, and one first percentile in twenty below 24 degrees for one in five.
+/// makes at their corners is as sharp as they are. Of those with a corner that is too sharp: of others, the longest side is as long as is
+/// wanted. On 37 parts from CAD kernels at three lengths that is 3 % fewer elements than without splitting, and one first percentile in twenty
+/// below 24 degrees for one in five.
 fn split_needles(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
-    let is_sized = mesh.rules.sizes.are_asked();
     let sine = libm::sin(SHARP.to_radians());
     let mut needles: Vec<(f64, [u32; 2])> = Vec::new();
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
@@ -431,7 +420,7 @@ fn split_needles(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
             let [p, q, r] = [a, b, c].map(|v| mesh.points[v as usize]);
             double_area_vector(p, q, r).length() < sine * sides[1].0 * sides[2].0
         };
-        if sides[2].0 > 2.0 * sides[0].0 && (!is_sized || is_sharp()) {
+        if sides[2].0 > 2.0 * sides[0].0 && is_sharp() {
             needles.push(sides[2]);
         }
     }
@@ -453,9 +442,8 @@ fn uncap_all(mesh: &mut Mesh<'_>) -> usize {
 fn flip_all(mesh: &mut Mesh<'_>, active: &[bool]) -> usize {
     let mut done = 0;
     let mut beside = active.to_vec();
-    let is_sized = mesh.rules.sizes.are_asked();
     for [a, b] in mesh.edges() {
-        if is_sized && mesh.curve(a, b).is_some() && is_active(mesh, active, [a, b]) {
+        if mesh.curve(a, b).is_some() && is_active(mesh, active, [a, b]) {
             for t in mesh.at_edge(a, b) {
                 let patch = mesh.patch[t as usize] as usize;
                 beside[patch] |= mesh.planes[patch].is_some();

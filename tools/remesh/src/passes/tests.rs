@@ -6,7 +6,7 @@ use super::remesh::slenderness;
 use super::split::split;
 use crate::mesh::Mesh;
 use crate::shape::{Allowance, Curves, Envelope, Near, Patches};
-use crate::{Link, Remeshed, Rules, Sizes, Surface, remesh};
+use crate::{Drawn, Link, Remeshed, Rules, Sizes, Surface, remesh};
 use geom::contacts::contacts;
 use geom::measure::volume_of_region;
 use geom::tree::{Tree, closest_point};
@@ -80,7 +80,7 @@ fn rules<'a>(
         folds: 0.0,
         feature: 0.75_f64.sqrt(),
         sharp: SHARP,
-        exact: false,
+        drawn: Drawn::Roughly,
         sizes: Sizes {
             turn: std::f64::consts::TAU / 12.0,
             turn_is_asked: false,
@@ -694,7 +694,7 @@ fn an_exact_drawing_is_given_up_where_its_strips_cost_more_than_the_shape() {
         let bound = vec![0; surface.points.len()];
         let rules = Rules {
             noise: 1e-9,
-            exact: true,
+            drawn: Drawn::Exactly,
             ..rules(0.02, (&none, &[]), (&bound, &[]))
         };
         remesh(&surface, &rules)

@@ -30,7 +30,7 @@ impl Arc {
         // the final edges, which leave bad triangles where the envelope has no room for them. Measured with `tetwedge` on
         // parts from CAD kernels and archives: with a quarter of the deviation there are up to twice as many elements, and
         // one part in thirty (a helical gear) has larger angles; with all of it first percentiles fall by up to 4 degrees.
-        let near = (4.0 * deviation / self.curvature).sqrt();
+        let near = (8.0 * deviation / self.curvature).sqrt();
         let drawn = self.width().max(2.0 * rules.noise);
         let asked = match sizes.turn_is_asked {
             true => turned.min(longest),

@@ -214,6 +214,7 @@ fn uncertainty(surface: &Surface, rules: &Rules<'_>, patches: &Patches, edge: us
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Drawn;
     use crate::input::Sizes;
     use glam::DVec3;
 
@@ -240,7 +241,7 @@ mod tests {
         let bound = vec![0; surface.points.len()];
         let usual = Rules {
             sharp: 0.0,
-            exact: false,
+            drawn: Drawn::Roughly,
             held: &held,
             bound: &bound,
             links: &[],

@@ -376,6 +376,7 @@ fn normals(surface: &Surface) -> Vec<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Drawn;
     use crate::input::Sizes;
 
     /// A cube whose upper side has a point in it, raised by this much.
@@ -416,7 +417,7 @@ mod tests {
         };
         let rules = Rules {
             sharp: 0.0,
-            exact: false,
+            drawn: Drawn::Roughly,
             held: &vec![false; surface.points.len()],
             bound,
             links: &[],
