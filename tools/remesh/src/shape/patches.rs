@@ -260,8 +260,10 @@ impl Patches {
     }
 
     /// Takes facets that end at planes and lines for one with their images beyond, if these are in one plane with them, and for what goes on there with a facet
-    /// like them, if the surface is smooth.
+    /// like them, if the surface is smooth. Faces that are glued to others are cuts, which stand for no shape.
     fn beyond_walls(&self, surface: &Surface, rules: &Rules<'_>, beside: &mut [Beside]) {
+        let labels = rules.links.iter().flat_map(|link| &link.labels);
+        let glued: FxHashSet<u32> = labels.copied().collect();
         for (edge, ends) in self.edges.ends.iter().enumerate() {
             let [walls, others] = ends.map(|v| rules.bound[v as usize]);
             if walls & others == 0 {
@@ -271,7 +273,8 @@ impl Patches {
             for u in self.edges.around(edge) {
                 let apex = apex_of(&surface.triangles[u.triangle as usize], u.corner) as usize;
                 let beyond = walls & others & !rules.bound[apex];
-                if beyond == 0 {
+                let is_glued = glued.contains(&surface.labels[u.triangle as usize]);
+                if beyond == 0 || is_glued {
                     continue;
                 }
                 let p = surface.points[apex];
