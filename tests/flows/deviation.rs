@@ -148,9 +148,14 @@ fn farthest(from: &[[DVec3; 3]], to: &[[DVec3; 3]]) -> f64 {
 }
 
 fn first_percentile(mesh: &[u8]) -> f64 {
+    angle_of(mesh, "p01")
+}
+
+/// The `min`, `p01` or another summary of the smallest dihedral angles of a mesh that keeps what is promised, degrees.
+fn angle_of(mesh: &[u8], summary: &str) -> f64 {
     let report = run("meshqual", &["-q", "--check", "--json", "-"], mesh).success();
     let report: Value = serde_json::from_slice(&report).expect("JSON");
-    let angle = &report["metrics"]["min_dihedral_deg"]["p01"];
+    let angle = &report["metrics"]["min_dihedral_deg"][summary];
     angle.as_f64().expect("an angle")
 }
 
@@ -715,16 +720,22 @@ fn outlines_of_seams_are_remeshed_with_their_images() {
     }
 }
 
-/// Wedges with seams are improved along the curved surface that they stand for as those with mirrors are, within the deviation. Where all of the
-/// surface stayed as it was when the seams were made, the first percentile was 27.1 degrees, now it is 28.6.
+/// Wedges with seams are improved along the curved surface that they stand for as those with mirrors are, within the deviation. Where `periodic-surf` was
+/// there before, all of the surface stays as it was when the seams were made: 2,148 elements with angles from 23.2 degrees on, and 1,972 from 25.6 on without.
 #[test]
 fn wedges_with_seams_are_improved_along_their_shape() {
     let found = run("symdetect", &["-q"], &twisted_vase(0.3, 0.1)).success();
     let cut = ["-q", "--deviation", "0.02", "--hub", "none"];
     let cut = run("wedgecut", &cut, &found).success();
     let filled = run("tetwedge", &["-q"], &cut).success();
-    let angle = first_percentile(&filled);
-    assert!(angle > 28.0, "{angle}");
+    let made = run("periodic-surf", &["-q"], &cut).success();
+    let kept = run("tetwedge", &["-q"], &made).success();
+    let [free, kept] = [&filled, &kept].map(|mesh| {
+        let count = read(mesh).templates[0].tets.len();
+        (count, angle_of(mesh, "min"))
+    });
+    assert!(free.0 < kept.0 && free.1 > kept.1, "{free:?} {kept:?}");
+    assert!(first_percentile(&filled) > 27.5);
     let [cut, filled] = [&cut, &filled].map(|bytes| read(bytes));
     assert!(filled.templates[0].gluings.iter().any(|g| g.is_seam(0)));
     let allowed = 0.02 * cut.symmetry.as_ref().expect("a symmetry").radius;

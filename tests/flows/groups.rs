@@ -7,7 +7,13 @@ use support::{EXACT_STL, encode, run};
 /// Runs the pipe up to the meshed wedge at the order of the group, checks what the assembled mesh promises, and
 /// that the mesh is made of `copies` copies of the wedge.
 #[track_caller]
-fn is_meshed_in_copies(mut body: Body, copies: usize) {
+fn is_meshed_in_copies(body: Body, copies: usize) {
+    is_meshed_in_copies_with(body, copies, &[]);
+}
+
+/// The same, cut with more options.
+#[track_caller]
+fn is_meshed_in_copies_with(mut body: Body, copies: usize, more: &[&str]) {
     assert_eq!(body.group.size() as usize, copies);
     let placement = Placement {
         rotate: Some(11),
@@ -26,7 +32,8 @@ fn is_meshed_in_copies(mut body: Body, copies: usize) {
     assert_eq!(report["group"], name.as_str());
 
     let order = body.order.to_string();
-    let wedge = run("wedgecut", &["-q", "--order", &order], &found).success();
+    let options = [&["-q", "--order", &order], more].concat();
+    let wedge = run("wedgecut", &options, &found).success();
     let surface = run("periodic-surf", &["-q"], &wedge).success();
     let meshed = run("tetwedge", &["-q"], &surface).success();
     let document = tmesh::read(meshed.as_slice()).expect("it is sound");
@@ -92,7 +99,8 @@ fn alternating_wheel(order: u32, bore: f64) -> Body {
 
 #[test]
 fn a_helical_gear_has_half_turns_across_the_axis() {
-    is_meshed_in_copies(helical_gear(16, 0.3), 32);
+    // By itself, its bore would not stay as it is drawn, in strips that cost 3.6 times the elements.
+    is_meshed_in_copies_with(helical_gear(16, 0.3), 32, &["--deviation", "0"]);
     is_meshed_in_copies(helical_gear(16, 0.0), 32);
 }
 

@@ -173,12 +173,17 @@ impl Score {
     /// Whether it has fewer elements for what the smallest angle is worth, where one that fails weighs as much as others, and edges that are
     /// longer than asked for as much as ones that are shorter: edges that are longer by a part are as far from what was asked for as ones that
     /// are shorter by it, which take its cube more elements. That many fewer are no merit, and as many count against it.
-    pub fn costs_less_than(&self, other: &Self) -> bool {
+    fn costs_less_than(&self, other: &Self) -> bool {
         self.cost() * other.worth < other.cost() * self.worth
     }
 
-    /// The same by the first percentile of the angles instead of the smallest one: next to lengths that are far from those asked for, a single
-    /// element is no reason.
+    /// The same by the smallest angle and the first percentile as much: the smallest one is that of a single element, and more elements for it may be many.
+    pub fn is_cheaper_than(&self, other: &Self) -> bool {
+        let worth = |score: &Self| (score.worth * score.worth_of_most).sqrt();
+        self.cost() * worth(other) < other.cost() * worth(self)
+    }
+
+    /// The same by the first percentile alone: next to lengths that are far from those asked for, a single element is no reason.
     fn takes_less_than(&self, other: &Self) -> bool {
         self.cost() * other.worth_of_most < other.cost() * self.worth_of_most
     }
@@ -226,6 +231,11 @@ mod tests {
         assert!(!score((1000, 100), 0.8, [14.0, 18.0]).takes_less_than(&short));
         assert!(!score((1000, 2000), 0.8, [14.0, 24.0]).takes_less_than(&short));
         assert!(!score((1000, 0), 1.2, [14.0, 24.0]).takes_less_than(&short));
+        // Both count as much: half as many elements more for a better worst one are too many, unless most are better, too.
+        let [plain, fine] = [14.0, 17.0].map(|first| score((1000, 0), 1.0, [14.0, first]));
+        let dear = score((1500, 0), 1.0, [17.0, 14.0]);
+        assert!(dear.costs_less_than(&plain) && plain.is_cheaper_than(&dear));
+        assert!(fine.is_cheaper_than(&plain));
         // Where the worst element is no worse, most of them may be, as in a mesh of so few that one in a hundred is one of those that the input makes.
         let few = score((1000, 100), 0.8, [14.0, 18.0]);
         let many = score((3000, 0), 0.5, [14.0, 26.0]);

@@ -58,7 +58,7 @@ pub fn template<B: Send>(
     let beside = beside.filter(|_| rayon::current_num_threads() > 1);
     let unless_drawn = beside.map(|beside| {
         move |filled: &Filled| {
-            (draws(climb, filled.template.tets.len()) == 0).then(|| beside(filled))
+            (draws((climb, footing), filled.template.tets.len()) == 0).then(|| beside(filled))
         }
     });
     let beside = unless_drawn.as_ref().map(|made| made as Beside<'_, B>);

@@ -379,8 +379,8 @@ fn normals(surface: &Surface) -> Vec<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::Drawn;
     use crate::input::Sizes;
+    use crate::input::{Drawn, Link};
 
     /// A cube whose upper side has a point in it, raised by this much.
     fn cube(raised: f64) -> Surface {
@@ -414,6 +414,11 @@ mod tests {
 
     /// The same of a surface of which each vertex is on some of the planes x = 0 (bit 0) and x = y (bit 1).
     fn faces_between(surface: &Surface, folds: f64, bound: &[u32]) -> [usize; 2] {
+        faces_glued(surface, folds, bound, &[])
+    }
+
+    /// The same where some of its faces are glued to each other.
+    fn faces_glued(surface: &Surface, folds: f64, bound: &[u32], links: &[Link]) -> [usize; 2] {
         let onto = |bit: u32, p: DVec3| match bit {
             0 => DVec3::new(0.0, p.y, p.z),
             _ => DVec3::new(0.5 * (p.x + p.y), 0.5 * (p.x + p.y), p.z),
@@ -423,7 +428,7 @@ mod tests {
             drawn: Drawn::Roughly,
             held: &vec![false; surface.points.len()],
             bound,
-            links: &[],
+            links,
             spaces: &[],
             onto: &onto,
             deviation: 1e-3,
@@ -583,6 +588,34 @@ mod tests {
         assert_eq!(faces_between(&surface, 0.0, &bound), [0, 2]);
         // Without planes, most of both ends there.
         assert_eq!(faces(&surface, 0.0), [2, 1]);
+    }
+
+    #[test]
+    fn a_glued_face_is_flat_however_its_images_lie() {
+        // What x = 0 and x = y leave of an upright face, as of the wall of a hub, which turns to its image beyond x = 0 by 23 degrees; and the face of
+        // the hub that it is glued to.
+        let upright = |x: f64| {
+            let at = |x, y, z| DVec3::new(x, y, z);
+            [
+                at(x + 0.5, 0.5, 0.0),
+                at(x, 0.6, 0.0),
+                at(x, 0.6, 5.0),
+                at(x + 0.5, 0.5, 5.0),
+            ]
+        };
+        let surface = Surface {
+            points: [0.0, 3.0].into_iter().flat_map(upright).collect(),
+            triangles: vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]],
+            labels: vec![1, 1, 2, 2],
+        };
+        let bound = [2, 1, 1, 2, 0, 0, 0, 0];
+        assert_eq!(faces_between(&surface, 0.0, &bound), [1, 1]);
+        let link = Link {
+            pairs: (0..4).map(|v| [v, v + 4]).collect(),
+            labels: vec![1, 2],
+            image: std::sync::Arc::new(|p| p + DVec3::new(3.0, 0.0, 0.0)),
+        };
+        assert_eq!(faces_glued(&surface, 0.0, &bound, &[link]), [2, 0]);
     }
 
     #[test]
