@@ -8,7 +8,7 @@ use geom::tree::Tree;
 use glam::DVec3;
 use serde_json::Value;
 use std::fmt::Write;
-use support::{EXACT_STL, bytes, encode, read, run};
+use support::{EXACT_STL, bytes, encode, pipe, read, run};
 use tmesh::{OUTSIDE, Template};
 
 /// A vase with four lobes, D4h by design, in rings of facets that share neither its mirrors nor each other's rhythm, so that
@@ -957,4 +957,31 @@ fn exact_bodies_are_remeshed_for_their_needles_only() {
     assert!(told);
     let (told, kept) = quality(&barrel(true), "0");
     assert!(!told && kept > 2 * remeshed, "{kept} {remeshed}");
+}
+
+/// Edges follow the shape and not the file within a deviation, where no lengths are asked for, too: drawings of a vase with triangles as wide as high, none of
+/// which has a sharp corner, were kept but for what was far finer than chords may be, and had 7,264 to 8,128 elements.
+#[test]
+fn drawings_without_sharp_corners_are_remeshed() {
+    let count = |around: u32| {
+        let levels = (0.366 * f64::from(around)).round();
+        let rings = (0..=levels as u32).map(|i| {
+            let rhythm = (around, 0.5 * f64::from(i % 2));
+            ring(rhythm, 2.0 * f64::from(i) / levels - 1.0, [0.0; 2])
+        });
+        let drawn = written(&rings.collect::<Vec<_>>(), 1.0);
+        let found = run("symdetect", &["-q"], &drawn).success();
+        let stages: [&[&str]; 3] = [
+            &["wedgecut", "-q", "--deviation", "5e-3"],
+            &["tetwedge", "-q"],
+            &["rotassemble", "-q", "--to", "tmesh"],
+        ];
+        let mesh = pipe(&stages, &found).pop().expect("a stage").success();
+        assert!(first_percentile(&mesh) > 20.0, "{around}");
+        read(&mesh).templates[0].tets.len()
+    };
+    for around in [48, 64, 80] {
+        let count = count(around);
+        assert!(count < 6000, "{around}: {count}");
+    }
 }
