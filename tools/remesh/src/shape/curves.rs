@@ -214,8 +214,7 @@ fn uncertainty(surface: &Surface, rules: &Rules<'_>, patches: &Patches, edge: us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::Drawn;
-    use crate::input::Sizes;
+    use crate::input::{Drawn, Sizes};
     use glam::DVec3;
 
     #[test]

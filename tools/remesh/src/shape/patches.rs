@@ -379,8 +379,7 @@ fn normals(surface: &Surface) -> Vec<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::Sizes;
-    use crate::input::{Drawn, Link};
+    use crate::input::{Drawn, Link, Sizes};
 
     /// A cube whose upper side has a point in it, raised by this much.
     fn cube(raised: f64) -> Surface {
