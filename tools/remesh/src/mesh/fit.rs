@@ -149,6 +149,11 @@ impl Mesh<'_> {
         a & b & c & !self.planes_of[patch as usize] != 0 || self.images.lies_in_face(corners, patch)
     }
 
+    /// Whether a patch lies in a wall or a glued face: where the body was cut.
+    pub fn is_cut(&self, patch: u32) -> bool {
+        self.planes_of[patch as usize] != 0 || self.images.faces[patch as usize] != 0
+    }
+
     /// Whether a new triangle faces as one of its patch does that goes, but for rounding: as what is cut out of it. Needles along
     /// the edge of something thin face anywhere, and would stay as they are if their parts had to face as the shape does. Not
     /// where a vertex was moved: what is there instead has the same corners, and could be folded over.

@@ -152,11 +152,13 @@ fn join(mesh: &Mesh<'_>, [from, to]: [u32; 2], change: &mut Change) -> Option<()
 }
 
 /// Whether sides of something thin would meet: whether triangles around one vertex face away from those around the
-/// other, where those of neither do so by themselves. Triangles that are detail themselves face anywhere.
+/// other. Triangles that are detail themselves face anywhere, and those in walls and glued faces are no sides: the surface meets
+/// them in any angle, and nothing comes to lie in them.
 fn opposite(mesh: &Mesh<'_>, [from, to]: [u32; 2]) -> bool {
     let faces = |v: u32, other: u32| -> Vec<DVec3> {
         let around = mesh.around(v).iter();
-        let corners = around.map(|&t| mesh.triangles[t as usize]);
+        let of_shape = around.filter(|&&t| !mesh.is_cut(mesh.patch[t as usize]));
+        let corners = of_shape.map(|&t| mesh.triangles[t as usize]);
         let apart = corners.filter(|corners| !corners.contains(&other));
         let vectors = apart.map(|corners| {
             let [a, b, c] = corners.map(|v| mesh.points[v as usize]);

@@ -584,8 +584,8 @@ fn strips_between_sides_of_a_blade_go_where_they_are_detail() {
     let lens = lens(0.01);
     let held = vec![false; lens.points.len()];
     assert!(is_closed(&lens) && smallest_angle(&lens) < 0.2);
-    let is_without_strips = |lens: &Surface, held: &[bool]| {
-        let made = done(lens, 0.02, held).expect("strips along both edges");
+    let is_without_strips = |lens: &Surface, made: Option<Remeshed>| {
+        let made = made.expect("strips along both edges");
         assert!(made.told.joined > 0, "{:?}", made.told);
         let surface = &made.surface;
         assert!(is_closed(surface));
@@ -602,7 +602,7 @@ fn strips_between_sides_of_a_blade_go_where_they_are_detail() {
         let distances = [farthest(surface, lens), farthest(lens, surface)];
         assert!(distances.iter().all(|d| *d <= 0.02), "{distances:?}");
     };
-    is_without_strips(&lens, &held);
+    is_without_strips(&lens, done(&lens, 0.02, &held));
     // A face that has a label of its own stays, without the triangles at the ends of the strips, which are all that it has there.
     let mut walled = lens.clone();
     for (corners, label) in walled.triangles.iter().zip(&mut walled.labels) {
@@ -611,7 +611,21 @@ fn strips_between_sides_of_a_blade_go_where_they_are_detail() {
     }
     let one_of_each = |v: usize| v == 0 || v == 33;
     let ends: Vec<bool> = (0..lens.points.len()).map(one_of_each).collect();
-    is_without_strips(&walled, &ends);
+    is_without_strips(&walled, done(&walled, 0.02, &ends));
+    // Walls at both ends, that are sharp where the strips meet them.
+    let mut leaning = lens.clone();
+    (leaning.points.iter_mut()).for_each(|p| p.x += 3.0 * p.z);
+    let bound: Vec<u32> = leaning
+        .points
+        .iter()
+        .map(|p| if p.z == 0.0 { 1 } else { 2 })
+        .collect();
+    let onto = |bit: u32, p: DVec3| DVec3::new(p.x, p.y, 4.0 * f64::from(bit));
+    let between_walls = Rules {
+        onto: &onto,
+        ..rules(0.02, (&held, &[]), (&bound, &[]))
+    };
+    is_without_strips(&leaning, remesh(&leaning, &between_walls));
     // Within less than the strips are wide, they stay.
     let made = done(&lens, 1e-3, &held);
     assert!(made.is_none_or(|made| made.told.joined == 0));

@@ -126,10 +126,10 @@ impl Patches {
         patches
     }
 
-    /// Takes flat faces that are narrower than noise for what they are parts of where that is curved: next to something curved,
-    /// or to another one that is. How they lie means nothing, and held in their planes, strips as an exporter draws them
-    /// between two edges of a blade would stay needles. Between flat faces, however narrow, they are a shape of their own, and
-    /// what lies in walls or linked faces stays there.
+    /// Takes flat faces that are nowhere farther from their border than the surface may be off where it is for what they are parts of where that is
+    /// curved: next to something curved, or to another one that is. How they lie means nothing, and held in their planes, strips as an
+    /// exporter draws them between two edges of a blade would stay needles. Between flat faces, however narrow, they are a shape of their own,
+    /// and what lies in walls or linked faces stays there.
     fn leave_strips(&mut self, surface: &Surface, rules: &Rules<'_>) {
         let widths = self.widths(surface);
         let mut walls = vec![u32::MAX; self.planes.len()];
@@ -140,7 +140,8 @@ impl Patches {
             let mut links = rules.links.iter();
             is_linked[p as usize] |= links.any(|link| link.labels.contains(&surface.labels[t]));
         }
-        let is_strip = |p: usize| widths[p] <= rules.noise && walls[p] == 0 && !is_linked[p];
+        let widest = 2.0 * rules.deviation;
+        let is_strip = |p: usize| widths[p] <= widest && walls[p] == 0 && !is_linked[p];
         let mut beside = vec![Vec::new(); self.planes.len()];
         for edge in 0..self.edges.len() {
             let around = self.edges.around(edge).iter();
@@ -618,11 +619,11 @@ mod tests {
     }
 
     #[test]
-    fn a_strip_narrower_than_noise_is_no_face_beside_what_is_curved() {
-        // Noise is a thousandth, and the width of a strip twice its own.
-        assert_eq!(faces(&blade(4e-4, true), 0.0), [0, 3]);
-        assert_eq!(faces(&blade(6e-4, true), 0.0), [1, 2]);
-        assert_eq!(faces(&blade(4e-4, false), 0.0), [3, 0]);
+    fn a_strip_within_the_deviation_is_no_face_beside_what_is_curved() {
+        // The deviation is a thousandth, and the width of a strip twice its own.
+        assert_eq!(faces(&blade(8e-4, true), 0.0), [0, 3]);
+        assert_eq!(faces(&blade(12e-4, true), 0.0), [1, 2]);
+        assert_eq!(faces(&blade(8e-4, false), 0.0), [3, 0]);
     }
 
     #[test]
