@@ -31,8 +31,13 @@ pub struct Link {
     /// Labels of the triangles of both faces.
     pub labels: Vec<u32>,
     /// The image of a point.
-    pub image: Arc<dyn Fn(DVec3) -> DVec3 + Send + Sync>,
+    pub image: Place,
+    /// What a point is the image of.
+    pub back: Place,
 }
+
+/// Where an isometry takes a point.
+pub type Place = Arc<dyn Fn(DVec3) -> DVec3 + Send + Sync>;
 
 /// What must stay, and how far the rest may move.
 #[derive(Clone, Copy)]

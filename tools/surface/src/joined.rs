@@ -203,6 +203,7 @@ impl<'a> Joined<'a> {
                 pairs: pairs.map(|&[h, t]| [t + there, h + here]).collect(),
                 labels: glued.labels.concat(),
                 image: Arc::new(move |p| step.apply(p)),
+                back: Arc::new(move |p| step.inverse().apply(p)),
             }
         };
         self.glued.iter().map(link).collect()

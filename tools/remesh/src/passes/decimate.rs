@@ -102,6 +102,7 @@ impl Decimated {
                     .collect(),
                 labels: link.labels.clone(),
                 image: Arc::clone(&link.image),
+                back: Arc::clone(&link.back),
             });
         }
         Some(decimated)

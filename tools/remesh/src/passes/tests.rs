@@ -4,6 +4,7 @@ use super::collapse::collapse;
 use super::flip::flip;
 use super::remesh::slenderness;
 use super::split::split;
+use crate::input::Place;
 use crate::mesh::Mesh;
 use crate::shape::{Allowance, Curves, Envelope, Near, Patches};
 use crate::{Drawn, Link, Remeshed, Rules, Sizes, Surface, remesh};
@@ -439,10 +440,12 @@ fn bar() -> Surface {
 #[test]
 fn an_edge_along_which_a_body_touches_its_image_stays_its_image() {
     let surface = bar();
+    let half_turn: Place = Arc::new(|p| DVec3::new(-p.x, -p.y, p.z));
     let links = [Link {
         pairs: vec![[24, 24], [25, 25]],
         labels: Vec::new(),
-        image: Arc::new(|p| DVec3::new(-p.x, -p.y, p.z)),
+        image: Arc::clone(&half_turn),
+        back: half_turn,
     }];
     let free = vec![false; surface.points.len()];
     let done = linked(&surface, 1e-2, (&free, Some(0.2)), &links).unwrap();
@@ -469,13 +472,17 @@ fn an_edge_with_one_image_by_two_links_is_split_with_it() {
             surface.labels.push(0);
         }
     }
-    let half_turn = |angle: f64| Link {
-        pairs: vec![[24, 25], [middle, middle]],
-        labels: Vec::new(),
-        image: Arc::new(move |p| {
+    let half_turn = |angle: f64| {
+        let image: Place = Arc::new(move |p| {
             let (sine, cosine) = (2.0 * angle).sin_cos();
             DVec3::new(cosine * p.x + sine * p.y, sine * p.x - cosine * p.y, -p.z)
-        }),
+        });
+        Link {
+            pairs: vec![[24, 25], [middle, middle]],
+            labels: Vec::new(),
+            image: Arc::clone(&image),
+            back: image,
+        }
     };
     let free = vec![false; surface.points.len()];
     let links = [half_turn(0.0), half_turn(std::f64::consts::FRAC_PI_6)];

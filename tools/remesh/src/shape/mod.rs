@@ -3,6 +3,7 @@
 
 mod allowance;
 mod arc;
+mod beyond;
 mod curves;
 mod envelope;
 mod facets;
@@ -12,6 +13,7 @@ mod wanted;
 
 pub use allowance::{Allowance, untold};
 pub use arc::LONG;
+pub use beyond::Beyond;
 pub use curves::Curves;
 pub use envelope::{Envelope, Near};
 pub use facets::{Beside, Facets};

@@ -1,5 +1,6 @@
 //! Patches: connected triangles without a feature between them. A flat face is a patch of its own.
 
+use super::beyond::Beyond;
 use super::facets::{Beside, Facets};
 use crate::input::{Rules, Surface};
 use geom::edges::{EdgeUse, Edges, apex_of};
@@ -7,7 +8,6 @@ use geom::flat::{FOLD_COSINE, Flatness, Flats, Plane};
 use geom::measure::{double_area_vector, triangle_area};
 use geom::sets::DisjointSets;
 use glam::DVec3;
-use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The patches of a surface.
 pub struct Patches {
@@ -247,9 +247,9 @@ impl Patches {
             of: &self.facet,
             rise: rules.noise,
         };
-        let mut beside = facets.beside(off.len(), mate);
-        self.beyond_walls(surface, rules, &mut beside);
-        let same = self.beyond_links(surface, rules, &mut beside);
+        let beyond = Beyond::new((surface, rules), (&self.edges, &self.normals), &self.facet);
+        let mut beside = facets.beside(off.len(), mate, &beyond);
+        let same = beyond.join(&mut beside);
         // A single triangle is one of the facets of whatever goes on smoothly beside it.
         let is_face = |(beside, off): (&Beside, &f64)| match beside.triangles {
             1 => beside.smooth == 0.0,
@@ -258,113 +258,6 @@ impl Patches {
         };
         let one: Vec<bool> = beside.iter().zip(off).map(is_face).collect();
         same.into_iter().map(|first| one[first as usize]).collect()
-    }
-
-    /// Takes facets that end at planes and lines for one with their images beyond, if these are in one plane with them, and for what goes on there with a facet
-    /// like them, if the surface is smooth. Faces that are glued to others are cuts, which stand for no shape.
-    fn beyond_walls(&self, surface: &Surface, rules: &Rules<'_>, beside: &mut [Beside]) {
-        let labels = rules.links.iter().flat_map(|link| &link.labels);
-        let glued: FxHashSet<u32> = labels.copied().collect();
-        for (edge, ends) in self.edges.ends.iter().enumerate() {
-            let [walls, others] = ends.map(|v| rules.bound[v as usize]);
-            if walls & others == 0 {
-                continue;
-            }
-            let [a, b] = ends.map(|v| surface.points[v as usize]);
-            for u in self.edges.around(edge) {
-                let apex = apex_of(&surface.triangles[u.triangle as usize], u.corner) as usize;
-                let beyond = walls & others & !rules.bound[apex];
-                let is_glued = glued.contains(&surface.labels[u.triangle as usize]);
-                if beyond == 0 || is_glued {
-                    continue;
-                }
-                let p = surface.points[apex];
-                let image = (rules.onto)(beyond.trailing_zeros(), p) * 2.0 - p;
-                let plane = Plane::of(surface.corners(u.triangle));
-                let beside = &mut beside[self.facet[u.triangle as usize] as usize];
-                // The ends of the edge and what is beside them are off one plane by that, and the image by twice as much.
-                if plane.off([image; 3]) <= 4.0 * rules.flat {
-                    beside.triangles += 1;
-                    beside.border -= a.distance(b);
-                    continue;
-                }
-                let [m, n] = [p, image].map(|p| double_area_vector(a, b, p).normalize_or_zero());
-                if -m.dot(n) >= rules.feature {
-                    beside.smooth += a.distance(b);
-                    beside.like += a.distance(b);
-                }
-            }
-        }
-    }
-
-    /// Takes facets that go on beyond a face that is glued to another one, as facets do that were cut there, for one with what
-    /// goes on there: how the part of it on one side lies says less than how all of it does. Of each facet, the one that has what is
-    /// beside all of them.
-    fn beyond_links(
-        &self,
-        surface: &Surface,
-        rules: &Rules<'_>,
-        beside: &mut [Beside],
-    ) -> Vec<u32> {
-        let mut sets = DisjointSets::new(beside.len());
-        let mut inner: FxHashSet<(usize, u32)> = FxHashSet::default();
-        // Of all edges, only those on glued faces are looked at for each of the links.
-        let pairs = rules.links.iter().flat_map(|link| &link.pairs);
-        let glued: FxHashSet<u32> = pairs.flatten().copied().collect();
-        let ends = self.edges.ends.iter().enumerate();
-        let on_faces: Vec<(usize, [u32; 2])> = ends
-            .filter(|(_, ends)| ends.iter().all(|v| glued.contains(v)))
-            .map(|(edge, ends)| (edge, *ends))
-            .collect();
-        for link in rules.links {
-            let image: FxHashMap<u32, u32> = link.pairs.iter().map(|&[v, w]| (v, w)).collect();
-            let on_link = |ends: [u32; 2]| ends.map(|v| image.get(&v).copied());
-            let turned = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-            let images = on_faces.iter().filter_map(|&(e, ends)| {
-                let [Some(a), Some(b)] = on_link(ends) else {
-                    return None;
-                };
-                Some((turned([a, b]), e))
-            });
-            let from: FxHashMap<[u32; 2], usize> = images.collect();
-            let free = |e: usize| {
-                let around = self.edges.around(e).iter().map(|u| u.triangle);
-                let label = |t: &u32| surface.labels[*t as usize];
-                around.filter(move |t| !link.labels.contains(&label(t)))
-            };
-            for &(there, ends) in &on_faces {
-                let Some(&here) = from.get(&turned(ends)) else {
-                    continue;
-                };
-                for (t, u) in free(here).flat_map(|t| free(there).map(move |u| (t, u))) {
-                    let plane = Plane::of(surface.corners(u));
-                    if plane.off(surface.corners(t).map(|p| (link.image)(p))) > rules.flat {
-                        continue;
-                    }
-                    // No border of either any more; one face may be glued to several.
-                    let [a, b] = ends.map(|v| surface.points[v as usize]);
-                    for side in [(here, t), (there, u)] {
-                        if inner.insert(side) {
-                            let facet = self.facet[side.1 as usize] as usize;
-                            beside[facet].border -= a.distance(b);
-                        }
-                    }
-                    sets.join(self.facet[t as usize], self.facet[u as usize]);
-                }
-            }
-        }
-        let first: Vec<u32> = (0..beside.len() as u32).map(|f| sets.find(f)).collect();
-        for (f, &first) in first.iter().enumerate() {
-            if f != first as usize {
-                let other = std::mem::take(&mut beside[f]);
-                let all = &mut beside[first as usize];
-                all.triangles += other.triangles;
-                all.border += other.border;
-                all.smooth += other.smooth;
-                all.like += other.like;
-            }
-        }
-        first
     }
 }
 
@@ -423,6 +316,15 @@ mod tests {
             0 => DVec3::new(0.0, p.y, p.z),
             _ => DVec3::new(0.5 * (p.x + p.y), 0.5 * (p.x + p.y), p.z),
         };
+        faces_cut((surface, folds), (bound, &onto), links)
+    }
+
+    /// The same where planes are given.
+    fn faces_cut(
+        (surface, folds): (&Surface, f64),
+        (bound, onto): (&[u32], &(dyn Fn(u32, DVec3) -> DVec3 + Sync)),
+        links: &[Link],
+    ) -> [usize; 2] {
         let rules = Rules {
             sharp: 0.0,
             drawn: Drawn::Roughly,
@@ -430,7 +332,7 @@ mod tests {
             bound,
             links,
             spaces: &[],
-            onto: &onto,
+            onto,
             deviation: 1e-3,
             nearer: &[],
             noise: 1e-3,
@@ -590,6 +492,49 @@ mod tests {
         assert_eq!(faces(&surface, 0.0), [2, 1]);
     }
 
+    /// Ten degrees of a cylinder that is drawn with facets of eight and two degrees by turns, cut in the middles of two of the narrow ones.
+    fn cut_cylinder() -> Surface {
+        let middle = libm::cos(1.0_f64.to_radians());
+        let mut surface = Surface::default();
+        for (angle, radius) in [(0.0, middle), (1.0, 1.0), (9.0, 1.0), (10.0, middle)] {
+            let (sine, cosine) = f64::to_radians(angle).sin_cos();
+            let p = DVec3::new(cosine, sine, 0.0) * radius;
+            surface.points.extend([p, p + 5.0 * DVec3::Z]);
+        }
+        for first in [0, 2, 4] {
+            let [a, b, c, d] = [0, 2, 3, 1].map(|v| first + v);
+            surface.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+        surface.labels = vec![0; surface.triangles.len()];
+        surface
+    }
+
+    #[test]
+    fn a_facet_is_told_from_a_face_by_all_of_what_was_cut_beside_it() {
+        let cylinder = cut_cylinder();
+        let free = vec![0; cylinder.points.len()];
+        let turned = |p: DVec3, angle: f64| glam::DQuat::from_rotation_z(angle) * p;
+        let angle = 10.0_f64.to_radians();
+        // Cut by mirror planes.
+        let onto = |bit: u32, p: DVec3| {
+            let angle = f64::from(bit) * angle;
+            let p = turned(p, -angle);
+            turned(DVec3::new(p.x, 0.0, p.z), angle)
+        };
+        let bound = [1, 1, 0, 0, 0, 0, 2, 2];
+        assert_eq!(faces_cut((&cylinder, 0.0), (&bound, &onto), &[]), [0, 1]);
+        // Cut by planes that a rotation takes onto each other.
+        let link = Link {
+            pairs: vec![[0, 6], [1, 7]],
+            labels: Vec::new(),
+            image: std::sync::Arc::new(move |p| turned(p, angle)),
+            back: std::sync::Arc::new(move |p| turned(p, -angle)),
+        };
+        assert_eq!(faces_glued(&cylinder, 0.0, &free, &[link]), [0, 1]);
+        // Without what is beyond, the wide one could be a face.
+        assert_eq!(faces(&cylinder, 0.0), [1, 2]);
+    }
+
     #[test]
     fn a_glued_face_is_flat_however_its_images_lie() {
         // What x = 0 and x = y leave of an upright face, as of the wall of a hub, which turns to its image beyond x = 0 by 23 degrees; and the face of
@@ -614,6 +559,7 @@ mod tests {
             pairs: (0..4).map(|v| [v, v + 4]).collect(),
             labels: vec![1, 2],
             image: std::sync::Arc::new(|p| p + DVec3::new(3.0, 0.0, 0.0)),
+            back: std::sync::Arc::new(|p| p - DVec3::new(3.0, 0.0, 0.0)),
         };
         assert_eq!(faces_glued(&surface, 0.0, &bound, &[link]), [2, 0]);
     }

@@ -1,7 +1,7 @@
 //! Flat faces among facets.
 
 use super::sheets::Sheets;
-use crate::shape::{ALIKE, Beside, Facets};
+use crate::shape::{ALIKE, Beside, Beyond, Facets};
 use geom::edges::EdgeUse;
 
 /// Of each facet, whether it is a flat face of the shape and does not stand for something curved. As for remeshing
@@ -29,5 +29,6 @@ pub fn flat_faces(sheets: &Sheets<'_>, facet: &[u32], count: usize) -> Vec<bool>
             beside.like <= ALIKE * beside.border && !in_ring
         }
     };
-    facets.beside(count, mate).iter().map(is_face).collect()
+    let beside = facets.beside(count, mate, &Beyond::default());
+    beside.iter().map(is_face).collect()
 }
