@@ -721,7 +721,8 @@ fn outlines_of_seams_are_remeshed_with_their_images() {
 }
 
 /// Wedges with seams are improved along the curved surface that they stand for as those with mirrors are, within the deviation. Where `periodic-surf` was
-/// there before, all of the surface stays as it was when the seams were made: 2,148 elements with angles from 23.2 degrees on, and 1,972 from 25.6 on without.
+/// there before, all of the surface stays as it was when the seams were made: 824 elements with angles from 23.8 degrees on, and 793 from 24.3 on without.
+/// Where facets beside a seam were told from faces by what is on one side of it, there were 1,972, with a first percentile of 27.9 degrees.
 #[test]
 fn wedges_with_seams_are_improved_along_their_shape() {
     let found = run("symdetect", &["-q"], &twisted_vase(0.3, 0.1)).success();
@@ -735,7 +736,8 @@ fn wedges_with_seams_are_improved_along_their_shape() {
         (count, angle_of(mesh, "min"))
     });
     assert!(free.0 < kept.0 && free.1 > kept.1, "{free:?} {kept:?}");
-    assert!(first_percentile(&filled) > 27.5);
+    let first = first_percentile(&filled);
+    assert!(free.0 < 1000 && first > 27.0, "{first} {free:?}");
     let [cut, filled] = [&cut, &filled].map(|bytes| read(bytes));
     assert!(filled.templates[0].gluings.iter().any(|g| g.is_seam(0)));
     let allowed = 0.02 * cut.symmetry.as_ref().expect("a symmetry").radius;

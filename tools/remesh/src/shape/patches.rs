@@ -134,14 +134,17 @@ impl Patches {
         let widths = self.widths(surface);
         let mut walls = vec![u32::MAX; self.planes.len()];
         let mut is_linked = vec![false; self.planes.len()];
+        let mut moves = vec![rules.deviation; self.planes.len()];
         for (t, &p) in self.of.iter().enumerate() {
+            for v in surface.triangles[t] {
+                moves[p as usize] = moves[p as usize].min(rules.deviation_at(v as usize));
+            }
             let [a, b, c] = surface.triangles[t].map(|v| rules.bound[v as usize]);
             walls[p as usize] &= a & b & c;
             let mut links = rules.links.iter();
             is_linked[p as usize] |= links.any(|link| link.labels.contains(&surface.labels[t]));
         }
-        let widest = 2.0 * rules.deviation;
-        let is_strip = |p: usize| widths[p] <= widest && walls[p] == 0 && !is_linked[p];
+        let is_strip = |p: usize| widths[p] <= 2.0 * moves[p] && walls[p] == 0 && !is_linked[p];
         let mut beside = vec![Vec::new(); self.planes.len()];
         for edge in 0..self.edges.len() {
             let around = self.edges.around(edge).iter();
