@@ -55,6 +55,8 @@ struct Finding<'a> {
     edges: &'a Edges,
     normals: &'a [DVec3],
     facet: &'a [u32],
+    /// Labels of faces that are glued to others.
+    glued: FxHashSet<u32>,
     beyond: Beyond<'a>,
     /// Facets with the others that are known to be parts of them, by way of which plane or link.
     known: FxHashSet<(u32, u32, Way)>,
@@ -78,7 +80,9 @@ impl<'a> Beyond<'a> {
         (edges, normals): (&'a Edges, &'a [DVec3]),
         facet: &'a [u32],
     ) -> Self {
+        let labels = rules.links.iter().flat_map(|link| &link.labels);
         let mut finding = Finding {
+            glued: labels.copied().collect(),
             surface,
             rules,
             edges,
@@ -110,8 +114,6 @@ impl<'a> Beyond<'a> {
 impl<'a> Finding<'a> {
     /// Facets that end at planes and lines go on with their images, unless they are cuts, which stand for no shape.
     fn look_at_walls(&mut self) {
-        let labels = self.rules.links.iter().flat_map(|link| &link.labels);
-        let glued: FxHashSet<u32> = labels.copied().collect();
         for (edge, ends) in self.edges.ends.iter().enumerate() {
             let [walls, others] = ends.map(|v| self.rules.bound[v as usize]);
             if walls & others == 0 {
@@ -122,7 +124,7 @@ impl<'a> Finding<'a> {
                 let (t, corners) = (u.triangle, self.surface.corners(u.triangle));
                 let apex = apex_of(&self.surface.triangles[t as usize], u.corner) as usize;
                 let bits = walls & others & !self.rules.bound[apex];
-                if bits == 0 || glued.contains(&self.surface.labels[t as usize]) {
+                if bits == 0 || self.is_cut(t) {
                     continue;
                 }
                 let (bit, onto) = (bits.trailing_zeros(), self.rules.onto);
@@ -185,8 +187,9 @@ impl<'a> Finding<'a> {
                     if Plane::of(self.surface.corners(u)).off(image) > rules.flat {
                         let [m, n] = [t, u].map(|t| self.normals[t as usize]);
                         let m = (link.image)(m) - (link.image)(DVec3::ZERO);
-                        // An edge that is its own image, as on an axis, is inside of the surface.
-                        let ends_there = here != there && labels[t as usize] == labels[u as usize];
+                        // An edge that is its own image, as on an axis, is inside of the surface; and cuts stand for no shape.
+                        let is_one = labels[t as usize] == labels[u as usize];
+                        let ends_there = here != there && is_one && !self.is_cut(t);
                         if ends_there && folded.insert([t.min(u), t.max(u)]) {
                             self.fold(facets, both_ends, [m, n]);
                         }
@@ -213,6 +216,11 @@ impl<'a> Finding<'a> {
         self.beyond.same = (0..count.unwrap_or(0) as u32)
             .map(|f| sets.find(f))
             .collect();
+    }
+
+    /// Whether a triangle is in a face that is glued to another one.
+    fn is_cut(&self, t: u32) -> bool {
+        self.glued.contains(&self.surface.labels[t as usize])
     }
 
     /// Notes that another facet is a part of one.

@@ -536,6 +536,28 @@ mod tests {
         assert_eq!(faces_glued(&cylinder, 0.0, &free, &[link]), [0, 1]);
         // Without what is beyond, the wide one could be a face.
         assert_eq!(faces(&cylinder, 0.0), [1, 2]);
+        // What is glued to another face by another step is a cut, and stands for no shape.
+        let [seam, wall] = [vec![], vec![0]].map(|labels| Link {
+            pairs: vec![[0, 6], [1, 7]],
+            labels,
+            image: std::sync::Arc::new(move |p| turned(p, angle)),
+            back: std::sync::Arc::new(move |p| turned(p, -angle)),
+        });
+        let mut side = cylinder.clone();
+        side.triangles.truncate(2);
+        side.labels.truncate(2);
+        side.points[2] = side.points[6];
+        side.points[3] = side.points[7];
+        let seam = Link {
+            pairs: vec![[0, 2], [1, 3]],
+            ..seam
+        };
+        let free = vec![0; side.points.len()];
+        let wall = Link {
+            pairs: Vec::new(),
+            ..wall
+        };
+        assert_eq!(faces_glued(&side, 0.0, &free, &[seam, wall]), [1, 0]);
     }
 
     #[test]
