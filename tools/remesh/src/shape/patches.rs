@@ -512,52 +512,56 @@ mod tests {
         surface
     }
 
+    /// Ten degrees, radians.
+    const TEN: f64 = std::f64::consts::PI / 18.0;
+
+    fn turned(p: DVec3, angle: f64) -> DVec3 {
+        glam::DQuat::from_rotation_z(angle) * p
+    }
+
+    /// Faces that a turn by ten degrees takes onto each other.
+    fn link(pairs: &[[u32; 2]], labels: &[u32]) -> Link {
+        Link {
+            pairs: pairs.to_vec(),
+            labels: labels.to_vec(),
+            image: std::sync::Arc::new(|p| turned(p, TEN)),
+            back: std::sync::Arc::new(|p| turned(p, -TEN)),
+        }
+    }
+
     #[test]
     fn a_facet_is_told_from_a_face_by_all_of_what_was_cut_beside_it() {
         let cylinder = cut_cylinder();
         let free = vec![0; cylinder.points.len()];
-        let turned = |p: DVec3, angle: f64| glam::DQuat::from_rotation_z(angle) * p;
-        let angle = 10.0_f64.to_radians();
         // Cut by mirror planes.
         let onto = |bit: u32, p: DVec3| {
-            let angle = f64::from(bit) * angle;
+            let angle = f64::from(bit) * TEN;
             let p = turned(p, -angle);
             turned(DVec3::new(p.x, 0.0, p.z), angle)
         };
         let bound = [1, 1, 0, 0, 0, 0, 2, 2];
         assert_eq!(faces_cut((&cylinder, 0.0), (&bound, &onto), &[]), [0, 1]);
         // Cut by planes that a rotation takes onto each other.
-        let link = Link {
-            pairs: vec![[0, 6], [1, 7]],
-            labels: Vec::new(),
-            image: std::sync::Arc::new(move |p| turned(p, angle)),
-            back: std::sync::Arc::new(move |p| turned(p, -angle)),
-        };
-        assert_eq!(faces_glued(&cylinder, 0.0, &free, &[link]), [0, 1]);
+        let seam = link(&[[0, 6], [1, 7]], &[]);
+        assert_eq!(faces_glued(&cylinder, 0.0, &free, &[seam]), [0, 1]);
         // Without what is beyond, the wide one could be a face.
         assert_eq!(faces(&cylinder, 0.0), [1, 2]);
-        // What is glued to another face by another step is a cut, and stands for no shape.
-        let [seam, wall] = [vec![], vec![0]].map(|labels| Link {
-            pairs: vec![[0, 6], [1, 7]],
-            labels,
-            image: std::sync::Arc::new(move |p| turned(p, angle)),
-            back: std::sync::Arc::new(move |p| turned(p, -angle)),
-        });
-        let mut side = cylinder.clone();
-        side.triangles.truncate(2);
-        side.labels.truncate(2);
-        side.points[2] = side.points[6];
-        side.points[3] = side.points[7];
-        let seam = Link {
-            pairs: vec![[0, 2], [1, 3]],
-            ..seam
+    }
+
+    #[test]
+    fn a_glued_face_is_flat_however_it_goes_on_beyond_a_seam() {
+        // The wall of a hub, which turns to its image beyond the seam by ten degrees.
+        let [p, q] = [DVec3::X, turned(DVec3::X, TEN)];
+        let wall = Surface {
+            points: vec![p, p + DVec3::Z, q, q + DVec3::Z],
+            triangles: vec![[0, 2, 3], [0, 3, 1]],
+            labels: vec![0; 2],
         };
-        let free = vec![0; side.points.len()];
-        let wall = Link {
-            pairs: Vec::new(),
-            ..wall
-        };
-        assert_eq!(faces_glued(&side, 0.0, &free, &[seam, wall]), [1, 0]);
+        let seam = || link(&[[0, 2], [1, 3]], &[]);
+        let free = [0; 4];
+        assert_eq!(faces_glued(&wall, 0.0, &free, &[seam()]), [0, 1]);
+        let hub = link(&[], &[0]);
+        assert_eq!(faces_glued(&wall, 0.0, &free, &[seam(), hub]), [1, 0]);
     }
 
     #[test]
