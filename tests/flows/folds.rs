@@ -81,6 +81,19 @@ fn bands_are_not_twisted() {
     assert!(p01 > 20.0, "{p01}");
 }
 
+#[test]
+fn needles_of_a_narrow_wedge_are_remeshed() {
+    // A ratchet of order 23 with facets of a 570th of its height in the bore: the seam went along the steep side of a tooth, 7 degrees from it, needles
+    // in one line stayed in the remeshed bore, and the points that triangles of both sides are near to were doubled with every move there.
+    let solid = folded(889).solid;
+    let found = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
+    let cut = run("wedgecut", &[], &found);
+    assert!(!cut.stderr.contains("dihedral"), "{}", cut.stderr);
+    let (p01, mesh) = meshed(&solid.body, &[]);
+    let elements = read(&mesh).templates[0].tets.len();
+    assert!(p01 > 20.0 && elements < 20_000, "{p01}, {elements}");
+}
+
 /// Share of the first percentile of the flat body that a bent one has at least: points are kept where faces were bent.
 const LEAST: f64 = 0.9;
 

@@ -44,10 +44,11 @@ impl Near {
 
     /// Takes the points of some triangles away from them.
     pub fn take(&mut self, triangles: &[u32]) -> Vec<Point> {
-        let points = self.of(triangles);
+        // One that is there twice, as both a vertex and its partner are corners of it, has its points once.
+        let mut points = Vec::new();
         for &t in triangles {
-            if let Some(points) = self.0.get_mut(t as usize) {
-                points.clear();
+            if let Some(own) = self.0.get_mut(t as usize) {
+                points.append(own);
             }
         }
         points
@@ -154,6 +155,8 @@ mod tests {
             .map(|v| 4.0 * template.vertices[v as usize]);
         near.give(taken, &[(0, far), (9, corners)]);
         assert_eq!((near.of(&[0]).len(), near.of(&[9]).len()), (0, 3));
+        // A triangle that is named twice has its points once.
+        assert_eq!(near.take(&[9, 9]).len(), 3);
     }
 
     #[test]

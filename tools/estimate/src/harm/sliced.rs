@@ -7,7 +7,7 @@
 use crate::model::CostModel;
 use geom::measure::double_area_vector;
 use glam::DVec3;
-use tmesh::Triangle;
+use tmesh::{OUTSIDE, Triangle};
 
 /// What a unit of [`crate::needles`], one element of the estimate, is in units of harm.
 const NEEDLE: f64 = 1.0 / CostModel::CALIBRATED.sliced;
@@ -100,10 +100,13 @@ pub fn harm_of(
             (a.min(b) < 0.0 && a.max(b) >= 0.0)
                 .then(|| corners[i] + (corners[j] - corners[i]) * (a / (a - b)))
         };
+        let beside = beside(height);
         let mut points = (0..3).filter_map(crossing);
-        let (Some(p), Some(q)) = (points.next(), points.next()) else {
-            continue;
+        let ends = match beside {
+            Some((i, _)) => Some((corners[(i + 1) % 3], corners[(i + 2) % 3])),
+            None => points.next().zip(points.next()),
         };
+        let Some((p, q)) = ends else { continue };
         let Some(normal) = (cut.normal)(p.midpoint(q)) else {
             continue;
         };
@@ -119,7 +122,14 @@ pub fn harm_of(
             .map(|i| corners[i].distance(corners[(i + 1) % 3]))
             .fold(size, f64::min);
         let shorter = |than: f64| libm::log((side / than).max(1.0));
-        harm.sliced += (length / size).max(1.0) * (1.0 / sine - 1.0) + shorter(length);
+        let sharp = match beside {
+            Some((i, above)) => {
+                let into = (corners[i] - p).reject_from(q - p);
+                sharp_beside(triangle, face, [into, normal * above.signum()])
+            }
+            None => 1.0,
+        };
+        harm.sliced += sharp * (length / size).max(1.0) * (1.0 / sine - 1.0) + shorter(length);
         // One corner is alone on its side of the plane.
         let alone = (0..3).find(|&i| {
             let is_below = |k: usize| height[k] < 0.0;
@@ -145,6 +155,25 @@ pub fn harm_of(
     harm
 }
 
+/// The corner that is off the surface alone, and how far, where the other two are in it.
+fn beside(height: [f64; 3]) -> Option<(usize, f64)> {
+    let off = (0..3).find(|&i| height[i] != 0.0)?;
+    let others = [height[(off + 1) % 3], height[(off + 2) % 3]];
+    (others == [0.0; 2]).then_some((off, height[off]))
+}
+
+/// Of the materials on both sides of a triangle with a side in the cutting surface, the part that the cut leaves a sharp edge there: where it
+/// slices a face along such sides, it is the triangle on one side of it for a boundary, and half of both for an interface.
+/// `face`: the triangle's normal; `into`: where it runs from that side, across it; `off`: the normal of the cut towards it.
+fn sharp_beside(triangle: &Triangle, face: DVec3, [into, off]: [DVec3; 2]) -> f64 {
+    // Along the cut, in the direction of the triangle: what is between both is sharp.
+    let along = into.reject_from_normalized(off);
+    let sides = [(triangle.front, 1.0), (triangle.back, -1.0)];
+    let there = sides.iter().filter(|(region, _)| *region != OUTSIDE);
+    let sharp = there.clone().filter(|(_, s)| s * face.dot(along) > 0.0);
+    sharp.count() as f64 / there.count().max(1) as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -166,6 +195,50 @@ mod tests {
             back: 1,
         };
         move |angle| harm(&vertices, &[triangle], angle, 1e-9, (|_| 0.4, |_| true)).total()
+    }
+
+    /// A wall that leaves the plane y = 0 along z at an angle to the way outward (degrees), of a body on one side of it or on both.
+    fn wall(degrees: f64, [front, back]: [u32; 2]) -> f64 {
+        let (s, c) = degrees.to_radians().sin_cos();
+        let vertices = [
+            DVec3::new(3.0, 0.0, 0.0),
+            DVec3::new(3.0 + c, s, 0.5),
+            DVec3::new(3.0, 0.0, 1.0),
+        ];
+        let triangle = Triangle {
+            vertices: [0, 1, 2],
+            marker: 1,
+            front,
+            back,
+        };
+        let whole = harm(&vertices, &[triangle], 0.0, 1e-9, (|_| 0.4, |_| true));
+        // What is near is another matter.
+        whole.sliced
+    }
+
+    #[test]
+    fn sharp_angles_beside_a_plane_through_an_edge_count_on_either_side_of_it() {
+        for degrees in [30.0, 150.0, -30.0, -150.0] {
+            let [front, back, both, none] = [[1, OUTSIDE], [OUTSIDE, 1], [1, 2], [OUTSIDE; 2]]
+                .map(|sides| wall(degrees, sides));
+            // Two and a half elements long; of a body, what is between the wall and the plane is sharp, and what is beyond the wall is not.
+            let sharp_in_front = degrees.to_radians().sin() * degrees.to_radians().cos() > 0.0;
+            let expected = if sharp_in_front {
+                [2.5, 0.0]
+            } else {
+                [0.0, 2.5]
+            };
+            for (found, expected) in
+                [front, back, both, none]
+                    .into_iter()
+                    .zip([expected[0], expected[1], 1.25, 0.0])
+            {
+                assert!(
+                    (found - expected).abs() < 1e-9,
+                    "{degrees}: {found} {expected}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -396,14 +396,23 @@ fn needles_that_stay_are_not_divided() {
     rules.sizes.turn /= 8.0;
     let made = remesh(&globe, &rules).expect("long edges");
     assert!(made.told.split > 0);
-    let is_needle = |t: &&[u32; 3]| [a, b].iter().all(|v| t.contains(&(*v as u32)));
-    let needles: Vec<&[u32; 3]> = globe.triangles.iter().filter(is_needle).collect();
-    assert_eq!(needles.len(), 2);
-    for needle in needles {
-        let kept = needle.map(|v| made.vertices[v as usize]);
-        let mut triangles = made.surface.triangles.iter();
-        assert!(triangles.any(|t| kept.iter().all(|v| t.contains(v))));
-    }
+    // Their heights, from the side between the two to the third corner.
+    let needles = |surface: &Surface, ends: [u32; 2]| -> Vec<f64> {
+        let both = surface.triangles.iter();
+        let both = both.filter(|t| ends.iter().all(|v| t.contains(v)));
+        let third = both.flat_map(|t| t.iter().find(|v| !ends.contains(v)));
+        let [p, q] = ends.map(|v| surface.points[v as usize]);
+        third
+            .map(|&v| surface.points[v as usize].distance(p.midpoint(q)))
+            .collect()
+    };
+    let before = needles(&globe, [a, b].map(|v| v as u32));
+    let after = needles(&made.surface, [a, b].map(|v| made.vertices[v]));
+    assert_eq!((before.len(), after.len()), (2, 2));
+    assert!(
+        after.iter().all(|h| *h > 0.9 * before[0].min(before[1])),
+        "{before:?} {after:?}"
+    );
 }
 
 /// A round bar beside the axis, which it touches along an edge, and with it its image under half a turn.
@@ -839,6 +848,26 @@ fn needles_of_flat_faces_are_flipped() {
         assert!(mesh.planes[0].is_some());
         assert!(flip(mesh, [0, 1]));
         assert_eq!((mesh.at_edge(0, 1).len(), mesh.at_edge(2, 3).len()), (0, 2));
+        assert!(!flip(mesh, [2, 3]));
+    });
+}
+
+/// Of needles in one line, none is flipped to a good triangle at once.
+#[test]
+fn needles_are_flipped_to_wider_ones_however_narrow_those_are() {
+    // Below the edge there is one needle, and above it another one, 20 and 10 times as wide.
+    let [a, b, c, d] = [[0.0, 0.0], [4.0, 0.0], [2.0, 2e-4], [3.0, -1e-4]];
+    let surface = Surface {
+        points: [a, b, c, d].map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+        triangles: vec![[0, 1, 2], [1, 0, 3]],
+        labels: vec![0; 2],
+    };
+    let (bound, held) = ([0; 4], [false; 4]);
+    with_mesh(&surface, rules(0.1, (&held, &[]), (&bound, &[])), |mesh| {
+        let before = mesh.worst_shape(&[0, 1]);
+        assert!(flip(mesh, [0, 1]));
+        let after = mesh.worst_shape(&mesh.at_edge(2, 3));
+        assert!(before < after && after < 1e-3, "{before} {after}");
         assert!(!flip(mesh, [2, 3]));
     });
 }
