@@ -276,7 +276,7 @@ fn what_remeshing_spoils_is_filled_as_it_was_cut() {
 fn surfaces_on_which_refinement_heaps_up_are_filled_as_they_were_cut() {
     let solid = bodies::random_solid::solid(10_218_355);
     let found = run("symdetect", &["-q"], &encode(&solid.body, solid.encoding)).success();
-    let options = "-q --deviation 9.28e-2 --edge-length 0.1106 --segments-per-turn 32.3";
+    let options = "-q --deviation 9.28e-2 --edge-length 0.11 --segments-per-turn 32.3";
     let options: Vec<&str> = options.split(' ').collect();
     let cut = run("wedgecut", &options, &found).success();
     let made = run("periodic-surf", &["-v"], &cut);
@@ -337,6 +337,47 @@ fn deviation_0_keeps_every_vertex() {
 
 /// What is off its symmetry by less than the tolerance is remeshed within the tolerance, but keeps its volume within what
 /// it is off.
+/// A block of unit size, each of its sides drawn as so many by so many squares.
+fn block(parts: u32) -> Vec<[DVec3; 3]> {
+    let at = |i: u32| f64::from(i) / f64::from(parts) - 0.5;
+    let mut triangles = Vec::new();
+    for axis in 0..3 {
+        for (i, j) in (0..parts).flat_map(|i| (0..parts).map(move |j| (i, j))) {
+            let on = |side: f64, [i, j]: [u32; 2]| {
+                let mut p = DVec3::ZERO;
+                [p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]] = [side, at(i), at(j)];
+                p
+            };
+            let square =
+                |side: f64| [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(|ij| on(side, ij));
+            let [a, b, c, d] = square(0.5);
+            triangles.extend([[a, b, c], [a, c, d]]);
+            let [a, b, c, d] = square(-0.5);
+            triangles.extend([[a, c, b], [a, d, c]]);
+        }
+    }
+    triangles
+}
+
+#[test]
+fn vertices_inside_of_flat_faces_cost_no_elements() {
+    let elements = |drawn: &[u8], options: &[&str]| {
+        let found = run("symdetect", &["-q"], drawn).success();
+        let cut = run("wedgecut", &[&["-q"], options].concat(), &found).success();
+        let filled = run("tetwedge", &["-q"], &cut).success();
+        run("meshqual", &["-q", "--check"], &filled).success();
+        let document = read(&filled);
+        let placed = document.instances.iter();
+        placed
+            .map(|i| document.templates[i.template as usize].tets.len())
+            .sum::<usize>()
+    };
+    let [plain, fine] = [1, 16].map(|parts| stl(&block(parts)));
+    let few = elements(&plain, &[]);
+    assert!(elements(&fine, &[]) <= 2 * few);
+    assert!(elements(&fine, &["--deviation", "0"]) > 10 * few);
+}
+
 #[test]
 fn what_is_nearly_exact_is_remeshed_within_the_tolerance() {
     let found = run("symdetect", &["-q"], &noisy_vase(1e-4, 1.0)).success();

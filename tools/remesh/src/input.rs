@@ -77,6 +77,8 @@ pub struct Rules<'a> {
 /// What the triangles of curved patches stand for, where no lengths are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawn {
+    /// Themselves, but for vertices that no facet needs.
+    Kept,
     /// Themselves: they stay, unless some are detail beside the edges wanted, and curved patches take less than a third of the triangles without.
     Exactly,
     /// Themselves, but for needles: patches where facets have sharp corners are remeshed, and what is detail.

@@ -28,7 +28,7 @@ pub struct Followed {
     pub footings: Vec<Option<Footing>>,
 }
 
-/// Remeshes the surfaces of all templates within the deviation that the wishes allow. Where the input is as symmetric as its coordinates can be and no deviation is asked for, nothing changes but templates
+/// Remeshes the surfaces of all templates within the deviation that the wishes allow. Where the input is as symmetric as its coordinates can be and no deviation is asked for, only vertices go that no facet needs, but for templates
 /// that are drawn far finer than edges are asked for, or in strips that cost far more than the shape does, or all of them where there are needles. Where the deviation is left to the length of edges that is asked for, or to
 /// the tolerance of a body without symmetry, the document's wishes say afterwards how far surfaces have moved.
 ///
@@ -51,7 +51,7 @@ pub fn follow_shape(
         return Ok(followed);
     }
     let within = match exact {
-        true => for_drawing(document, &tolerance).into_iter().collect(),
+        true => as_drawn(document, &tolerance),
         false => attempts(document, &tolerance, deviation),
     };
     if within.is_empty() && !document.moves_for_lengths() {
@@ -71,12 +71,16 @@ pub fn follow_shape(
     let is_auto = document.wishes.deviation() == Deviation::Auto;
     let mut farthest = 0.0_f64;
     for group in groups(document, sizes.local.iter().any(Option::is_some)) {
-        log.progress(&Progress {
-            template: group[0],
-            step: "remeshing the surface",
-            points: 0.0,
-            tetrahedra: 0.0,
-        });
+        // Leaving out vertices takes no time.
+        let mut attempts = by_length.iter().chain(&within);
+        if attempts.any(|attempt| attempt.drawn != Drawn::Kept) {
+            log.progress(&Progress {
+                template: group[0],
+                step: "remeshing the surface",
+                points: 0.0,
+                tetrahedra: 0.0,
+            });
+        }
         for attempt in by_length.iter().chain(&within) {
             match attempt.remeshed(document, &group, (&sizes, tolerance.flat())) {
                 None => {}
@@ -198,15 +202,27 @@ fn attempts(document: &Document, tolerance: &Tolerance, deviation: f64) -> Vec<A
     }
 }
 
+/// What is tried one after the other where the input has its symmetry exactly, unless all of it is to stay.
+fn as_drawn(document: &Document, tolerance: &Tolerance) -> Vec<Attempt> {
+    if document.wishes.deviation() != Deviation::Auto {
+        return Vec::new();
+    }
+    let kept = Attempt {
+        deviation: tolerance.equal(),
+        noise: tolerance.equal(),
+        drift: None,
+        drawn: Drawn::Kept,
+    };
+    let wider = for_drawing(document, tolerance);
+    wider.into_iter().chain([kept]).collect()
+}
+
 /// What is tried where the input has its symmetry exactly, but is drawn with facets that cost more than the shape does: its copies were
 /// copied, and say nothing of how well it was drawn. As far as without a symmetry, then. All of it where there are needles that no mesh of good elements
 /// can have; otherwise where narrow facets are nearly all of what it costs, and none are there because of the symmetry, as those of a
 /// wedge that takes several steps of it are.
 fn for_drawing(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
     let found = document.symmetry.as_ref()?;
-    if document.wishes.deviation() != Deviation::Auto {
-        return None;
-    }
     let deviation = found.tolerance * tolerance.extent().radius;
     let needle = Needle {
         narrow: deviation,

@@ -308,7 +308,12 @@ fn seams_that_nobody_settled_are_divided_as_the_elements_need() {
     before.wishes = sized(1e-3);
     let done = settled_and_filled(before.clone(), &sized(1e-3)).unwrap();
     assert!(done.advice.is_empty(), "{:?}", done.advice);
-    assert!(done.facts[0].contains("vertex pairs"), "{:?}", done.facts);
+    let mut facts = done.facts.iter();
+    assert!(
+        facts.any(|fact| fact.contains("vertex pairs")),
+        "{:?}",
+        done.facts
+    );
     assert_eq!(validate(&done.document), []);
     let pairs = |d: &Document| d.templates[0].gluings[0].triangle_pairs.len();
     assert!(pairs(&done.document) > pairs(&before));

@@ -51,7 +51,8 @@ pub struct WishArgs {
     /// How far the surface that is meshed may be from the input's, relative to the radius about the axis; 0 keeps every
     /// triangle, `auto` allows the tolerance of the symmetry, or what the input is off it if that is more, or what chords of
     /// the edge length asked for take, and keeps all where the input has a symmetry exactly, but for what is drawn four times
-    /// as fine as that length, or in strips that take three times the triangles that the shape does [default: inherited, or auto]
+    /// as fine as that length, or in strips that take three times the triangles that the shape does, and for vertices that no
+    /// flat facet needs and that are near others [default: inherited, or auto]
     #[arg(long, value_name = "REL|auto", allow_negative_numbers = true, value_parser = deviation)]
     deviation: Option<Deviation>,
 

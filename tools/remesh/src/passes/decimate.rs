@@ -2,136 +2,76 @@
 
 use super::collapse::collapse;
 use super::flip::flip;
-use super::remesh::{Remeshed, Told, taken};
-use crate::input::{Link, Rules, Surface};
+use super::reduced::Reduced;
+use super::remesh::{Told, taken};
+use crate::input::{Rules, Surface};
 use crate::mesh::Mesh;
 use crate::shape::{Allowance, Curves, Envelope, Patches, untold};
 use geom::measure::double_area_vector;
 use glam::DVec3;
-use std::sync::Arc;
 
-/// A surface with what it must keep, of which no more is left than coordinates tell.
-pub struct Decimated {
-    /// What is left of it.
-    pub remeshed: Remeshed,
-    held: Vec<bool>,
-    nearer: Vec<f64>,
-    links: Vec<Link>,
-}
-
-impl Decimated {
-    /// Decimates the curved faces of a surface that have triangles without a direction, within what coordinates are uncertain by.
-    /// `None` where there are none. n log n.
-    ///
-    /// Where the lines of a fine drawing meet, as at the poles of rounded corners, triangles are as low as coordinates are uncertain:
-    /// folds between them are sharp by chance, and what is within the uncertainty of a plane has jagged borders. Facets that are
-    /// as wide as the surface allows within that uncertainty turn by far more than it.
-    pub fn new(surface: &Surface, rules: &Rules<'_>) -> Option<Self> {
-        let least = rules.told().min(rules.deviation);
-        let fine = Fine::new(surface, rules, least)?;
-        let smooth = Rules {
-            feature: -1.0,
-            deviation: least,
-            flat: 0.0,
-            nearer: &[],
-            links: &[],
-            ..*rules
-        };
-        let patches = Patches::of_labels(surface, &smooth);
-        let mut curves = Curves::new(surface, &smooth, &patches);
-        curves.reach.fill(least);
-        // However short edges are, others may go in their place.
-        let none = vec![f64::MIN_POSITIVE; surface.points.len()];
-        let allowance = Allowance {
-            reach: vec![least; surface.triangles.len()],
-            size: none.clone(),
-            width: none,
-        };
-        let envelope = Envelope::new((surface, &smooth), &patches, &curves, &allowance);
-        let of = (&patches, &curves);
-        let mut mesh = Mesh::new(surface, smooth, of, (&envelope, &allowance));
-        let mut nearer: Vec<f64> = (0..surface.points.len())
-            .map(|v| rules.deviation_at(v))
-            .collect();
-        let mut told = Told::default();
-        // Each round takes about half of what may go.
-        for _ in 0..=surface.points.len().ilog2() {
-            let mut done = 0;
-            for [a, b] in by_length(&mesh) {
-                let mut goes = |ends: &[u32; 2]| {
-                    fine.may_go(*ends)
-                        && !mesh.at_edge(a, b).is_empty()
-                        && collapse(&mut mesh, *ends, true)
-                };
-                if let Some([from, to]) = [[a, b], [b, a]].into_iter().find(&mut goes) {
-                    nearer[to as usize] = nearer[to as usize].min(nearer[from as usize]);
-                    done += 1;
-                }
-            }
-            told.collapsed += done;
-            if done == 0 {
-                break;
-            }
-            for [a, b] in mesh.edges() {
-                if fine.may_flip([a, b]) {
-                    told.flipped += usize::from(flip(&mut mesh, [a, b]));
-                }
+/// Decimates the curved faces of a surface that have triangles without a direction, within what coordinates are uncertain by.
+/// `None` where there are none. n log n.
+///
+/// Where the lines of a fine drawing meet, as at the poles of rounded corners, triangles are as low as coordinates are uncertain:
+/// folds between them are sharp by chance, and what is within the uncertainty of a plane has jagged borders. Facets that are
+/// as wide as the surface allows within that uncertainty turn by far more than it.
+pub fn decimated(surface: &Surface, rules: &Rules<'_>) -> Option<Reduced> {
+    let least = rules.told().min(rules.deviation);
+    let fine = Fine::new(surface, rules, least)?;
+    let smooth = Rules {
+        feature: -1.0,
+        deviation: least,
+        flat: 0.0,
+        nearer: &[],
+        links: &[],
+        ..*rules
+    };
+    let patches = Patches::of_labels(surface, &smooth);
+    let mut curves = Curves::new(surface, &smooth, &patches);
+    curves.reach.fill(least);
+    // However short edges are, others may go in their place.
+    let none = vec![f64::MIN_POSITIVE; surface.points.len()];
+    let allowance = Allowance {
+        reach: vec![least; surface.triangles.len()],
+        size: none.clone(),
+        width: none,
+    };
+    let envelope = Envelope::new((surface, &smooth), &patches, &curves, &allowance);
+    let of = (&patches, &curves);
+    let mut mesh = Mesh::new(surface, smooth, of, (&envelope, &allowance));
+    let mut nearer: Vec<f64> = (0..surface.points.len())
+        .map(|v| rules.deviation_at(v))
+        .collect();
+    let mut told = Told::default();
+    // Each round takes about half of what may go.
+    for _ in 0..=surface.points.len().ilog2() {
+        let mut done = 0;
+        for [a, b] in by_length(&mesh) {
+            let mut goes = |ends: &[u32; 2]| {
+                fine.may_go(*ends)
+                    && !mesh.at_edge(a, b).is_empty()
+                    && collapse(&mut mesh, *ends, true)
+            };
+            if let Some([from, to]) = [[a, b], [b, a]].into_iter().find(&mut goes) {
+                nearer[to as usize] = nearer[to as usize].min(nearer[from as usize]);
+                done += 1;
             }
         }
-        if told.is_nothing() {
-            return None;
+        told.collapsed += done;
+        if done == 0 {
+            break;
         }
-        let remeshed = taken(surface, mesh, told);
-        let mut decimated = Self {
-            held: vec![false; remeshed.surface.points.len()],
-            nearer: vec![rules.deviation; remeshed.surface.points.len()],
-            links: Vec::new(),
-            remeshed,
-        };
-        for (v, &new) in decimated.remeshed.vertices.iter().enumerate() {
-            if new != u32::MAX {
-                decimated.held[new as usize] = rules.held[v];
-                decimated.nearer[new as usize] = nearer[v];
+        for [a, b] in mesh.edges() {
+            if fine.may_flip([a, b]) {
+                told.flipped += usize::from(flip(&mut mesh, [a, b]));
             }
-        }
-        for link in rules.links {
-            let pairs = link.pairs.iter();
-            decimated.links.push(Link {
-                pairs: pairs
-                    .map(|pair| pair.map(|v| decimated.remeshed.vertices[v as usize]))
-                    .collect(),
-                labels: link.labels.clone(),
-                image: Arc::clone(&link.image),
-                back: Arc::clone(&link.back),
-            });
-        }
-        Some(decimated)
-    }
-
-    /// What must stay of what is left.
-    pub fn rules<'a>(&'a self, rules: &Rules<'a>) -> Rules<'a> {
-        Rules {
-            held: &self.held,
-            bound: &self.remeshed.bound,
-            links: &self.links,
-            nearer: &self.nearer,
-            ..*rules
         }
     }
-
-    /// What became of the input, where this became of what is left.
-    pub fn then(&self, mut remeshed: Remeshed) -> Remeshed {
-        let through = |first: &[u32], second: &[u32]| {
-            let each = first.iter();
-            each.map(|&i| second.get(i as usize).copied().unwrap_or(u32::MAX))
-                .collect()
-        };
-        remeshed.vertices = through(&self.remeshed.vertices, &remeshed.vertices);
-        remeshed.triangles = through(&self.remeshed.triangles, &remeshed.triangles);
-        remeshed.told.collapsed += self.remeshed.told.collapsed;
-        remeshed.told.flipped += self.remeshed.told.flipped;
-        remeshed
+    if told.is_nothing() {
+        return None;
     }
+    Some(Reduced::new(taken(surface, mesh, told), rules, &nearer))
 }
 
 /// The vertices that may go.

@@ -33,7 +33,8 @@ pub fn flip(mesh: &mut Mesh<'_>, [a, b]: [u32; 2]) -> bool {
         ..Change::default()
     };
     let after = change.new.iter().map(|new| mesh.shape_of(new.0));
-    if after.fold(1.0, f64::min) <= mesh.worst_shape(&change.gone) * (1.0 + GAIN) {
+    let before = mesh.worst_shape(&change.gone);
+    if after.fold(1.0, f64::min) <= before + before.min(GAIN) {
         return false;
     }
     let Some(fitted) = mesh.fit(&change) else {

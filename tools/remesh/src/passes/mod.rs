@@ -3,10 +3,12 @@
 mod collapse;
 mod decimate;
 mod flip;
+mod reduced;
 mod relocate;
 mod remesh;
 mod ridges;
 mod rows;
+mod spare;
 mod split;
 mod uncap;
 mod worth;

@@ -1,11 +1,12 @@
 //! The whole of it.
 
 use super::collapse::collapse;
-use super::decimate::Decimated;
+use super::decimate::decimated;
 use super::flip::flip;
 use super::relocate::relocate;
 use super::ridges::sample_folds;
 use super::rows::Rows;
+use super::spare::without_spare;
 use super::split::split;
 use super::uncap::uncap;
 use super::worth::{DETAIL, FINE, GOOD, LONG, SHORT};
@@ -90,7 +91,26 @@ pub fn remesh(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     if rules.links.len() > MOST_LINKS {
         return None;
     }
-    if let Some(first) = Decimated::new(surface, rules) {
+    if rules.drawn != Drawn::Roughly
+        && let Some(first) = without_spare(surface, rules)
+    {
+        let (left, rules) = (&first.remeshed.surface, first.rules(rules));
+        if crossings(left, &rules).is_empty() {
+            return Some(match of_needed(left, &rules) {
+                Some(remeshed) => first.then(remeshed),
+                None => first.remeshed,
+            });
+        }
+    }
+    of_needed(surface, rules)
+}
+
+/// The same of a surface whose vertices are needed for the shape.
+fn of_needed(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
+    if rules.drawn == Drawn::Kept {
+        return None;
+    }
+    if let Some(first) = decimated(surface, rules) {
         let (left, rules) = (&first.remeshed.surface, first.rules(rules));
         if crossings(left, &rules).is_empty()
             && let Some(remeshed) = of_told(left, &rules)
@@ -338,7 +358,7 @@ fn is_active(mesh: &Mesh<'_>, active: &[bool], [a, b]: [u32; 2]) -> bool {
 }
 
 /// Edges by what `wanted` makes of them, least first.
-fn ordered(mesh: &Mesh<'_>, wanted: impl Fn([u32; 2]) -> Option<f64>) -> Vec<[u32; 2]> {
+pub(super) fn ordered(mesh: &Mesh<'_>, wanted: impl Fn([u32; 2]) -> Option<f64>) -> Vec<[u32; 2]> {
     let edges = mesh.edges().into_iter();
     let mut found: Vec<(f64, [u32; 2])> = edges.filter_map(|e| Some((wanted(e)?, e))).collect();
     found.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));

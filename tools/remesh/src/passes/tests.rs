@@ -383,6 +383,71 @@ fn flat_faces_and_what_has_no_needles_stay() {
     }
 }
 
+/// A prism of 14 sides and unit height, with a vertex on each of its upright edges, that much above its lower end.
+fn prism(above: f64) -> Surface {
+    let sides = 14;
+    let at = |i: u32, z: f64| {
+        let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(sides)).sin_cos();
+        DVec3::new(cos, sin, z)
+    };
+    let rings = [0.0, above, 1.0];
+    let mut surface = Surface {
+        points: rings
+            .iter()
+            .flat_map(|&z| (0..sides).map(move |i| at(i, z)))
+            .collect(),
+        ..Surface::default()
+    };
+    for i in 0..sides {
+        let j = (i + 1) % sides;
+        for ring in [0, sides] {
+            let [a, b, c, d] = [ring + i, ring + j, ring + sides + j, ring + sides + i];
+            surface.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    for i in 2..sides {
+        let upper = 2 * sides;
+        surface
+            .triangles
+            .extend([[0, i, i - 1], [upper, upper + i - 1, upper + i]]);
+    }
+    surface.labels = vec![0; surface.triangles.len()];
+    surface
+}
+
+/// The upright edges are no features, as the sides turn by less than those do.
+#[test]
+fn vertices_that_no_facet_needs_go_where_they_are_near_others() {
+    let as_drawn = |surface: &Surface, held: &[u32]| {
+        let mut holds = vec![false; surface.points.len()];
+        held.iter().for_each(|&v| holds[v as usize] = true);
+        let (bound, lengths) = (vec![0; holds.len()], [f64::INFINITY; 8]);
+        let rules = Rules {
+            drawn: Drawn::Kept,
+            ..rules(1e-10, (&holds, &lengths), (&bound, &[]))
+        };
+        remesh(surface, &rules)
+    };
+    let drawn = prism(0.01);
+    let made = as_drawn(&drawn, &[]).expect("vertices that are spare");
+    assert_eq!(
+        (made.surface.points.len(), made.surface.triangles.len()),
+        (28, 52)
+    );
+    assert!(is_closed(&made.surface));
+    assert!((volume(&made.surface) - volume(&drawn)).abs() < 1e-12);
+    assert_eq!(as_drawn(&made.surface, &[]).map(|made| made.told), None);
+    // What is held stays, as does what is not near anything, or off the edge that it is on.
+    let held = as_drawn(&drawn, &[14, 15]).expect("others");
+    assert_eq!(held.surface.points.len(), 30);
+    assert_eq!(as_drawn(&prism(0.4), &[]).map(|made| made.told), None);
+    let mut bent = drawn.clone();
+    bent.points[14] *= DVec3::new(1.001, 1.001, 1.0);
+    let bent = as_drawn(&bent, &[]).expect("others");
+    // Folds from it end at the next ones.
+    assert_eq!(bent.surface.points.len(), 31);
+}
+
 /// Two vertices next to each other, 1e-5 apart, make needles between folds of many degrees, which a deviation of 1e-8 cannot bridge.
 /// Vertices along them would ask for elements of their width.
 #[test]

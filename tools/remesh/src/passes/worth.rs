@@ -8,8 +8,8 @@ pub const SHORT: f64 = 4.0 / 5.0;
 /// Quality of a triangle that is good enough to be given up for another one: between 30 and 150 degrees, those with
 /// equal sides are.
 pub const GOOD: f64 = 0.5;
-/// What a step has to gain: a move in quality; a flip as a part of what there was, since the way out of needles is by others that are
-/// as good as none, but better: seven of them in one line beside a seam stayed otherwise, and the mesher refined them to 16 times as many triangles.
+/// What a step has to gain; among needles that are less than this, as much as there was: the way out of seven of them in one line beside a seam is by
+/// others that are as good as none, but better. They stayed, and the mesher refined them to 16 times as many triangles.
 pub const GAIN: f64 = 1e-3;
 /// Edges shorter than this, relative to the length wanted, go even where a patch is not remeshed: what a cut leaves of
 /// a facet.

@@ -102,6 +102,28 @@ impl Patches {
         patches
     }
 
+    /// Every flat facet on its own, whatever it is a part of.
+    pub fn of_facets(surface: &Surface, rules: &Rules<'_>) -> Self {
+        let edges = Edges::new(&surface.triangles);
+        let labels = &surface.labels;
+        let alike = |s: u32, t: u32| labels[s as usize] == labels[t as usize];
+        let (points, triangles) = (&surface.points, &surface.triangles);
+        let even = Flatness {
+            distance: rules.flat,
+            cosine: FOLD_COSINE,
+        };
+        let flats = Flats::new(points, triangles, &edges.across(), |_| [even], alike);
+        let count = flats.planes.len();
+        Self {
+            edges,
+            of: flats.regions.of.clone(),
+            facet: flats.regions.of,
+            planes: flats.planes.into_iter().map(Some).collect(),
+            off: vec![rules.flat; count],
+            normals: normals(surface),
+        }
+    }
+
     /// The parts of a surface that go on smoothly, flat faces and curved ones as one.
     pub fn of_labels(surface: &Surface, rules: &Rules<'_>) -> Self {
         let mut patches = Self {
