@@ -162,8 +162,8 @@ fn beside(height: [f64; 3]) -> Option<(usize, f64)> {
     (others == [0.0; 2]).then_some((off, height[off]))
 }
 
-/// Of the materials on both sides of a triangle with a side in the cutting surface, the part that the cut leaves a sharp edge there: where it
-/// slices a face along such sides, it is the triangle on one side of it for a boundary, and half of both for an interface.
+/// The part of the materials beside a triangle to which the cut gives a sharp edge where a side of the triangle lies in it. Where it slices a flat face
+/// along sides of triangles, that is all of one of both triangles at each for a boundary, and half of either for an interface.
 /// `face`: the triangle's normal; `into`: where it runs from that side, across it; `off`: the normal of the cut towards it.
 fn sharp_beside(triangle: &Triangle, face: DVec3, [into, off]: [DVec3; 2]) -> f64 {
     // Along the cut, in the direction of the triangle: what is between both is sharp.

@@ -91,6 +91,7 @@ pub fn remesh(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     if rules.links.len() > MOST_LINKS {
         return None;
     }
+    // What is drawn roughly is made anew in any case, with as many vertices as it needs.
     if rules.drawn != Drawn::Roughly
         && let Some(first) = without_spare(surface, rules)
     {
