@@ -72,8 +72,8 @@ pub fn follow_shape(
     let mut farthest = 0.0_f64;
     for group in groups(document, sizes.local.iter().any(Option::is_some)) {
         // Leaving out vertices takes no time.
-        let mut attempts = by_length.iter().chain(&within);
-        if attempts.any(|attempt| attempt.drawn != Drawn::Kept) {
+        let mut all = by_length.iter().chain(&within);
+        if all.any(|attempt| attempt.drawn != Drawn::Kept) {
             log.progress(&Progress {
                 template: group[0],
                 step: "remeshing the surface",
