@@ -435,7 +435,7 @@ fn what_has_no_symmetry_is_remeshed_within_the_tolerance() {
     assert!(off <= moved && moved <= 2.0 * symmetry.tolerance, "{moved}");
 }
 
-/// A body that is exact keeps its needles unless a deviation is asked for, and who is short of elements for that is told.
+/// A body keeps its needles where its surface may not move, and who is short of elements for that is told.
 #[test]
 fn a_deviation_is_advised_where_needles_are_kept() {
     let found = run("symdetect", &["-q"], &noisy_vase(0.0, 1.2)).success();
@@ -443,7 +443,7 @@ fn a_deviation_is_advised_where_needles_are_kept() {
         let cut = run("wedgecut", options, &found).success();
         run("tetwedge", &["--radius-edge", "1.05"], &cut).stderr
     };
-    let [kept, remeshed] = [&["-q"][..], &["-q", "--deviation", "1e-3"]].map(said);
+    let [kept, remeshed] = ["0", "1e-3"].map(|d| said(&["-q", "--deviation", d]));
     assert!(kept.contains("--deviation 0.001"), "{kept}");
     assert!(!remeshed.contains("--deviation"), "{remeshed}");
 }
@@ -634,7 +634,7 @@ fn drawings_finer_than_coordinates_tell_get_as_many_elements() {
         let count = copies * mesh.templates[0].tets.len() as f64;
         (count, farthest(&old, &new))
     };
-    let [(few, _), (count, off)] = [8, 60].map(made);
+    let [(few, _), (count, off)] = [8, 56].map(made);
     assert!(count < 1.3 * few, "{count} {few}");
     // Twice the height of an arc that turns as far as edges may: what bends both ways is off as far in each.
     assert!(off < 3e-3, "{off}");

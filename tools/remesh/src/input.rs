@@ -79,7 +79,8 @@ pub struct Rules<'a> {
 pub enum Drawn {
     /// Themselves, but for vertices that no facet needs.
     Kept,
-    /// Themselves: they stay, unless some are detail beside the edges wanted, and curved patches take less than a third of the triangles without.
+    /// Themselves: they stay, unless some are detail beside the edges wanted or narrower than the deviation, and curved patches take less than half of the
+    /// triangles without.
     Exactly,
     /// Themselves, but for needles: patches where facets have sharp corners are remeshed, and what is detail.
     WithNeedles,

@@ -69,12 +69,14 @@ impl Mesh<'_> {
                     closest_point(sample.point, &corners.map(at)).distance(sample.point)
                 };
                 let new = change.new.iter().enumerate();
-                let new = new.filter(|(_, n)| n.1 == patch || !stays);
+                // What was cut off with a detail may be near to what it was cut off along.
+                let is_any = !stays || change.moved.is_some() && change.joins;
+                let new = new.filter(|(_, n)| n.1 == patch || is_any);
                 let each = new.map(|(i, n)| (distance(n.0), i));
                 let (nearest, i) = each.min_by(|x, y| x.0.total_cmp(&y.0))?;
-                let reach = match stays {
-                    true => sample.reach,
-                    false => self.rules.deviation,
+                let reach = match is_any {
+                    true => self.rules.deviation,
+                    false => sample.reach,
                 };
                 if nearest > reach {
                     return None;
@@ -264,6 +266,11 @@ impl Mesh<'_> {
                 })
         };
         let at = |v: u32| self.points[v as usize];
+        // Where faces meet is as far from what is beside them as they were apart.
+        let slack = match change.joins && change.moved.is_some() {
+            true => self.rules.deviation,
+            false => 0.0,
+        };
         let chords = change.chords.iter().all(|&([a, b], curve)| {
             let slack = self.slack(change, ([a, b], curve));
             self.envelope
@@ -281,7 +288,7 @@ impl Mesh<'_> {
                             || old(a, b)
                             // Both triangles at an edge have it; one of them looks.
                             || (a > b && change.new.iter().any(|n| n.0.contains(&a) && n.0.contains(&b) && n.0 != corners))
-                            || self.envelope.holds(Near::Patch(patch), [at(a), at(b)], 0.0)
+                            || self.envelope.holds(Near::Patch(patch), [at(a), at(b)], slack)
                     })
             })
     }

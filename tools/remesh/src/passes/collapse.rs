@@ -1,12 +1,13 @@
 //! Collapsing edges that are too short.
 
+use super::meet::meeting;
 use super::worth::{DETAIL, GOOD, LONG};
 use crate::mesh::{Change, Mesh, UPRIGHT};
 use geom::measure::double_area_vector;
 use glam::DVec3;
 
-/// Collapses an edge into its second end, if that keeps to the rules and leaves no worse triangles. What is `spare` goes even if
-/// others get longer than is wanted by it.
+/// Collapses an edge into its second end, or to where flat faces meet beside it, if that keeps to the rules and leaves no worse triangles. What is
+/// `spare` goes even if others get longer than is wanted by it.
 pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool {
     let Some(orbit) = mesh.collapsing([from, to]) else {
         return false;
@@ -16,11 +17,56 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool 
     let Some(change) = change.filter(|change| !has_twins(change)) else {
         return false;
     };
+    let joined = match (change.joins, &orbit[..]) {
+        (true, &[edge]) => where_faces_meet(mesh, edge, &change),
+        _ => None,
+    };
+    take(mesh, &orbit, change, spare)
+        || joined.is_some_and(|change| take(mesh, &orbit, change, spare))
+}
+
+/// Collapses edges, if what that changes keeps to the rules and leaves no worse triangles.
+fn take(mesh: &mut Mesh<'_>, orbit: &[[u32; 2]], change: Change, spare: bool) -> bool {
     let before = change.gone.iter().map(|&t| {
         let (corners, patch) = (mesh.triangles[t as usize], mesh.patch[t as usize]);
         quality_of(mesh, (corners, patch), change.joins) * size_of(mesh, corners)
     });
     let before = before.fold(1.0, f64::min);
+    let mut change = change;
+    // It is where it will be while the change is looked at.
+    let swap = |mesh: &mut Mesh<'_>, change: &mut Change| {
+        if let Some((v, place)) = &mut change.moved {
+            std::mem::swap(&mut mesh.points[*v as usize], place);
+        }
+    };
+    swap(mesh, &mut change);
+    // What joining faces where they meet is worth is told when all of it is done.
+    let is_worth_it = change.moved.is_some() || is_worth_it(mesh, orbit, &change, (before, spare));
+    let fitted = match is_worth_it {
+        true => mesh.fit(&change),
+        false => None,
+    };
+    let Some(fitted) = fitted else {
+        swap(mesh, &mut change);
+        return false;
+    };
+    mesh.apply(&change, fitted);
+    for &[from, to] in orbit {
+        mesh.images.drop(from);
+        // Where curves were joined, they end, unless only one goes on.
+        mesh.fixed[to as usize] |= change.joins && !mesh.is_passed(to);
+        mesh.keep_near(to, &[from]);
+    }
+    true
+}
+
+/// Whether what is there after a change is no worse than before.
+fn is_worth_it(
+    mesh: &Mesh<'_>,
+    orbit: &[[u32; 2]],
+    change: &Change,
+    (before, spare): (f64, bool),
+) -> bool {
     let after = (change.new.iter()).map(|&new| quality_of(mesh, new, change.joins));
     if after.fold(1.0, f64::min) < before.min(GOOD) {
         return false;
@@ -38,17 +84,51 @@ pub fn collapse(mesh: &mut Mesh<'_>, [from, to]: [u32; 2], spare: bool) -> bool 
             return false;
         }
     }
-    let Some(fitted) = mesh.fit(&change) else {
-        return false;
-    };
-    mesh.apply(&change, fitted);
-    for &[from, to] in &orbit {
-        mesh.images.drop(from);
-        // Where curves were joined, they end, unless only one goes on.
-        mesh.fixed[to as usize] |= change.joins && !mesh.is_passed(to);
-        mesh.keep_near(to, &[from]);
-    }
     true
+}
+
+/// Where flat faces meet, each of which only one of two vertices is in: what joining these does with the second one moved there. `None` where that is not
+/// within the deviation of both, or the second one is in all of the faces.
+fn where_faces_meet(mesh: &Mesh<'_>, [from, to]: [u32; 2], joined: &Change) -> Option<Change> {
+    if mesh.held[to as usize] || mesh.images.has(to) {
+        return None;
+    }
+    let mut change = joined.clone();
+    let around = mesh.around(to).iter();
+    for &t in around.filter(|t| !joined.gone.contains(t)) {
+        change.gone.push(t);
+        let kept = (mesh.triangles[t as usize], mesh.patch[t as usize]);
+        change.new.push(kept);
+    }
+    let mut faces: Vec<u32> = change.new.iter().map(|n| n.1).collect();
+    faces.sort_unstable();
+    faces.dedup();
+    faces.retain(|&f| mesh.planes[f as usize].is_some());
+    let [p, q] = [from, to].map(|v| mesh.points[v as usize]);
+    let is_off = |&f: &u32| {
+        let plane = &mesh.planes[f as usize];
+        let off = plane.as_ref().map(|plane| plane.off([q; 3]));
+        off.is_some_and(|off| off > mesh.off[f as usize])
+    };
+    if !faces.iter().any(is_off) {
+        return None;
+    }
+    let planes = faces.iter().filter_map(|&f| mesh.planes[f as usize]);
+    let place = meeting(mesh, to, 0.5 * (p + q), planes)?;
+    let most = mesh.deviation_at(&[from, to]);
+    let is_near = |old: DVec3| old.distance(place) <= most;
+    if !is_near(p) || !is_near(q) {
+        return None;
+    }
+    for (w, curve) in mesh.along(to) {
+        let key = [to.min(w), to.max(w)];
+        if w != from && !change.chords.iter().any(|chord| chord.0 == key) {
+            change.chords_gone.push(key);
+            change.chords.push((key, curve));
+        }
+    }
+    change.moved = Some((to, place));
+    Some(change)
 }
 
 /// Whether two of the new triangles have the same corners: images of each other that are collapsed into the same vertex.

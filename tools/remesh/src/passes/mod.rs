@@ -3,6 +3,7 @@
 mod collapse;
 mod decimate;
 mod flip;
+mod meet;
 mod reduced;
 mod relocate;
 mod remesh;

@@ -795,8 +795,84 @@ fn an_exact_drawing_is_given_up_where_its_strips_cost_more_than_the_shape() {
         remesh(&surface, &rules)
     };
     assert!(done(64, 4.0).is_some());
-    assert!(done(64, 0.05).is_none());
+    assert!(done(32, 0.05).is_none());
     assert!(done(8, 4.0).is_none());
+}
+
+/// A prism over a square of side 2, of which the corner at (1, 1) is cut off by a strip so wide.
+fn cut_off(width: f64) -> Surface {
+    let off = width / std::f64::consts::SQRT_2;
+    let outline = [
+        [-1.0, -1.0],
+        [1.0, -1.0],
+        [1.0, 1.0 - off],
+        [1.0 - off, 1.0],
+        [-1.0, 1.0],
+    ];
+    upright(&outline, 1.0)
+}
+
+/// An upright prism over a polygon whose first corner sees all of it, from 0 to a height; ends and sides have one label.
+fn upright(outline: &[[f64; 2]], height: f64) -> Surface {
+    let n = outline.len() as u32;
+    let level = |z: f64| outline.iter().map(move |p| DVec3::new(p[0], p[1], z));
+    let fan = (1..n - 1).flat_map(|i| [[0, i + 1, i], [n, n + i, n + i + 1]]);
+    let sides = (0..n).flat_map(|i| {
+        let j = (i + 1) % n;
+        [[i, j, n + j], [i, n + j, n + i]]
+    });
+    let triangles: Vec<[u32; 3]> = fan.chain(sides).collect();
+    Surface {
+        points: level(0.0).chain(level(height)).collect(),
+        labels: vec![0; triangles.len()],
+        triangles,
+    }
+}
+
+/// A corner that was cut off by less than the surface may move is where the faces beside it meet, whether it is drawn exactly or not; these stay where they are.
+#[test]
+fn faces_meet_where_a_corner_was_cut_off_by_less_than_the_deviation() {
+    let done = |width: f64, drawn: Drawn| {
+        let surface = cut_off(width);
+        let none = vec![false; surface.points.len()];
+        let bound = vec![0; surface.points.len()];
+        let rules = Rules {
+            noise: 1e-9,
+            drawn,
+            ..rules(0.02, (&none, &[]), (&bound, &[]))
+        };
+        remesh(&surface, &rules)
+    };
+    for drawn in [Drawn::Exactly, Drawn::Roughly] {
+        let sharp = done(0.01, drawn).expect("a corner").surface;
+        assert_eq!((sharp.points.len(), sharp.triangles.len()), (8, 12));
+        for p in &sharp.points {
+            assert!(p.x.abs() == 1.0 && p.y.abs() == 1.0, "{p}");
+        }
+        assert!(is_closed(&sharp));
+        // What is wider is a face.
+        assert!(done(0.05, drawn).is_none_or(|wide| wide.surface.points.len() == 10));
+    }
+    assert!(done(0.01, Drawn::Kept).is_none());
+}
+
+/// The edge of a sheet is as narrow as that, but the faces beside it do not meet.
+#[test]
+fn the_edge_of_a_sheet_stays() {
+    let sheet = upright(&[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]], 0.01);
+    let none = vec![false; sheet.points.len()];
+    let bound = vec![0; sheet.points.len()];
+    for drawn in [Drawn::Exactly, Drawn::Roughly] {
+        let rules = Rules {
+            noise: 1e-9,
+            drawn,
+            ..rules(0.02, (&none, &[]), (&bound, &[]))
+        };
+        let done = remesh(&sheet, &rules);
+        let after = done.map_or(sheet.clone(), |done| done.surface);
+        assert!((volume(&after) - volume(&sheet)).abs() < 1e-12);
+        assert!(farthest(&sheet, &after) < 1e-12);
+    }
 }
 
 /// Needles that lean, because their vertices are off the shape by as much as they are wide, go one by one: what takes their place leans as well.

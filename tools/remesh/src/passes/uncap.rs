@@ -1,19 +1,21 @@
 //! Taking out needles between features.
 
+use super::meet::meeting;
 use super::worth::{BESIDE, DETAIL};
 use crate::mesh::{Change, Mesh};
 use geom::measure::double_area_vector;
 use glam::DVec3;
 
 /// Takes out a triangle that is detail, a vertex beside the middle of a feature edge: the edge is led by way of the vertex, or the vertex
-/// is moved onto the edge. Not where faces would meet at less than the triangle's own corners, as on both sides of something thin.
+/// is moved onto the edge, or to where flat faces beside both meet. Not where faces would meet at less than the triangle's own corners, as on both
+/// sides of something thin.
 pub fn uncap(mesh: &mut Mesh<'_>, t: u32) -> bool {
     let Some(cap) = cap(mesh, t) else {
         return false;
     };
-    let is_done = [false, true]
+    let is_done = [Way::Led, Way::OntoEdge, Way::Meeting]
         .into_iter()
-        .any(|moves| take(mesh, t, &cap, moves));
+        .any(|way| take(mesh, t, &cap, way));
     if is_done {
         let [a, b, c] = cap.corners;
         [a, b, c]
@@ -33,23 +35,35 @@ struct Cap {
     curve: u32,
 }
 
-/// Takes out a triangle. `moves`: with its vertex moved onto the edge.
-fn take(mesh: &mut Mesh<'_>, t: u32, cap: &Cap, moves: bool) -> bool {
-    let [a, b, c] = cap.corners;
+/// How a triangle is taken out.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// The edge is led by way of the vertex.
+    Led,
+    /// The vertex is moved onto the edge.
+    OntoEdge,
+    /// The vertex is moved to where flat faces meet.
+    Meeting,
+}
+
+/// Takes out a triangle.
+fn take(mesh: &mut Mesh<'_>, t: u32, cap: &Cap, way: Way) -> bool {
+    let [_, _, c] = cap.corners;
     let old = mesh.points[c as usize];
-    if moves {
-        // What is wider is divided until it is as wide as long.
-        let is_narrow = cap.height < BESIDE * mesh.size[c as usize];
-        let is_free = !mesh.held[c as usize] && !mesh.images.has(c);
-        let [x, y, z] = cap.corners.map(|v| mesh.bound[v as usize]);
-        let [p, q] = [a, b].map(|v| mesh.points[v as usize]);
-        let along = q - p;
-        let on_edge = p + along * ((old - p).dot(along) / along.length_squared());
-        match mesh.rules.put(z, on_edge) {
-            Some(place) if is_narrow && is_free && z == x & y => mesh.points[c as usize] = place,
-            _ => return false,
-        }
-    }
+    let place = match way {
+        Way::Led => old,
+        _ if mesh.held[c as usize] || mesh.images.has(c) => return false,
+        Way::OntoEdge => match on_edge(mesh, cap) {
+            Some(place) => place,
+            None => return false,
+        },
+        Way::Meeting => match where_faces_meet(mesh, t, cap) {
+            Some(place) => place,
+            None => return false,
+        },
+    };
+    mesh.points[c as usize] = place;
+    let moves = way != Way::Led;
     let change = change(mesh, t, cap, moves.then_some(old));
     let change = change.filter(|change| !moves || !narrows(mesh, change));
     let fitted = change.and_then(|change| Some((mesh.fit(&change)?, change)));
@@ -63,6 +77,33 @@ fn take(mesh: &mut Mesh<'_>, t: u32, cap: &Cap, moves: bool) -> bool {
             false
         }
     }
+}
+
+/// The place of the vertex on the edge, if that is near enough: what is wider is divided until it is as wide as long.
+fn on_edge(mesh: &Mesh<'_>, cap: &Cap) -> Option<DVec3> {
+    let [a, b, c] = cap.corners;
+    let [x, y, z] = cap.corners.map(|v| mesh.bound[v as usize]);
+    let [p, q, r] = [a, b, c].map(|v| mesh.points[v as usize]);
+    let along = q - p;
+    let on_edge = p + along * ((r - p).dot(along) / along.length_squared());
+    let is_narrow = cap.height < BESIDE * mesh.size[c as usize];
+    let may_move = is_narrow && z == x & y;
+    mesh.rules.put(z, on_edge).filter(|_| may_move)
+}
+
+/// Where the flat faces around the vertex and beyond the edge meet, within the deviation.
+fn where_faces_meet(mesh: &Mesh<'_>, t: u32, cap: &Cap) -> Option<DVec3> {
+    let [a, b, c] = cap.corners;
+    let mut around = mesh.at_edge(a, b);
+    around.extend(mesh.around(c));
+    let others = around.into_iter().filter(|&u| u != t);
+    let mut faces: Vec<u32> = others.map(|u| mesh.patch[u as usize]).collect();
+    faces.sort_unstable();
+    faces.dedup();
+    let planes = faces.into_iter().filter_map(|f| mesh.planes[f as usize]);
+    let old = mesh.points[c as usize];
+    let place = meeting(mesh, c, old, planes)?;
+    (place != old && place.distance(old) <= mesh.deviation_at(&[c])).then_some(place)
 }
 
 /// Whether a triangle of what is curved gets narrower than all that there were: then needles beside the one that goes would be taken
