@@ -82,6 +82,8 @@ pub enum Drawn {
     /// Themselves: they stay, unless some are detail beside the edges wanted or narrower than the deviation, and curved patches take less than half of the
     /// triangles without.
     Exactly,
+    /// The same where facets may be there for the sake of a symmetry about the z axis: of those that are drawn, what is not longest around that counts for nothing.
+    ExactlyAbout,
     /// Themselves, but for needles: patches where facets have sharp corners are remeshed, and what is detail.
     WithNeedles,
     /// A shape, which gets edges as long as is wanted.
@@ -101,6 +103,13 @@ pub struct Sizes<'a> {
     pub local: Option<&'a (dyn Fn(DVec3) -> f64 + Sync)>,
     /// By how much lengths of edges grow over a distance, relative to it.
     pub growth: f64,
+}
+
+impl Drawn {
+    /// Whether the triangles stand for themselves unless that costs too much.
+    pub fn is_exact(self) -> bool {
+        matches!(self, Self::Exactly | Self::ExactlyAbout)
+    }
 }
 
 impl Sizes<'_> {

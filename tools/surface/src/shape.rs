@@ -219,8 +219,8 @@ fn as_drawn(document: &Document, tolerance: &Tolerance) -> Vec<Attempt> {
 
 /// What is tried where the input has its symmetry exactly, but is drawn with facets that cost more than the shape does: its copies were
 /// copied, and say nothing of how well it was drawn. As far as without a symmetry, then. All of it where there are needles that no mesh of good elements
-/// can have; otherwise where narrow facets are nearly all of what it costs, and none are there because of the symmetry, as those of a
-/// wedge that takes several steps of it are.
+/// can have; otherwise where narrow facets are most of what it costs, of a wedge that takes several steps of the symmetry those that are not there
+/// because of it.
 fn for_drawing(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
     let found = document.symmetry.as_ref()?;
     let deviation = found.tolerance * tolerance.extent().radius;
@@ -236,13 +236,14 @@ fn for_drawing(document: &Document, tolerance: &Tolerance) -> Option<Attempt> {
         i.template == 0 && !placed.mirrored() && !placed.flipped()
     });
     let is_one_step = turns.count() == found.group.order as usize;
-    (has_needles || is_one_step).then(|| Attempt {
+    Some(Attempt {
         deviation,
         noise: tolerance.equal(),
         drift: None,
-        drawn: match has_needles {
-            true => Drawn::WithNeedles,
-            false => Drawn::Exactly,
+        drawn: match (has_needles, is_one_step) {
+            (true, _) => Drawn::WithNeedles,
+            (false, true) => Drawn::Exactly,
+            (false, false) => Drawn::ExactlyAbout,
         },
     })
 }

@@ -202,14 +202,21 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     );
     mesh.joins = joins;
     let mut told = Told::default();
-    let is_exact = rules.drawn == Drawn::Exactly;
+    let is_exact = rules.drawn.is_exact();
     let is_sized = rules.sizes.are_asked();
     // What is narrower than the deviation costs as much as what is fine; that is as wide as lengths that are asked for allow.
     let is_narrow = || !is_sized && (is_open || patches.has_narrow_facets(surface, rules));
     if is_exact && !fine(&mesh).contains(&true) && !is_narrow() {
         return None;
     }
-    let drawn = (is_exact && !is_sized).then(|| triangles_wanted(&mesh));
+    let counts: fn([DVec3; 2]) -> bool = match rules.drawn {
+        Drawn::ExactlyAbout => is_around,
+        _ => |_| true,
+    };
+    let drawn = (is_exact && !is_sized).then(|| triangles_wanted(&mesh, counts));
+    if drawn == Some(0.0) {
+        return None;
+    }
     // What a cut leaves of facets is gone first; then there may be nothing else to do.
     let none = vec![false; patches.planes.len()];
     told.collapsed += collapse_all(&mut mesh, &none, [DETAIL, DETAIL], Rows::unknown());
@@ -255,7 +262,7 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     told.joined = mesh.joined;
     // What was opened for nothing is a shape of its own.
     let is_idle = told.is_nothing() || is_open && told.joined == 0;
-    if is_idle || drawn.is_some_and(|drawn| triangles_wanted(&mesh) > WORTH * drawn) {
+    if is_idle || drawn.is_some_and(|drawn| triangles_wanted(&mesh, |_| true) > WORTH * drawn) {
         return None;
     }
     let cost = slenderness(&mesh);
@@ -280,17 +287,26 @@ fn corners_of_facets(mesh: &Mesh<'_>, facets: &[u32]) -> FxHashMap<(u32, u32), f
     angles
 }
 
-/// About how many triangles as wide as long the curved patches take: as many as are as high as each of theirs, along its longest side.
-fn triangles_wanted(mesh: &Mesh<'_>) -> f64 {
+/// About how many triangles as wide as long the curved patches take: as many as are as high as each of theirs, along its longest side, of those whose longest side
+/// `counts`.
+fn triangles_wanted(mesh: &Mesh<'_>, counts: impl Fn([DVec3; 2]) -> bool) -> f64 {
     let there = (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32));
     let curved = there.filter(|&t| mesh.planes[mesh.patch[t] as usize].is_none());
-    let each = curved.map(|t| {
+    let each = curved.filter_map(|t| {
         let [a, b, c] = mesh.triangles[t].map(|v| mesh.points[v as usize]);
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let height = double_area_vector(a, b, c).length() / longest;
-        0.75_f64.sqrt() * longest / height
+        let sides = [[a, b], [b, c], [c, a]].map(|side| (side[0].distance(side[1]), side));
+        let longest = sides.into_iter().max_by(|x, y| x.0.total_cmp(&y.0));
+        let (length, _) = longest.filter(|longest| counts(longest.1))?;
+        let height = double_area_vector(a, b, c).length() / length;
+        Some(0.75_f64.sqrt() * length / height)
     });
     each.sum()
+}
+
+/// Whether a side runs around the z axis rather than along it or to it.
+fn is_around([a, b]: [DVec3; 2]) -> bool {
+    let around = DVec3::Z.cross(0.5 * (a + b)).normalize_or_zero();
+    2.0 * (b - a).dot(around).powi(2) > a.distance_squared(b)
 }
 
 /// What narrow facets cost: elements as wide as they are, along all of their borders. The sum over all facets of the square

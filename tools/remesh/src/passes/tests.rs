@@ -799,6 +799,29 @@ fn an_exact_drawing_is_given_up_where_its_strips_cost_more_than_the_shape() {
     assert!(done(8, 4.0).is_none());
 }
 
+/// Facets that are as long as the body is high may be there for a symmetry about z, of a wedge that has several of them; those that are longest around z
+/// are not.
+#[test]
+fn strips_around_the_axis_are_not_there_for_the_sake_of_a_symmetry() {
+    let done = |place: fn(DVec3) -> DVec3, drawn: Drawn| {
+        let mut surface = half_cylinder(64);
+        let stretched = |p: &DVec3| place(DVec3::new(p.x, p.y, 4.0 * p.z));
+        surface.points = surface.points.iter().map(stretched).collect();
+        let none = vec![false; surface.points.len()];
+        let bound = vec![0; surface.points.len()];
+        let rules = Rules {
+            noise: 1e-9,
+            drawn,
+            ..rules(0.02, (&none, &[]), (&bound, &[]))
+        };
+        remesh(&surface, &rules).is_some()
+    };
+    let along = |p: DVec3| p;
+    let around = |p: DVec3| DVec3::new(p.z - 2.0, p.x + 10.0, p.y);
+    assert!(done(along, Drawn::Exactly) && done(around, Drawn::Exactly));
+    assert!(!done(along, Drawn::ExactlyAbout) && done(around, Drawn::ExactlyAbout));
+}
+
 /// A prism over a square of side 2, of which the corner at (1, 1) is cut off by a strip so wide.
 fn cut_off(width: f64) -> Surface {
     let off = width / std::f64::consts::SQRT_2;
