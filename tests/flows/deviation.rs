@@ -359,19 +359,47 @@ fn block(parts: u32) -> Vec<[DVec3; 3]> {
     triangles
 }
 
+/// The elements of all copies of a drawing, cut with some options.
+fn elements(drawn: &[u8], options: &[&str]) -> usize {
+    let found = run("symdetect", &["-q"], drawn).success();
+    let cut = run("wedgecut", &[&["-q"], options].concat(), &found).success();
+    let filled = run("tetwedge", &["-q"], &cut).success();
+    run("meshqual", &["-q", "--check"], &filled).success();
+    let document = read(&filled);
+    let placed = document.instances.iter();
+    placed
+        .map(|i| document.templates[i.template as usize].tets.len())
+        .sum()
+}
+
+/// A hexagonal bar whose upright edges are cut off by so much along both sides beside each.
+fn cut_off_bar(by: f64) -> Vec<u8> {
+    let ring = |z: f64| -> Vec<DVec3> {
+        let corner = |k: u32| {
+            let (sin, cos) = (std::f64::consts::FRAC_PI_3 * f64::from(k)).sin_cos();
+            DVec3::new(cos, sin, z)
+        };
+        let cut_off = |k: u32| {
+            let [before, here, after] = [k + 5, k, k + 1].map(corner);
+            [before, after].map(|next| here + (next - here) * by)
+        };
+        (0..6).flat_map(cut_off).collect()
+    };
+    written(&[ring(-0.5), ring(0.5)], 1.0)
+}
+
+/// As where the corners of a nut are cut off by a cylinder that is hardly smaller: within the deviation, they are as sharp as if nothing were cut off.
+#[test]
+fn corners_cut_off_by_less_than_the_deviation_cost_no_elements() {
+    let wide = elements(&cut_off_bar(0.25), &[]);
+    let narrow = cut_off_bar(3e-4);
+    let few = elements(&narrow, &[]);
+    assert!(few <= 2 * wide, "{few} {wide}");
+    assert!(elements(&narrow, &["--deviation", "0"]) > 10 * few);
+}
+
 #[test]
 fn vertices_inside_of_flat_faces_cost_no_elements() {
-    let elements = |drawn: &[u8], options: &[&str]| {
-        let found = run("symdetect", &["-q"], drawn).success();
-        let cut = run("wedgecut", &[&["-q"], options].concat(), &found).success();
-        let filled = run("tetwedge", &["-q"], &cut).success();
-        run("meshqual", &["-q", "--check"], &filled).success();
-        let document = read(&filled);
-        let placed = document.instances.iter();
-        placed
-            .map(|i| document.templates[i.template as usize].tets.len())
-            .sum::<usize>()
-    };
     let [plain, fine] = [1, 16].map(|parts| stl(&block(parts)));
     let few = elements(&plain, &[]);
     assert!(elements(&fine, &[]) <= 2 * few);

@@ -2,14 +2,11 @@
 
 use super::Mesh;
 use super::change::{Change, Fitted, Sample};
-use crate::shape::Near;
+use crate::shape::{Near, UPRIGHT};
 use geom::measure::double_area_vector;
 use geom::tree::closest_point;
 use glam::DVec3;
 
-/// Least cosine of the angle between a triangle and the shape that it stands for: 45 degrees, half of what would fold it
-/// over its neighbours if they are off as much.
-pub const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Angle between what is the same direction but for rounding, radians: that of the corners of a needle, half of all digits, as
 /// its height has as many fewer than its length.
 const ROUNDING: f64 = 1.0 / (1_u64 << (f64::MANTISSA_DIGITS / 2)) as f64;

@@ -9,7 +9,6 @@ mod sharp;
 mod triangle;
 
 pub use change::{Change, Sample};
-pub use fit::UPRIGHT;
 pub use images::Images;
 pub use orbits::Orbit;
 pub use triangle::quality;

@@ -2,7 +2,8 @@
 
 use super::meet::meeting;
 use super::worth::{DETAIL, GOOD, LONG};
-use crate::mesh::{Change, Mesh, UPRIGHT};
+use crate::mesh::{Change, Mesh};
+use crate::shape::UPRIGHT;
 use geom::measure::double_area_vector;
 use glam::DVec3;
 
@@ -87,8 +88,7 @@ fn is_worth_it(
     true
 }
 
-/// Where flat faces meet, each of which only one of two vertices is in: what joining these does with the second one moved there. `None` where that is not
-/// within the deviation of both, or the second one is in all of the faces.
+/// What joining two vertices does with the second one moved to where the flat faces around both meet, if they do so near enough.
 fn where_faces_meet(mesh: &Mesh<'_>, [from, to]: [u32; 2], joined: &Change) -> Option<Change> {
     if mesh.held[to as usize] || mesh.images.has(to) {
         return None;
@@ -100,26 +100,7 @@ fn where_faces_meet(mesh: &Mesh<'_>, [from, to]: [u32; 2], joined: &Change) -> O
         let kept = (mesh.triangles[t as usize], mesh.patch[t as usize]);
         change.new.push(kept);
     }
-    let mut faces: Vec<u32> = change.new.iter().map(|n| n.1).collect();
-    faces.sort_unstable();
-    faces.dedup();
-    faces.retain(|&f| mesh.planes[f as usize].is_some());
-    let [p, q] = [from, to].map(|v| mesh.points[v as usize]);
-    let is_off = |&f: &u32| {
-        let plane = &mesh.planes[f as usize];
-        let off = plane.as_ref().map(|plane| plane.off([q; 3]));
-        off.is_some_and(|off| off > mesh.off[f as usize])
-    };
-    if !faces.iter().any(is_off) {
-        return None;
-    }
-    let planes = faces.iter().filter_map(|&f| mesh.planes[f as usize]);
-    let place = meeting(mesh, to, 0.5 * (p + q), planes)?;
-    let most = mesh.deviation_at(&[from, to]);
-    let is_near = |old: DVec3| old.distance(place) <= most;
-    if !is_near(p) || !is_near(q) {
-        return None;
-    }
+    let place = meeting(mesh, to, &[from, to], change.new.iter().map(|n| n.1))?;
     for (w, curve) in mesh.along(to) {
         let key = [to.min(w), to.max(w)];
         if w != from && !change.chords.iter().any(|chord| chord.0 == key) {

@@ -1,23 +1,39 @@
 //! Where flat faces meet.
 
 use crate::mesh::Mesh;
-use geom::flat::Plane;
 use glam::DVec3;
 
-/// The point nearest to a place on all of some planes, and on what a vertex is bound to. `None` where they have no point in common there. Planes
-/// that are the same but for rounding count once: where they do not meet, what is made of the point does not fit.
+/// The point on the flat faces among some patches, and on what a vertex is bound to, that is nearest to the middle of some vertices, if it is within
+/// the deviation of all of these. `None` where the vertex is in all of the faces already, and where they have no point in common.
+///
+/// Faces in planes that are the same but for rounding count once: what is made of a point that is not in all of them does not fit.
 pub fn meeting(
     mesh: &Mesh<'_>,
     v: u32,
-    place: DVec3,
-    planes: impl Iterator<Item = Plane>,
+    near: &[u32],
+    patches: impl Iterator<Item = u32>,
 ) -> Option<DVec3> {
+    let mut faces: Vec<u32> = patches
+        .filter(|&f| mesh.planes[f as usize].is_some())
+        .collect();
+    faces.sort_unstable();
+    faces.dedup();
+    let own = mesh.points[v as usize];
+    let planes = faces
+        .iter()
+        .filter_map(|&f| Some((mesh.planes[f as usize]?, mesh.off[f as usize])));
+    let is_off = planes.clone().any(|(plane, off)| plane.off([own; 3]) > off);
+    if !is_off {
+        return None;
+    }
+    let places = near.iter().map(|&v| mesh.points[v as usize]);
+    let middle = places.clone().sum::<DVec3>() / near.len() as f64;
     let bound = mesh.bound[v as usize];
-    let faces = planes.map(|plane| (plane.normal, plane.origin));
-    let mut p = place;
+    let planes = planes.map(|(plane, _)| (plane.normal, plane.origin));
+    let mut p = middle;
     // Directions in which it cannot move any more, upright to each other.
     let mut taken: Vec<DVec3> = Vec::new();
-    for (normal, on) in bounds(mesh, bound, place).into_iter().chain(faces) {
+    for (normal, on) in bounds(mesh, bound, middle).into_iter().chain(planes) {
         let free = taken.iter().fold(normal, |n, t| n - *t * t.dot(normal));
         let part = free.length();
         if part > f64::EPSILON.sqrt() {
@@ -26,7 +42,10 @@ pub fn meeting(
             taken.push(along);
         }
     }
-    mesh.rules.put(bound, p)
+    let most = mesh.deviation_at(near);
+    let p = mesh.rules.put(bound, p)?;
+    let mut places = places;
+    places.all(|q| q.distance(p) <= most).then_some(p)
 }
 
 /// The planes and lines of these bits as planes: of each a unit normal and a point.

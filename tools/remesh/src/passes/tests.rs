@@ -778,6 +778,18 @@ fn half_cylinder(strips: u32) -> Surface {
     surface
 }
 
+/// A surface that is drawn so, remeshed within 0.02.
+fn remade(surface: &Surface, drawn: Drawn) -> Option<Remeshed> {
+    let none = vec![false; surface.points.len()];
+    let bound = vec![0; surface.points.len()];
+    let rules = Rules {
+        noise: 1e-9,
+        drawn,
+        ..rules(0.02, (&none, &[]), (&bound, &[]))
+    };
+    remesh(surface, &rules)
+}
+
 /// What is drawn exactly is given up where strips are far longer than wide, so that they would be nearly all of the mesh, and not where they are
 /// about as long as wide, or as wide as edges are wanted.
 #[test]
@@ -785,14 +797,7 @@ fn an_exact_drawing_is_given_up_where_its_strips_cost_more_than_the_shape() {
     let done = |strips: u32, longer: f64| {
         let mut surface = half_cylinder(strips);
         surface.points.iter_mut().for_each(|p| p.z *= longer);
-        let none = vec![false; surface.points.len()];
-        let bound = vec![0; surface.points.len()];
-        let rules = Rules {
-            noise: 1e-9,
-            drawn: Drawn::Exactly,
-            ..rules(0.02, (&none, &[]), (&bound, &[]))
-        };
-        remesh(&surface, &rules)
+        remade(&surface, Drawn::Exactly)
     };
     assert!(done(64, 4.0).is_some());
     assert!(done(32, 0.05).is_none());
@@ -807,14 +812,7 @@ fn strips_around_the_axis_are_not_there_for_the_sake_of_a_symmetry() {
         let mut surface = half_cylinder(64);
         let stretched = |p: &DVec3| place(DVec3::new(p.x, p.y, 4.0 * p.z));
         surface.points = surface.points.iter().map(stretched).collect();
-        let none = vec![false; surface.points.len()];
-        let bound = vec![0; surface.points.len()];
-        let rules = Rules {
-            noise: 1e-9,
-            drawn,
-            ..rules(0.02, (&none, &[]), (&bound, &[]))
-        };
-        remesh(&surface, &rules).is_some()
+        remade(&surface, drawn).is_some()
     };
     let along = |p: DVec3| p;
     let around = |p: DVec3| DVec3::new(p.z - 2.0, p.x + 10.0, p.y);
@@ -855,17 +853,7 @@ fn upright(outline: &[[f64; 2]], height: f64) -> Surface {
 /// A corner that was cut off by less than the surface may move is where the faces beside it meet, whether it is drawn exactly or not; these stay where they are.
 #[test]
 fn faces_meet_where_a_corner_was_cut_off_by_less_than_the_deviation() {
-    let done = |width: f64, drawn: Drawn| {
-        let surface = cut_off(width);
-        let none = vec![false; surface.points.len()];
-        let bound = vec![0; surface.points.len()];
-        let rules = Rules {
-            noise: 1e-9,
-            drawn,
-            ..rules(0.02, (&none, &[]), (&bound, &[]))
-        };
-        remesh(&surface, &rules)
-    };
+    let done = |width: f64, drawn: Drawn| remade(&cut_off(width), drawn);
     for drawn in [Drawn::Exactly, Drawn::Roughly] {
         let sharp = done(0.01, drawn).expect("a corner").surface;
         assert_eq!((sharp.points.len(), sharp.triangles.len()), (8, 12));
@@ -883,15 +871,8 @@ fn faces_meet_where_a_corner_was_cut_off_by_less_than_the_deviation() {
 #[test]
 fn the_edge_of_a_sheet_stays() {
     let sheet = upright(&[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]], 0.01);
-    let none = vec![false; sheet.points.len()];
-    let bound = vec![0; sheet.points.len()];
     for drawn in [Drawn::Exactly, Drawn::Roughly] {
-        let rules = Rules {
-            noise: 1e-9,
-            drawn,
-            ..rules(0.02, (&none, &[]), (&bound, &[]))
-        };
-        let done = remesh(&sheet, &rules);
+        let done = remade(&sheet, drawn);
         let after = done.map_or(sheet.clone(), |done| done.surface);
         assert!((volume(&after) - volume(&sheet)).abs() < 1e-12);
         assert!(farthest(&sheet, &after) < 1e-12);

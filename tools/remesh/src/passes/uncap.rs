@@ -97,13 +97,8 @@ fn where_faces_meet(mesh: &Mesh<'_>, t: u32, cap: &Cap) -> Option<DVec3> {
     let mut around = mesh.at_edge(a, b);
     around.extend(mesh.around(c));
     let others = around.into_iter().filter(|&u| u != t);
-    let mut faces: Vec<u32> = others.map(|u| mesh.patch[u as usize]).collect();
-    faces.sort_unstable();
-    faces.dedup();
-    let planes = faces.into_iter().filter_map(|f| mesh.planes[f as usize]);
-    let old = mesh.points[c as usize];
-    let place = meeting(mesh, c, old, planes)?;
-    (place != old && place.distance(old) <= mesh.deviation_at(&[c])).then_some(place)
+    let patches = others.map(|u| mesh.patch[u as usize]);
+    meeting(mesh, c, &[c], patches)
 }
 
 /// Whether a triangle of what is curved gets narrower than all that there were: then needles beside the one that goes would be taken

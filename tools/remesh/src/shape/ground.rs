@@ -1,7 +1,7 @@
 //! The shape that a remeshed surface stands on, along which its vertices may be moved further.
 
+use super::patches::UPRIGHT;
 use super::{Envelope, Near};
-use crate::mesh::UPRIGHT;
 use geom::measure::double_area_vector;
 use glam::DVec3;
 

@@ -18,5 +18,5 @@ pub use curves::Curves;
 pub use envelope::{Envelope, Near};
 pub use facets::{Beside, Facets};
 pub use ground::Ground;
-pub use patches::{ALIKE, Patches};
+pub use patches::{ALIKE, Patches, UPRIGHT};
 pub use wanted::{Curve, Wanted};

@@ -3,7 +3,6 @@
 use super::beyond::Beyond;
 use super::facets::{Beside, Facets};
 use crate::input::{Rules, Surface};
-use crate::mesh::UPRIGHT;
 use geom::edges::{EdgeUse, Edges, apex_of};
 use geom::flat::{FOLD_COSINE, Flatness, Flats, Plane};
 use geom::measure::{double_area_vector, triangle_area};
@@ -26,6 +25,9 @@ pub struct Patches {
     pub normals: Vec<DVec3>,
 }
 
+/// Least cosine of the angle between a triangle and the shape that it stands for: 45 degrees, half of what would fold it
+/// over its neighbours if they are off as much.
+pub const UPRIGHT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Share of the border of a flat face, beside which other facets go on as in a smooth surface with facets like it, from
 /// which on it is one of these facets: strips around a cylinder have it along both of their long sides, and what
 /// is as long as wide, on a sphere, along all. A face in which roundings of its own width end would need half.
