@@ -9,6 +9,7 @@ mod envelope;
 mod facets;
 mod ground;
 mod patches;
+mod strips;
 mod wanted;
 
 pub use allowance::{Allowance, untold};

@@ -151,97 +151,6 @@ impl Patches {
         patches
     }
 
-    /// Takes flat faces that are nowhere farther from their border than the surface may be off where it is for what they are parts of where that is
-    /// curved: next to something curved, or to another one that is. How they lie means nothing, and held in their planes, strips as an
-    /// exporter draws them between two edges of a blade would stay needles. Between flat faces, however narrow, they are a shape of their own,
-    /// and what lies in walls or linked faces stays there.
-    fn leave_strips(&mut self, surface: &Surface, rules: &Rules<'_>) {
-        let is_strip = self.strips(surface, rules);
-        let mut beside = vec![Vec::new(); self.planes.len()];
-        for edge in 0..self.edges.len() {
-            let around = self.edges.around(edge).iter();
-            let all: Vec<u32> = around.map(|u| self.of[u.triangle as usize]).collect();
-            for &p in &all {
-                beside[p as usize].extend(all.iter().filter(|&&q| q != p));
-            }
-        }
-        let curved = (0..).zip(&self.planes).filter(|(_, plane)| plane.is_none());
-        let mut next: Vec<u32> = curved.map(|(p, _)| p).collect();
-        while let Some(p) = next.pop() {
-            for &q in &beside[p as usize] {
-                if self.planes[q as usize].is_some() && is_strip[q as usize] {
-                    self.planes[q as usize] = None;
-                    next.push(q);
-                }
-            }
-        }
-    }
-
-    /// Takes such strips between flat faces for nothing of their own, too, so that the faces on both sides may meet in their place: a corner that
-    /// was cut off by less than the surface may move. Not those between sides that face away from each other, as at the edge of a sheet. Returns
-    /// whether there are any, flat ones or others.
-    pub fn open_strips(&mut self, surface: &Surface, rules: &Rules<'_>) -> bool {
-        let is_strip = self.strips(surface, rules);
-        if !is_strip.contains(&true) {
-            return false;
-        }
-        let widths = self.widths(surface);
-        let is_cut = self.cut(surface, rules);
-        let mut sides = vec![Vec::new(); self.planes.len()];
-        for (edge, ends) in self.edges.ends.iter().enumerate() {
-            let [a, b] = ends.map(|v| surface.points[v as usize]);
-            let around = self.edges.around(edge);
-            for u in around {
-                let p = self.of[u.triangle as usize] as usize;
-                // What is beyond the ends of a strip may face anywhere.
-                if is_strip[p] && a.distance(b) > widths[p] {
-                    let others = around.iter().filter(|v| {
-                        let other = self.of[v.triangle as usize] as usize;
-                        other != p && !is_cut[other]
-                    });
-                    sides[p].extend(others.map(|v| self.normals[v.triangle as usize]));
-                }
-            }
-        }
-        let mut any = false;
-        for (p, sides) in sides.iter().enumerate() {
-            let is_away = |m: &DVec3| sides.iter().any(|n| m.dot(*n) < -UPRIGHT);
-            if is_strip[p] && !sides.iter().any(is_away) {
-                self.planes[p] = None;
-                any = true;
-            }
-        }
-        any
-    }
-
-    /// Whether each patch is nowhere farther from its border than the surface may move there, and lies in no wall and no linked face.
-    fn strips(&self, surface: &Surface, rules: &Rules<'_>) -> Vec<bool> {
-        let widths = self.widths(surface);
-        let is_cut = self.cut(surface, rules);
-        let mut moves = vec![rules.deviation; self.planes.len()];
-        for (t, &p) in self.of.iter().enumerate() {
-            for v in surface.triangles[t] {
-                moves[p as usize] = moves[p as usize].min(rules.deviation_at(v as usize));
-            }
-        }
-        let is_strip = |p: usize| widths[p] <= 2.0 * moves[p] && !is_cut[p];
-        (0..self.planes.len()).map(is_strip).collect()
-    }
-
-    /// Whether each patch lies in a wall or a linked face: where the body was cut.
-    fn cut(&self, surface: &Surface, rules: &Rules<'_>) -> Vec<bool> {
-        let mut walls = vec![u32::MAX; self.planes.len()];
-        let mut is_linked = vec![false; self.planes.len()];
-        for (t, &p) in self.of.iter().enumerate() {
-            let [a, b, c] = surface.triangles[t].map(|v| rules.bound[v as usize]);
-            walls[p as usize] &= a & b & c;
-            let mut links = rules.links.iter();
-            is_linked[p as usize] |= links.any(|link| link.labels.contains(&surface.labels[t]));
-        }
-        let each = walls.into_iter().zip(is_linked);
-        each.map(|(walls, linked)| walls != 0 || linked).collect()
-    }
-
     /// The width of each patch, model units: that of a square with the same area to its border, twice that of a long
     /// strip. NaN or infinite for what has no border.
     pub fn widths(&self, surface: &Surface) -> Vec<f64> {
@@ -249,7 +158,7 @@ impl Patches {
     }
 
     /// The same of other sets of triangles.
-    fn widths_of(&self, surface: &Surface, sets: &[u32]) -> Vec<f64> {
+    pub(super) fn widths_of(&self, surface: &Surface, sets: &[u32]) -> Vec<f64> {
         let count = sets.iter().max().map_or(0, |most| *most as usize + 1);
         let (mut area, mut border) = (vec![0.0; count], vec![0.0; count]);
         for (t, &set) in sets.iter().enumerate() {
@@ -267,15 +176,6 @@ impl Patches {
         let each = area.into_iter().zip(border);
         each.map(|(area, border): (f64, f64)| 4.0 * area / border)
             .collect()
-    }
-
-    /// Whether any facet of what is curved is nowhere farther from its border than the surface may move.
-    pub fn has_narrow_facets(&self, surface: &Surface, rules: &Rules<'_>) -> bool {
-        let widths = self.widths_of(surface, &self.facet);
-        let mut facets = self.of.iter().zip(&self.facet);
-        facets.any(|(&p, &f)| {
-            self.planes[p as usize].is_none() && widths[f as usize] <= 2.0 * rules.deviation
-        })
     }
 
     /// The two triangles at an edge of a smooth surface.
