@@ -82,7 +82,8 @@ pub enum Drawn {
     /// Themselves: they stay, unless some are detail beside the edges wanted or narrower than the deviation, and curved patches take less than half of the
     /// triangles without.
     Exactly,
-    /// The same where facets may be there for the sake of a symmetry about the z axis: of those that are drawn, what is not longest around that counts for nothing.
+    /// The same in a wedge of several steps of a symmetry about the z axis, whose facets may be there for its sake, as the sides of a prism are: only
+    /// triangles that are longest around the axis count among those that the drawing takes.
     ExactlyAbout,
     /// Themselves, but for needles: patches where facets have sharp corners are remeshed, and what is detail.
     WithNeedles,

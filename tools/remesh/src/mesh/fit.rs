@@ -66,7 +66,7 @@ impl Mesh<'_> {
                     closest_point(sample.point, &corners.map(at)).distance(sample.point)
                 };
                 let new = change.new.iter().enumerate();
-                // What was cut off with a detail may be near to what it was cut off along.
+                // What goes with a detail, though its patch stays, may be near to any triangle in its place.
                 let is_any = !stays || change.moved.is_some() && change.joins;
                 let new = new.filter(|(_, n)| n.1 == patch || is_any);
                 let each = new.map(|(i, n)| (distance(n.0), i));

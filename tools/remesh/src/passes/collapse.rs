@@ -34,7 +34,7 @@ fn take(mesh: &mut Mesh<'_>, orbit: &[[u32; 2]], change: Change, spare: bool) ->
     });
     let before = before.fold(1.0, f64::min);
     let mut change = change;
-    // It is where it will be while the change is looked at.
+    // So far, the change has the place that a vertex is to be moved to; from here on, the one that it was at.
     let swap = |mesh: &mut Mesh<'_>, change: &mut Change| {
         if let Some((v, place)) = &mut change.moved {
             std::mem::swap(&mut mesh.points[*v as usize], place);
@@ -88,7 +88,8 @@ fn is_worth_it(
     true
 }
 
-/// What joining two vertices does with the second one moved to where the flat faces around both meet, if they do so near enough.
+/// What joining two vertices does with the second one moved to where the flat faces around both meet, if they do so near enough. It has the place that the
+/// vertex is to be moved to in place of the one that it was at.
 fn where_faces_meet(mesh: &Mesh<'_>, [from, to]: [u32; 2], joined: &Change) -> Option<Change> {
     if mesh.held[to as usize] || mesh.images.has(to) {
         return None;

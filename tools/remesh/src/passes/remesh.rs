@@ -204,7 +204,8 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     let mut told = Told::default();
     let is_exact = rules.drawn.is_exact();
     let is_sized = rules.sizes.are_asked();
-    // What is narrower than the deviation costs as much as what is fine; that is as wide as lengths that are asked for allow.
+    // What is narrower than the deviation costs as much as what is fine. Where lengths are asked for, the deviation is as wide as these allow, and
+    // what is as narrow as that is no detail.
     let is_narrow = || !is_sized && (is_open || patches.has_narrow_facets(surface, rules));
     if is_exact && !fine(&mesh).contains(&true) && !is_narrow() {
         return None;
