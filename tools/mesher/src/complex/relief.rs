@@ -7,6 +7,7 @@ use super::Facets;
 use geom::measure::corners;
 use geom::tree::Tree;
 use glam::DVec3;
+use std::collections::BTreeMap;
 use tmesh::Template;
 
 /// The triangles of uneven facets.
@@ -14,10 +15,8 @@ use tmesh::Template;
 pub struct Relief {
     /// Of each facet, whether it is uneven.
     uneven: Vec<bool>,
-    /// Triangles of uneven facets.
-    tree: Option<Tree>,
-    /// Facet of each of them.
-    facet: Vec<u32>,
+    /// The triangles of each uneven facet: what is nearest among few of many is found after most others.
+    trees: BTreeMap<usize, Tree>,
 }
 
 impl Relief {
@@ -25,19 +24,23 @@ impl Relief {
     pub fn new(template: &Template, facets: &Facets, flat: f64) -> Self {
         let is_uneven = |f: &super::Facet| f.deviation > flat && f.normal != DVec3::ZERO;
         let uneven: Vec<bool> = facets.facets.iter().map(is_uneven).collect();
-        let of = template.triangles.iter().zip(&facets.of_triangle);
-        let of: Vec<_> = of.filter(|(_, f)| uneven[**f as usize]).collect();
-        let triangles = of.iter().map(|(t, _)| corners(&template.vertices, *t));
+        let mut of: BTreeMap<usize, Vec<[DVec3; 3]>> = BTreeMap::new();
+        for (t, &facet) in template.triangles.iter().zip(&facets.of_triangle) {
+            if uneven[facet as usize] {
+                let triangles = of.entry(facet as usize).or_default();
+                triangles.push(corners(&template.vertices, t));
+            }
+        }
+        let tree = |(facet, of): (usize, Vec<_>)| (facet, Tree::new(of.into_iter()));
         Self {
-            tree: (!of.is_empty()).then(|| Tree::new(triangles)),
-            facet: of.iter().map(|(_, f)| **f).collect(),
+            trees: of.into_iter().map(tree).collect(),
             uneven,
         }
     }
 
     /// Whether any facet is uneven.
     pub fn is_there(&self) -> bool {
-        self.tree.is_some()
+        !self.trees.is_empty()
     }
 
     /// Of each facet, whether it is uneven.
@@ -47,9 +50,7 @@ impl Relief {
 
     /// The point of an uneven facet that is nearest to `p`, model units; `None` for other facets.
     pub fn nearest(&self, facet: usize, p: DVec3) -> Option<DVec3> {
-        let wanted = |t: u32| self.facet[t as usize] as usize == facet;
-        let tree = self.tree.as_ref().filter(|_| self.uneven[facet])?;
-        Some(tree.nearest_of(p, f64::INFINITY, wanted)?.point)
+        Some(self.trees.get(&facet)?.nearest(p, f64::INFINITY)?.point)
     }
 
     /// Puts points that are on a single uneven facet onto it: of triangles with their facets, the vertices that `moves`. What

@@ -238,15 +238,7 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
         let both = active.iter_mut().zip(found);
         both.for_each(|(active, found)| *active |= found);
         if round + 2 < ROUNDS {
-            // The lengths that are wanted may be many halvings away.
-            loop {
-                let rows = Rows::new(&mesh);
-                let split = split_all(&mut mesh, &active, rows);
-                told.split += split;
-                if split == 0 {
-                    break;
-                }
-            }
+            halve_all(&mut mesh, &active, &mut told);
             if round >= SETTLED {
                 for _ in 0..HALVINGS {
                     told.split += split_needles(&mut mesh, &active);
@@ -419,6 +411,24 @@ fn collapse_all(
         }
     }
     done
+}
+
+/// Halves edges until they are as long as is wanted. What is halved is joined with what is beside it before it is halved again: needles side by side would
+/// get as many vertices each as one of them needs, and 15,000 triangles of a plug with 25 pins became 1.6 million on the way to 70,000.
+fn halve_all(mesh: &mut Mesh<'_>, active: &[bool], told: &mut Told) {
+    let edges = mesh.edges().into_iter();
+    let wanted = edges.filter(|&e| is_active(mesh, active, e));
+    let longest = wanted.map(|e| mesh.relative(e)).fold(1.0, f64::max);
+    for _ in 0..libm::log2(longest).ceil() as u32 {
+        let rows = Rows::new(mesh);
+        let split = split_all(mesh, active, rows);
+        if split == 0 {
+            break;
+        }
+        told.split += split;
+        let rows = Rows::new(mesh);
+        told.collapsed += collapse_all(mesh, active, [SHORT, DETAIL], rows);
+    }
 }
 
 fn split_all(mesh: &mut Mesh<'_>, active: &[bool], mut rows: Rows) -> usize {

@@ -804,6 +804,19 @@ fn an_exact_drawing_is_given_up_where_its_strips_cost_more_than_the_shape() {
     assert!(done(8, 4.0).is_none());
 }
 
+/// Strips that lie side by side within an edge's length are joined while they are halved: they do not get as many vertices each as one that is as wide as
+/// edges are to be.
+#[test]
+fn needles_side_by_side_are_not_all_divided() {
+    let (strips, longer) = (256, 32.0);
+    let mut surface = half_cylinder(strips);
+    surface.points.iter_mut().for_each(|p| p.z *= longer);
+    let made = remade(&surface, Drawn::Roughly).expect("fine strips");
+    let turn = std::f64::consts::TAU / 12.0;
+    let all = f64::from(strips) * longer / turn;
+    assert!((made.told.split as f64) < all, "{:?} {all}", made.told);
+}
+
 /// Facets that are as long as the body is high may be there for a symmetry about z, of a wedge that has several of them; those that are longest around z
 /// are not.
 #[test]
