@@ -3,7 +3,8 @@
 use crate::document::{Meshed, or_as_cut};
 use crate::filling::Filling;
 use crate::settle::{Settled, Shaped};
-use mesher::{Description, Error, Fault, Log, Params, Piece, Plc, Sizes};
+use crate::template::Job;
+use mesher::{Asks, Attempt, Deadline, Error, Fault, Log, Params, Piece, Sizes};
 use surface::{Guide, SurfaceError, lengths};
 use tmesh::Document;
 
@@ -43,7 +44,7 @@ fn made(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (Su
         settled.document.templates = best.surfaces;
     }
     if shaped.is_remeshed() {
-        describable(&settled.document).map_err(|error| failed(error.into()))?;
+        recovered(&settled.document, params, log).map_err(|error| failed(error.into()))?;
     }
     let mut facts = settled.facts();
     if settled.report.iter().all(Option::is_none) {
@@ -61,12 +62,22 @@ fn made(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (Su
     })
 }
 
-/// Whether surfaces can be described to the mesher: whether they are closed and cells have one region.
-fn describable(document: &Document) -> Result<(), Error> {
-    let sizes = Sizes::new(document)?;
+/// Whether the mesher finds surfaces again in plain meshes of them: what it cannot be described or does not recover, nobody can fill who is told to keep it.
+fn recovered(document: &Document, params: &Params, log: Log<'_>) -> Result<(), Error> {
+    let plain = Params {
+        quality: false,
+        ..params.clone()
+    };
+    let job = Job {
+        params: &plain,
+        sizes: &Sizes::new(document)?,
+        guide: Guide::Mesher,
+        log,
+    };
     let mut indices = 0..document.templates.len();
     indices.try_for_each(|index| {
-        Plc::new(Piece::of(document, index), &sizes, Description::PLAIN).map(|_| ())
+        let climb = job.climb(Piece::of(document, index), Deadline::start(plain.timeout));
+        climb.climb(Attempt::new(Asks::AsWished), |_| Ok(()))
     })
 }
 

@@ -1,3 +1,4 @@
+use crate::document::or_as_cut;
 use crate::done::done;
 use crate::fill::{fill, finish};
 use crate::{Meshed, surfaces, tetrahedralize};
@@ -10,10 +11,11 @@ use mesher::{
     Answer, Asks, Attempt, Change, Climb, Deadline, Description, Error, LADDER, Log, NO_FACE,
     Params, Piece, Plc, Sizes, TetGen,
 };
+use std::sync::Mutex;
 use std::time::Duration;
 use surface::failure;
 use surface::{Guide, Shared, divided, mean_edge, settle_faces};
-use tmesh::{Document, OUTSIDE, Size, Template, Wishes, validate};
+use tmesh::{Deviation, Document, OUTSIDE, Size, Template, Wishes, validate};
 
 /// Fills a document as these wishes ask, its surface as it is.
 fn filled(document: Document, wishes: &Wishes) -> Result<Meshed, Error> {
@@ -38,6 +40,38 @@ fn mesh(document: Document, wishes: &Wishes) -> Result<Document, Error> {
     let done = filled(document, wishes)?.document;
     check(&begun, &done);
     Ok(done)
+}
+
+/// What cannot be made of a remeshed surface is made of the surface as it was cut, said, and leaves the deviation that was wished for. Other errors stay.
+#[test]
+fn what_remeshing_spoils_is_made_as_it_was_cut() {
+    let mut document = prism(4);
+    document.wishes.deviation = Some(Deviation::Auto);
+    let fill = |spoils: bool, is_remeshed: bool| {
+        let heard = Mutex::new(Vec::new());
+        let hear = |line: &str| heard.lock().unwrap().push(line.to_owned());
+        let make = |document: Document| match document.wishes.deviation {
+            Some(Deviation::Within(0.0)) => {
+                filled(document, &Wishes::default()).map_err(|error| (error.to_string(), false))
+            }
+            _ => Err(("facets cross".to_owned(), is_remeshed)),
+        };
+        let made = or_as_cut(document.clone(), make, |_| spoils, Log::new(&hear));
+        (made, heard.into_inner().unwrap())
+    };
+    let (made, heard) = fill(true, true);
+    let made = made.unwrap().document;
+    assert_eq!(made.wishes.deviation, Some(Deviation::Auto));
+    assert!(made.templates.iter().all(|t| !t.tets.is_empty()));
+    let told = "the surface is not remeshed, as that cannot be filled: facets cross";
+    assert_eq!(heard, [told]);
+    for (spoils, is_remeshed) in [(false, true), (true, false)] {
+        let (made, heard) = fill(spoils, is_remeshed);
+        assert_eq!(
+            (made.err().as_deref(), heard.len()),
+            (Some("facets cross"), 0)
+        );
+    }
 }
 
 fn sized(max_volume: f64) -> Wishes {

@@ -31,7 +31,7 @@ impl Relief {
                 triangles.push(corners(&template.vertices, t));
             }
         }
-        let tree = |(facet, of): (usize, Vec<_>)| (facet, Tree::new(of.into_iter()));
+        let tree = |(facet, of): (usize, Vec<_>)| (facet, Tree::new(of));
         Self {
             trees: of.into_iter().map(tree).collect(),
             uneven,

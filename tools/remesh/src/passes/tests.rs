@@ -804,6 +804,29 @@ fn an_exact_drawing_is_given_up_where_its_strips_cost_more_than_the_shape() {
     assert!(done(8, 4.0).is_none());
 }
 
+/// Edges around what has a radius of five deviations are four of these long, so that what is nearer together than one of them is detail, and not as short as turns
+/// of 30 degrees would have them. Around a radius of twenty they turn by that.
+#[test]
+fn edges_around_small_roundings_are_no_shorter_than_detail_allows() {
+    let triangle_around = |radius: f64| {
+        let mut surface = half_cylinder(32);
+        let scaled = |p: &DVec3| DVec3::new(radius * p.x, radius * p.y, 4.0 * p.z);
+        surface.points = surface.points.iter().map(scaled).collect();
+        let made = remade(&surface, Drawn::Roughly).expect("strips").surface;
+        let curved = (0..).zip(&made.labels).filter(|(_, label)| **label == 0);
+        let areas: Vec<f64> = curved
+            .map(|(t, _)| {
+                let [a, b, c] = made.corners(t);
+                geom::measure::triangle_area(a, b, c)
+            })
+            .collect();
+        let side = radius * std::f64::consts::TAU / 12.0;
+        areas.iter().sum::<f64>() / areas.len() as f64 / (0.75_f64.sqrt() / 2.0 * side * side)
+    };
+    let [small, large] = [5.0, 20.0].map(|times| triangle_around(times * 0.02));
+    assert!(small > 1.5 && large < 1.5, "{small} {large}");
+}
+
 /// Strips that lie side by side within an edge's length are joined while they are halved: they do not get as many vertices each as one that is as wide as
 /// edges are to be.
 #[test]

@@ -1,6 +1,7 @@
 //! Arcs that facets and chords stand for.
 
 use crate::input::Rules;
+use crate::passes::DETAIL;
 
 /// Longest edge relative to the length wanted (Botsch and Kobbelt): a longer one has halves that are nearer to it.
 pub const LONG: f64 = 4.0 / 3.0;
@@ -26,6 +27,12 @@ impl Arc {
     pub fn size(&self, rules: &Rules<'_>, longest: f64, deviation: f64) -> f64 {
         let sizes = &rules.sizes;
         let turned = sizes.turn / self.curvature;
+        // What is nearer together than the surface may move is detail beside edges that long, and may be joined. Where lengths are asked for, the
+        // surface may move as far as these allow, which says nothing of what is detail.
+        let seen = match longest.is_finite() {
+            true => turned,
+            false => turned.max(deviation / DETAIL),
+        };
         // Chords are as far from the arc as they may be. Measured with all stages on 136 parts and assemblies, by default: with chords half as
         // far from it there are 1.13 times as many elements, and angles are the same.
         let near = (8.0 * deviation / self.curvature).sqrt();
@@ -34,7 +41,7 @@ impl Arc {
             true => turned.min(longest),
             false => longest,
         };
-        turned.min(near).max(drawn).min(asked)
+        seen.min(near).max(drawn).min(asked)
     }
 
     /// How far chords that turn as far as is wanted and those as drawn may be apart: the heights of the arc above both. Where
