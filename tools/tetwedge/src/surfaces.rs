@@ -42,8 +42,8 @@ fn made(document: Document, params: &Params, log: Log<'_>) -> Result<Meshed, (Su
         let best = first.or_longer(&shaped, params, log);
         settled = best.settled;
         settled.document.templates = best.surfaces;
-    }
-    if shaped.is_remeshed() {
+    } else if shaped.is_remeshed() {
+        // What was not filled to see which is better.
         recovered(&settled.document, params, log).map_err(|error| failed(error.into()))?;
     }
     let mut facts = settled.facts();

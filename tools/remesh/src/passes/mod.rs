@@ -15,7 +15,6 @@ mod uncap;
 mod worth;
 
 pub use remesh::{Remeshed, Told, remesh};
-pub use worth::DETAIL;
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! What a step is worth.
 
-pub use crate::shape::LONG;
+pub use crate::shape::{DETAIL, LONG};
 
 /// Shortest edge relative to the length wanted (Botsch and Kobbelt): two edges that meet at a vertex in between, of which
 /// one is shorter, are together nearer to it.
@@ -11,9 +11,6 @@ pub const GOOD: f64 = 0.5;
 /// What a step has to gain; among needles that are less than this, as much as there was: the way out of seven of them in one line beside a seam is by
 /// others that are as good as none, but better. They stayed, and the mesher refined them to 16 times as many triangles.
 pub const GAIN: f64 = 1e-3;
-/// Edges shorter than this, relative to the length wanted, go even where a patch is not remeshed: what a cut leaves of
-/// a facet.
-pub const DETAIL: f64 = 0.25;
 /// Facets narrower than this, relative to the length wanted, are finer than asked for: two of them side by side are no wider than an
 /// edge may be.
 pub const FINE: f64 = 0.5;

@@ -1,10 +1,12 @@
 //! Arcs that facets and chords stand for.
 
 use crate::input::Rules;
-use crate::passes::DETAIL;
 
 /// Longest edge relative to the length wanted (Botsch and Kobbelt): a longer one has halves that are nearer to it.
 pub const LONG: f64 = 4.0 / 3.0;
+/// Edges shorter than this, relative to the length wanted, go even where a patch is not remeshed: what a cut leaves of
+/// a facet.
+pub const DETAIL: f64 = 0.25;
 
 /// An arc that is drawn by chords.
 #[derive(Clone, Copy, Debug)]
@@ -21,8 +23,8 @@ impl Arc {
         self.angle / self.curvature
     }
 
-    /// Length of chords that turn as far as is wanted and are as far from the arc as may be; at least as they are drawn, and
-    /// twice what may be noise, as shorter ones may all be one point, unless shorter ones are asked for, `longest` at most. `deviation`: how
+    /// Length of chords that turn as far as is wanted, or see no detail where no lengths are asked for, and are as far from the arc as may be; at least as
+    /// they are drawn, and twice what may be noise, as shorter ones may all be one point, unless shorter ones are asked for, `longest` at most. `deviation`: how
     /// far from the arc they may be, model units.
     pub fn size(&self, rules: &Rules<'_>, longest: f64, deviation: f64) -> f64 {
         let sizes = &rules.sizes;

@@ -13,7 +13,7 @@ mod strips;
 mod wanted;
 
 pub use allowance::{Allowance, untold};
-pub use arc::LONG;
+pub use arc::{DETAIL, LONG};
 pub use beyond::Beyond;
 pub use curves::Curves;
 pub use envelope::{Envelope, Near};

@@ -1,8 +1,7 @@
 //! How long edges will be, told without remeshing.
 
-use super::{Allowance, Curves, Patches};
+use super::{Allowance, Curves, DETAIL, Patches};
 use crate::input::{Rules, Surface};
-use crate::passes::DETAIL;
 
 /// How long edges will be where a surface is remeshed for lengths that are asked for.
 pub struct Wanted {
