@@ -64,8 +64,9 @@ check: fmt lint test readme ## what CI runs: formatting, lints, every test, what
 # Snakemake is there.
 README := PATH=$$PATH:$(REFEREE)/bin .ci/readme
 
+# With the tests, as `make test` builds: without them libraries have fewer features, and all are compiled again.
 readme: setup ## run what README shows without other programs, and compare; after `make test`, whose binaries it takes
-	$(CARGO) build --workspace --bins
+	$(CARGO) build --workspace --bins --tests
 	$(README) check --quick --binaries $(TARGET)/debug
 
 check-docs: build-body ## run all that README shows, with CalculiX, Snakemake and dolfinx where they are; minutes

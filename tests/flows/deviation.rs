@@ -396,6 +396,33 @@ fn corners_cut_off_by_less_than_the_deviation_cost_no_elements() {
     assert!(elements(&narrow, &["--deviation", "0"]) > 10 * few);
 }
 
+/// As where the halves of a mould left an edge all around: what is wider by less than half of the deviation is as wide as the rest.
+#[test]
+fn steps_lower_than_half_of_the_deviation_cost_no_elements() {
+    let stepped_bar = |wider: f64| {
+        let ring = |radius: f64, z: f64| -> Vec<DVec3> {
+            let corner = |k: u32| {
+                let (sin, cos) = (std::f64::consts::FRAC_PI_3 * f64::from(k)).sin_cos();
+                DVec3::new(radius * cos, radius * sin, z)
+            };
+            (0..6).map(corner).collect()
+        };
+        let wide = 1.0 + wider;
+        let rings = [
+            ring(1.0, -0.5),
+            ring(1.0, 0.1),
+            ring(wide, 0.1),
+            ring(wide, 0.5),
+        ];
+        written(&rings, 1.0)
+    };
+    let high = elements(&stepped_bar(0.25), &[]);
+    let low = stepped_bar(4e-4);
+    let few = elements(&low, &[]);
+    assert!(few <= high, "{few} {high}");
+    assert!(elements(&low, &["--deviation", "0"]) > 10 * few);
+}
+
 #[test]
 fn vertices_inside_of_flat_faces_cost_no_elements() {
     let [plain, fine] = [1, 16].map(|parts| stl(&block(parts)));
@@ -434,7 +461,7 @@ fn what_has_no_symmetry_is_remeshed_within_the_tolerance() {
                 p.z,
             )
         };
-        ring((64, 0.0), z, [0.0; 2]).into_iter().map(bend).collect()
+        ring((40, 0.0), z, [0.0; 2]).into_iter().map(bend).collect()
     });
     let body = written(&rings, 1.0);
     run("symdetect", &["-q"], &body).fails(1, &["--allow-asymmetric"]);

@@ -293,10 +293,10 @@ fn ratchets() {
 
 #[test]
 fn impellers() {
-    for bore in [0.0, 0.15] {
-        let name = format!("impeller 7 with bore {bore}");
+    for (order, bore) in [(7, 0.0), (5, 0.3)] {
+        let name = format!("impeller {order} with bore {bore}");
         let encodings = [EXACT_STL, Encoding::StlBinary];
-        everywhere(&name, || impeller(7, bore), &SEEDS, &encodings);
+        everywhere(&name, || impeller(order, bore), &SEEDS, &encodings);
     }
 }
 

@@ -16,7 +16,7 @@ pub use triangle::quality;
 use crate::input::{Rules, Surface};
 use crate::shape::{Allowance, Curves, Envelope, Patches};
 use geom::flat::Plane;
-use geom::measure::double_area_vector;
+use geom::measure::{double_area_vector, triangle_area};
 use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -373,18 +373,21 @@ fn planes_of(surface: &Surface, bound: &[u32], patches: &Patches) -> Vec<u32> {
     planes
 }
 
-/// Of each patch, whether it has the most triangles of those of its label.
+/// Of each patch, whether it has the largest area of those of its label.
 fn largest(surface: &Surface, patches: &Patches) -> Vec<bool> {
-    let mut count = vec![0_u32; patches.planes.len()];
-    patches.of.iter().for_each(|&p| count[p as usize] += 1);
+    let mut area = vec![0.0_f64; patches.planes.len()];
+    for (t, &patch) in (0..).zip(&patches.of) {
+        let [a, b, c] = surface.corners(t);
+        area[patch as usize] += triangle_area(a, b, c);
+    }
     let mut best: FxHashMap<u32, u32> = FxHashMap::default();
     for (&patch, &label) in patches.of.iter().zip(&surface.labels) {
         let best = best.entry(label).or_insert(patch);
-        if count[patch as usize] > count[*best as usize] {
+        if area[patch as usize] > area[*best as usize] {
             *best = patch;
         }
     }
-    let mut keeps = vec![false; count.len()];
+    let mut keeps = vec![false; area.len()];
     best.into_values().for_each(|p| keeps[p as usize] = true);
     keeps
 }

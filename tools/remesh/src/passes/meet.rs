@@ -1,5 +1,6 @@
 //! Where flat faces meet.
 
+use crate::input::Rules;
 use crate::mesh::Mesh;
 use glam::DVec3;
 
@@ -30,10 +31,20 @@ pub fn meeting(
     let middle = places.clone().sum::<DVec3>() / near.len() as f64;
     let bound = mesh.bound[v as usize];
     let planes = planes.map(|(plane, _)| (plane.normal, plane.origin));
-    let mut p = middle;
+    let all = bounds(&mesh.rules, bound, middle).into_iter().chain(planes);
+    let p = onto_all(middle, all);
+    let most = mesh.deviation_at(near);
+    let p = mesh.rules.put(bound, p)?;
+    let mut places = places;
+    places.all(|q| q.distance(p) <= most).then_some(p)
+}
+
+/// The point on planes that is nearest to another one, each given by a unit normal and a point: on the first ones, where there is none on all.
+pub fn onto_all(p: DVec3, planes: impl IntoIterator<Item = (DVec3, DVec3)>) -> DVec3 {
+    let mut p = p;
     // Directions in which it cannot move any more, upright to each other.
     let mut taken: Vec<DVec3> = Vec::new();
-    for (normal, on) in bounds(mesh, bound, middle).into_iter().chain(planes) {
+    for (normal, on) in planes {
         let free = taken.iter().fold(normal, |n, t| n - *t * t.dot(normal));
         let part = free.length();
         if part > f64::EPSILON.sqrt() {
@@ -42,21 +53,18 @@ pub fn meeting(
             taken.push(along);
         }
     }
-    let most = mesh.deviation_at(near);
-    let p = mesh.rules.put(bound, p)?;
-    let mut places = places;
-    places.all(|q| q.distance(p) <= most).then_some(p)
+    p
 }
 
-/// The planes and lines of these bits as planes: of each a unit normal and a point.
-fn bounds(mesh: &Mesh<'_>, bound: u32, place: DVec3) -> Vec<(DVec3, DVec3)> {
-    let far = place.abs().max_element().max(mesh.rules.deviation);
+/// The planes and lines of these bits as planes near a place: of each a unit normal and a point.
+pub fn bounds(rules: &Rules<'_>, bound: u32, place: DVec3) -> Vec<(DVec3, DVec3)> {
+    let far = place.abs().max_element().max(rules.deviation);
     let bits = (0..u32::BITS).filter(|bit| bound & 1 << bit != 0);
     let of_bit = |bit: u32| {
         // Of a line, two of them tell all.
         DVec3::AXES.map(|axis| {
             let beside = place + axis * far;
-            let on = (mesh.rules.onto)(bit, beside);
+            let on = (rules.onto)(bit, beside);
             ((beside - on).normalize_or_zero(), on)
         })
     };

@@ -11,6 +11,7 @@ pub struct Reduced {
     pub remeshed: Remeshed,
     held: Vec<bool>,
     nearer: Vec<f64>,
+    noise: f64,
     links: Vec<Link>,
 }
 
@@ -21,21 +22,27 @@ impl Reduced {
         let mut reduced = Self {
             held: vec![false; count],
             nearer: vec![rules.deviation; count],
+            noise: nearer.iter().copied().fold(rules.noise, f64::min),
             links: Vec::new(),
             remeshed,
         };
         for (v, &new) in reduced.remeshed.vertices.iter().enumerate() {
             if new != NONE {
-                reduced.held[new as usize] = rules.held[v];
-                reduced.nearer[new as usize] = nearer[v];
+                // Several may have become one.
+                let new = new as usize;
+                reduced.held[new] |= rules.held[v];
+                reduced.nearer[new] = reduced.nearer[new].min(nearer[v]);
             }
         }
         let left = |v: u32| reduced.remeshed.vertices[v as usize];
         for link in rules.links {
             let pairs = link.pairs.iter().map(|pair| pair.map(left));
+            // What went, went together.
+            let mut pairs: Vec<[u32; 2]> = pairs.filter(|pair| !pair.contains(&NONE)).collect();
+            pairs.sort_unstable();
+            pairs.dedup();
             reduced.links.push(Link {
-                // What went, went together.
-                pairs: pairs.filter(|pair| !pair.contains(&NONE)).collect(),
+                pairs,
                 labels: link.labels.clone(),
                 image: Arc::clone(&link.image),
                 back: Arc::clone(&link.back),
@@ -51,6 +58,7 @@ impl Reduced {
             bound: &self.remeshed.bound,
             links: &self.links,
             nearer: &self.nearer,
+            noise: self.noise,
             ..*rules
         }
     }
@@ -66,6 +74,7 @@ impl Reduced {
         remeshed.triangles = through(&self.remeshed.triangles, &remeshed.triangles);
         remeshed.told.collapsed += self.remeshed.told.collapsed;
         remeshed.told.flipped += self.remeshed.told.flipped;
+        remeshed.told.moved += self.remeshed.told.moved;
         remeshed
     }
 }

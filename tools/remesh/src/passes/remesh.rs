@@ -3,13 +3,15 @@
 use super::collapse::collapse;
 use super::decimate::decimated;
 use super::flip::flip;
+use super::level::leveled;
 use super::relocate::relocate;
 use super::ridges::sample_folds;
 use super::rows::Rows;
+use super::slender::{corners_of_facets, slenderness};
 use super::spare::without_spare;
 use super::split::split;
 use super::uncap::uncap;
-use super::worth::{DETAIL, FINE, GOOD, LONG, SHORT};
+use super::worth::{DETAIL, FINE, GOOD, LONG, SHORT, WORTH};
 use crate::input::{Drawn, MOST_LINKS, Rules, Surface};
 use crate::mesh::{Mesh, NONE, Sample};
 use crate::shape::{Allowance, Curves, Envelope, Ground, Patches};
@@ -76,11 +78,6 @@ const ROUNDS: usize = 8;
 /// is 14.4 to 21 degrees, with two 16.6 to 24 for 2 % more elements over all parts tried; with four, an impeller whose blades end in strips of
 /// a thousandth of its radius gets 3.5 times as many.
 const HALVINGS: usize = 2;
-/// Triangles that curved patches may take at most, next to those that they take as they are drawn, where the drawing is given up for it though it is
-/// exact. A choice: who draws exactly gets what was drawn, unless that costs twice what the shape does. Of 27 exact drawings from CAD kernels that
-/// were meshed both ways, the elements are to each other 0.4 to 2.2 times as these triangles are, for one with sharp corners 0.2 times. Slivers that a cut
-/// leaves of an exact drawing cost less (0.37 of it in a helical gear of 16 teeth), finely drawn roundings and holes more (0.03 to 0.3).
-const WORTH: f64 = 0.5;
 /// Attempts at a surface without self-intersections, each with more around those of the one before left as it was.
 const ATTEMPTS: u32 = 4;
 
@@ -111,6 +108,20 @@ fn of_needed(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     if rules.drawn == Drawn::Kept {
         return None;
     }
+    if let Some(first) = leveled(surface, rules) {
+        let (left, rules) = (&first.remeshed.surface, first.rules(rules));
+        if crossings(left, &rules).is_empty() {
+            return Some(match of_level(left, &rules) {
+                Some(remeshed) => first.then(remeshed),
+                None => first.remeshed,
+            });
+        }
+    }
+    of_level(surface, rules)
+}
+
+/// The same of a surface without steps.
+fn of_level(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     if let Some(first) = decimated(surface, rules) {
         let (left, rules) = (&first.remeshed.surface, first.rules(rules));
         if crossings(left, &rules).is_empty()
@@ -258,26 +269,11 @@ fn once(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remeshed, 
     if is_idle || drawn.is_some_and(|drawn| triangles_wanted(&mesh, |_| true) > WORTH * drawn) {
         return None;
     }
-    let cost = slenderness(&mesh);
+    let cost = slenderness(&mesh.points, &mesh.triangles, &mesh.facets());
     let mut remeshed = taken(surface, mesh, told);
     sample_folds(&mut remeshed, (surface, rules), &patches, &allowance);
     remeshed.ground = Some(Arc::new(Ground::new(envelope)));
     Some((remeshed, cost))
-}
-
-/// Corners of facets, by facet and vertex, with their angles in degrees.
-fn corners_of_facets(mesh: &Mesh<'_>, facets: &[u32]) -> FxHashMap<(u32, u32), f64> {
-    let mut angles: FxHashMap<(u32, u32), f64> = FxHashMap::default();
-    for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
-        let corners = mesh.triangles[t];
-        let points = corners.map(|v| mesh.points[v as usize]);
-        for i in 0..3 {
-            let [p, q, r] = [0, 1, 2].map(|k| points[(i + k) % 3]);
-            let angle = (q - p).angle_between(r - p).to_degrees();
-            *angles.entry((facets[t], corners[i])).or_default() += angle;
-        }
-    }
-    angles
 }
 
 /// About how many triangles as wide as long the curved patches take: as many as are as high as each of theirs, along its longest side, of those whose longest side
@@ -302,47 +298,11 @@ fn is_around([a, b]: [DVec3; 2]) -> bool {
     2.0 * (b - a).dot(around).powi(2) > a.distance_squared(b)
 }
 
-/// What narrow facets cost: elements as wide as they are, along all of their borders. The sum over all facets of the square
-/// of the perimeter over the area, which for a strip is four times its length over its width, and over all their corners
-/// of two over the angle, as often elements fit along both sides of a corner while its width doubles: facets may be narrow
-/// only where they end.
-pub(super) fn slenderness(mesh: &Mesh<'_>) -> f64 {
-    let facets = mesh.facets();
-    let corners = corners_of_facets(mesh, &facets);
-    // As sharp as rounding may leave a corner.
-    let angles = corners
-        .into_values()
-        .map(|a| a.to_radians().max(f64::EPSILON));
-    let in_corners: f64 = angles.map(|angle| 2.0 / angle).sum();
-    let mut measures = vec![(0.0, 0.0); mesh.triangles.len()];
-    for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
-        let [a, b, c] = mesh.triangles[t].map(|v| mesh.points[v as usize]);
-        measures[facets[t] as usize].1 += geom::measure::triangle_area(a, b, c);
-    }
-    for [a, b] in mesh.edges() {
-        let mut around: Vec<u32> = mesh
-            .at_edge(a, b)
-            .iter()
-            .map(|&t| facets[t as usize])
-            .collect();
-        around.sort_unstable();
-        if matches!(around[..], [f, g] if f == g) {
-            continue;
-        }
-        around
-            .iter()
-            .for_each(|&f| measures[f as usize].0 += mesh.length([a, b]));
-    }
-    let there = measures.into_iter().filter(|m| m.1 > 0.0);
-    let along_sides = there.map(|(perimeter, area)| perimeter * perimeter / area);
-    in_corners + along_sides.sum::<f64>()
-}
-
 /// Whether each patch is to be remeshed: whether it has facets with sharp corners, or is drawn with facets that are detail
 /// beside the edges wanted, such as strips along a cylinder, between which elements would have to be as narrow.
 fn sharp(mesh: &Mesh<'_>) -> Vec<bool> {
     let facets = mesh.facets();
-    let angles = corners_of_facets(mesh, &facets);
+    let angles = corners_of_facets(&mesh.points, &mesh.triangles, &facets);
     let mut active = fine(mesh);
     for t in (0..mesh.triangles.len()).filter(|&t| mesh.is_there(t as u32)) {
         let patch = mesh.patch[t] as usize;

@@ -2,7 +2,7 @@
 
 use super::collapse::collapse;
 use super::flip::flip;
-use super::remesh::slenderness;
+use super::slender::slenderness;
 use super::split::split;
 use crate::input::Place;
 use crate::mesh::Mesh;
@@ -1164,7 +1164,9 @@ fn a_facet_that_is_narrow_only_at_its_end_costs_more_than_a_strip() {
         let held = vec![false; surface.points.len()];
         let bound = vec![0; surface.points.len()];
         let rules = rules(1e-3, (&held, &[]), (&bound, &[]));
-        with_mesh(&surface, rules, |mesh| slenderness(mesh))
+        with_mesh(&surface, rules, |mesh| {
+            slenderness(&mesh.points, &mesh.triangles, &mesh.facets())
+        })
     };
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     // As large, and as long around.
@@ -1286,4 +1288,153 @@ fn facets_as_thin_as_noise_do_not_tell_how_the_surface_bends() {
     };
     let (smooth, rough) = (shortest(0.0), shortest(noise));
     assert!(rough > 0.9 * smooth, "{rough} for {smooth}");
+}
+
+/// A body between polygons of as many points each, one above the other, with a fan of triangles from one of these points at both ends.
+fn lofted(rings: &[Vec<DVec3>], first: u32) -> Surface {
+    let around = rings[0].len() as u32;
+    let mut surface = Surface {
+        points: rings.concat(),
+        ..Surface::default()
+    };
+    for (ring, _) in (0..).zip(&rings[1..]) {
+        for i in 0..around {
+            let [a, b] = [i, (i + 1) % around].map(|i| ring * around + i);
+            let sides = [[a, b, b + around], [a, b + around, a + around]];
+            surface.triangles.extend(sides);
+        }
+    }
+    let last = (rings.len() as u32 - 1) * around;
+    for i in 1..around - 1 {
+        let [a, b] = [i, i + 1].map(|i| (first + i) % around);
+        surface.triangles.push([first, b, a]);
+        surface.triangles.push([last + first, last + a, last + b]);
+    }
+    surface.labels = vec![0; surface.triangles.len()];
+    surface
+}
+
+/// A square of this half width at a height.
+fn square(half: f64, z: f64) -> Vec<DVec3> {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let corner = |[x, y]: [f64; 2]| DVec3::new(half * x, half * y, z);
+    corners.into_iter().map(corner).collect()
+}
+
+/// A block with a smaller one on it.
+fn stepped(height: f64) -> Surface {
+    let rings = [(1.0, 0.0), (1.0, 1.0), (0.5, 1.0), (0.5, 1.0 + height)];
+    lofted(&rings.map(|(half, z)| square(half, z)), 0)
+}
+
+/// How many flat faces there are.
+fn count_of_faces(surface: &Surface) -> usize {
+    let none = vec![false; surface.points.len()];
+    let bound = vec![0; surface.points.len()];
+    let rules = rules(0.02, (&none, &[]), (&bound, &[]));
+    let mut faces = Patches::of_facets(surface, &rules).of;
+    faces.sort_unstable();
+    faces.dedup();
+    faces.len()
+}
+
+/// A step that is no higher than half of the deviation is gone, up or down, and what is left is a block; a higher one is there to the last bit.
+#[test]
+fn low_steps_between_flat_faces_are_gone() {
+    for height in [0.009, -0.009] {
+        let before = stepped(height);
+        assert_eq!(count_of_faces(&before), 11);
+        for drawn in [Drawn::Roughly, Drawn::Exactly] {
+            let made = remade(&before, drawn).expect("a step").surface;
+            assert_eq!(count_of_faces(&made), 6);
+            assert!(is_closed(&made));
+            assert!((volume(&made) - 4.0).abs() < 1e-12, "{}", volume(&made));
+            assert!(farthest(&made, &before).max(farthest(&before, &made)) <= 0.02);
+        }
+    }
+    let before = stepped(0.011);
+    let heights = |surface: &Surface| -> FxHashSet<u64> {
+        surface.points.iter().map(|p| p.z.to_bits()).collect()
+    };
+    let made = remade(&before, Drawn::Roughly).map_or(before.clone(), |made| made.surface);
+    assert_eq!(heights(&made), heights(&before));
+}
+
+/// What has a label of its own is no step of what is beside it, and what is thinner than the deviation is none either: its faces look away from each other.
+#[test]
+fn labels_and_sheets_are_no_steps() {
+    let mut marked = stepped(0.009);
+    let top = marked.points.len() as u32 - 4;
+    let (triangles, labels) = (&marked.triangles, &mut marked.labels);
+    for (corners, label) in triangles.iter().zip(labels) {
+        *label = u32::from(corners.iter().all(|v| *v >= top));
+    }
+    let sheet = lofted(&[square(1.0, 0.0), square(1.0, 0.009)], 0);
+    for before in [marked, sheet] {
+        let made = remade(&before, Drawn::Roughly).map_or(before.clone(), |made| made.surface);
+        assert!((volume(&made) - volume(&before)).abs() < 1e-12);
+        assert_eq!(count_of_faces(&made), count_of_faces(&before));
+    }
+}
+
+/// A band around a block with rounded edges: all of its strips get to the level of those below.
+#[test]
+fn steps_go_all_around_rounded_edges() {
+    let outline = |wider: f64, z: f64| -> Vec<DVec3> {
+        let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+        let corner = |(i, [x, y]): (usize, [f64; 2])| {
+            (0..=4).map(move |k| {
+                let angle = std::f64::consts::FRAC_PI_8 * f64::from(4 * i as u32 + k);
+                let away = DVec3::new(angle.cos(), angle.sin(), 0.0) * (0.4 + wider);
+                DVec3::new(x, y, z) + away
+            })
+        };
+        corners.into_iter().enumerate().flat_map(corner).collect()
+    };
+    // The same distance for each of the strips, that of their corners is larger.
+    let wider = 0.009 / libm::cos(std::f64::consts::FRAC_PI_8 / 2.0);
+    let rings = [(0.0, 0.0), (0.0, 2.0), (wider, 2.0), (wider, 3.0)];
+    let before = lofted(&rings.map(|(wider, z)| outline(wider, z)), 0);
+    let made = remade(&before, Drawn::Roughly).expect("a step").surface;
+    assert!(is_closed(&made));
+    for p in &made.points {
+        assert!(p.truncate().abs().max_element() <= 1.4 + 1e-12, "{p}");
+    }
+    assert!(farthest(&made, &before).max(farthest(&before, &made)) <= 0.02);
+}
+
+/// A step that goes on in the image of a wedge: both ends of a bar stay images of each other.
+#[test]
+fn steps_go_where_faces_are_images_of_each_other() {
+    let outline = [
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, 1.009],
+        [0.5, 1.009],
+        [0.5, 1.0],
+        [0.0, 1.0],
+    ];
+    let at = |z: f64| outline.map(|[x, y]| DVec3::new(x, y, z)).to_vec();
+    let mut before = lofted(&[at(0.0), at(1.0)], 4);
+    for (corners, label) in before.triangles.iter().zip(&mut before.labels) {
+        let low = corners.iter().filter(|v| **v < 6).count();
+        *label = [2, 0, 0, 1][low];
+    }
+    let shifted = |by: f64| -> Place { Arc::new(move |p| p + by * DVec3::Z) };
+    let links = [Link {
+        pairs: (0..6).map(|v| [v, v + 6]).collect(),
+        labels: vec![1, 2],
+        image: shifted(1.0),
+        back: shifted(-1.0),
+    }];
+    let free = vec![false; before.points.len()];
+    let made = linked(&before, 0.02, (&free, None), &links).expect("a step");
+    assert!(is_closed(&made.surface));
+    assert_eq!(count_of_faces(&made.surface), 6);
+    let on_ends = made.surface.points.iter().filter(|p| p.z == 0.0).count();
+    assert_eq!(made.links[0].len(), on_ends);
+    for pair in &made.links[0] {
+        let [p, q] = pair.map(|v| made.surface.points[v as usize]);
+        assert!((p + DVec3::Z).distance(q) < 1e-12, "{p} {q}");
+    }
 }

@@ -18,3 +18,11 @@ pub const FINE: f64 = 0.5;
 /// long where they are up to 64 times as long. Nearer to it than that, a needle stays one whatever is done, and its vertices only ask the
 /// mesher for elements as small as the needle is narrow there.
 pub const BESIDE: f64 = 1.0 / 64.0;
+/// Triangles that curved patches may take at most, next to those that they take as they are drawn, where the drawing is given up for it though it is
+/// exact. A choice: who draws exactly gets what was drawn, unless that costs twice what the shape does. Of 27 exact drawings from CAD kernels that
+/// were meshed both ways, the elements are to each other 0.4 to 2.2 times as these triangles are, for one with sharp corners 0.2 times. Slivers that a cut
+/// leaves of an exact drawing cost less (0.37 of it in a helical gear of 16 teeth), finely drawn roundings and holes more (0.03 to 0.3).
+pub const WORTH: f64 = 0.5;
+/// How high a step may be that is taken out, relative to how far the surface may move: what is left of that is for all that is done to it afterwards. With half of it, what is
+/// curved beside it takes no more than half as many edges again around.
+pub const LEVEL: f64 = 0.5;

@@ -91,7 +91,7 @@ impl Patches {
     }
 
     /// Whether each patch is nowhere farther from its border than the surface may move there, and lies in no wall and no linked face.
-    fn strips(&self, surface: &Surface, rules: &Rules<'_>) -> Vec<bool> {
+    pub fn strips(&self, surface: &Surface, rules: &Rules<'_>) -> Vec<bool> {
         let widths = self.widths(surface);
         let is_cut = self.cut(surface, rules);
         let mut moves = vec![rules.deviation; self.planes.len()];
@@ -105,7 +105,7 @@ impl Patches {
     }
 
     /// Whether each patch lies in a wall or a linked face: where the body was cut.
-    fn cut(&self, surface: &Surface, rules: &Rules<'_>) -> Vec<bool> {
+    pub fn cut(&self, surface: &Surface, rules: &Rules<'_>) -> Vec<bool> {
         let mut walls = vec![u32::MAX; self.planes.len()];
         let mut is_linked = vec![false; self.planes.len()];
         for (t, &p) in self.of.iter().enumerate() {

@@ -1,0 +1,282 @@
+//! Bringing flat faces to one level that are nearly in one plane.
+
+use super::contract::contracted;
+use super::meet::{bounds, onto_all};
+use super::reduced::Reduced;
+use super::remesh::Told;
+use super::slender::slenderness;
+use super::worth::{LEVEL, WORTH};
+use crate::input::{Rules, Surface};
+use crate::shape::Patches;
+use geom::flat::FOLD_COSINE;
+use geom::measure::triangle_area;
+use glam::DVec3;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Attempts, each without the faces where the one before could not join what meets.
+const ATTEMPTS: usize = 4;
+
+/// Moves flat faces beside lower or higher ones that are as wide or wider, where a step between both is lower than the surface may move, into the plane
+/// of these, so that the step is gone: the mark on a case, the foot of a terminal, a seam between halves of a mould. All other flat faces keep
+/// their planes. `None` where there are none, and where what is left is no better. n log n.
+///
+/// Joining features cannot do it: vertices of flat faces stay in their planes, and planes that are parallel have no point in common.
+pub fn leveled(surface: &Surface, rules: &Rules<'_>) -> Option<Reduced> {
+    // The deviation is as wide as lengths asked for allow then, and who draws exactly gets what was drawn.
+    if rules.drawn.is_exact() && rules.sizes.are_asked() {
+        return None;
+    }
+    let patches = Patches::of_facets(surface, rules);
+    let mut levels = Levels::new(surface, rules, &patches)?;
+    let (places, mut remeshed) = (0..ATTEMPTS).find_map(|_| {
+        let places = levels.places();
+        match contracted(surface, rules, &patches, &places) {
+            Ok(remeshed) => Some((places, remeshed)),
+            Err(around) => {
+                around.into_iter().for_each(|v| levels.leave(v));
+                None
+            }
+        }
+    })?;
+    let moves = |v: usize| surface.points[v].distance(places[v]);
+    remeshed.told = Told {
+        moved: (0..places.len()).filter(|&v| moves(v) > 0.0).count(),
+        ..remeshed.told
+    };
+    let faces = |surface: &Surface| Patches::of_facets(surface, rules).facet;
+    let cost =
+        |surface: &Surface, facet: &[u32]| slenderness(&surface.points, &surface.triangles, facet);
+    let worth = if rules.drawn.is_exact() { WORTH } else { 1.0 };
+    let left = &remeshed.surface;
+    if remeshed.told.moved == 0 || cost(left, &faces(left)) >= worth * cost(surface, &patches.facet)
+    {
+        return None;
+    }
+    // What was moved may move as much less, and so may all that is beside it.
+    let mut nearer: Vec<f64> = (0..places.len()).map(|v| rules.deviation_at(v)).collect();
+    for corners in &surface.triangles {
+        let farthest = corners
+            .map(|v| moves(v as usize))
+            .into_iter()
+            .fold(0.0, f64::max);
+        for &v in corners {
+            let most = rules.deviation_at(v as usize) - farthest;
+            nearer[v as usize] = nearer[v as usize].min(most);
+        }
+    }
+    Some(Reduced::new(remeshed, rules, &nearer))
+}
+
+/// The flat faces of a surface with the planes that they get.
+struct Levels<'a> {
+    surface: &'a Surface,
+    rules: &'a Rules<'a>,
+    patches: &'a Patches,
+    /// Of each face, the one whose plane it gets: mostly itself.
+    plane_of: Vec<u32>,
+    /// Whether each face is no wider than the surface may move.
+    is_narrow: Vec<bool>,
+    /// The faces around each vertex, increasing.
+    around: Vec<Vec<u32>>,
+    /// The vertices of each face that gets another plane, or got one.
+    vertices: FxHashMap<u32, Vec<u32>>,
+}
+
+impl<'a> Levels<'a> {
+    /// Finds steps. `None` where there are none.
+    fn new(surface: &'a Surface, rules: &'a Rules<'a>, patches: &'a Patches) -> Option<Self> {
+        let strips = patches.strips(surface, rules);
+        if !strips.contains(&true) {
+            return None;
+        }
+        let mut around = vec![Vec::new(); surface.points.len()];
+        for (corners, &face) in surface.triangles.iter().zip(&patches.of) {
+            corners.iter().for_each(|&v| around[v as usize].push(face));
+        }
+        for faces in &mut around {
+            faces.sort_unstable();
+            faces.dedup();
+        }
+        let mut levels = Self {
+            surface,
+            rules,
+            patches,
+            plane_of: (0..patches.planes.len() as u32).collect(),
+            is_narrow: strips,
+            around,
+            vertices: FxHashMap::default(),
+        };
+        levels.find();
+        (!levels.vertices.is_empty()).then_some(levels)
+    }
+
+    /// Gives faces beside a step the plane of the largest one across it.
+    fn find(&mut self) {
+        let faces = self.patches.planes.len();
+        let (mut area, mut label) = (vec![0.0; faces], vec![0; faces]);
+        for (t, &face) in (0..).zip(&self.patches.of) {
+            let [a, b, c] = self.surface.corners(t);
+            area[face as usize] += triangle_area(a, b, c);
+            label[face as usize] = self.surface.labels[t as usize];
+        }
+        let is_cut = self.patches.cut(self.surface, self.rules);
+        let pairs = self.across_steps();
+        let corners = pairs.iter().flatten().copied().collect();
+        self.vertices = self.vertices_of(&corners);
+        let mut found: Vec<[u32; 2]> = Vec::new();
+        for [f, g] in pairs {
+            let is_smaller = (area[f as usize], g) < (area[g as usize], f);
+            let pair = if is_smaller { [f, g] } else { [g, f] };
+            let is_alike = label[f as usize] == label[g as usize];
+            if is_alike && !is_cut[f as usize] && !is_cut[g as usize] && self.may_get(pair) {
+                found.push(pair);
+            }
+        }
+        // The largest first, so that what a face gets is known when a smaller one gets the same.
+        let place = |face: u32| (-area[face as usize], face);
+        found.sort_by(|x, y| {
+            let [x, y] = [x, y].map(|[f, g]| (place(*f), place(*g)));
+            x.partial_cmp(&y).unwrap_or(std::cmp::Ordering::Equal)
+        });
+        for [f, g] in found {
+            let first = self.plane_of[g as usize];
+            if self.plane_of[f as usize] == f && self.may_get([f, first]) {
+                self.plane_of[f as usize] = first;
+            }
+        }
+        self.vertices
+            .retain(|&face, _| self.plane_of[face as usize] != face);
+    }
+
+    /// Pairs of faces that face the same side on both sides of a narrow one: beside corners of one of its triangles.
+    fn across_steps(&self) -> FxHashSet<[u32; 2]> {
+        let edges = &self.patches.edges;
+        let of = |t: u32| self.patches.of[t as usize];
+        let mut beside: FxHashMap<(u32, u32), Vec<u32>> = FxHashMap::default();
+        for (edge, ends) in edges.ends.iter().enumerate() {
+            let around = edges.around(edge);
+            for narrow in around.iter().map(|u| of(u.triangle)) {
+                if self.is_narrow[narrow as usize] {
+                    let others = around.iter().map(|u| of(u.triangle));
+                    for other in others.filter(|&other| other != narrow) {
+                        for &v in ends {
+                            let known = beside.entry((narrow, v)).or_default();
+                            if !known.contains(&other) {
+                                known.push(other);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        let normal = |f: u32| self.patches.planes[f as usize].map_or(DVec3::ZERO, |p| p.normal);
+        let mut pairs = FxHashSet::default();
+        for (corners, &face) in self.surface.triangles.iter().zip(&self.patches.of) {
+            let at = |v: u32| beside.get(&(face, v)).map_or(&[][..], Vec::as_slice);
+            for [v, w] in [[0, 1], [1, 2], [2, 0]].map(|e| e.map(|i: usize| corners[i])) {
+                for &f in at(v) {
+                    for &g in at(w) {
+                        if f != g && normal(f).dot(normal(g)) >= FOLD_COSINE {
+                            pairs.insert([f.min(g), f.max(g)]);
+                        }
+                    }
+                }
+            }
+        }
+        pairs
+    }
+
+    /// The vertices of some faces.
+    fn vertices_of(&self, faces: &FxHashSet<u32>) -> FxHashMap<u32, Vec<u32>> {
+        let mut vertices: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+        for (v, around) in (0..).zip(&self.around) {
+            for face in around.iter().filter(|face| faces.contains(face)) {
+                vertices.entry(*face).or_default().push(v);
+            }
+        }
+        vertices
+    }
+
+    /// Whether a face may get the plane of another one: whether it is off that, and no farther than a step may be high.
+    fn may_get(&self, [face, other]: [u32; 2]) -> bool {
+        let Some(plane) = self.patches.planes[other as usize] else {
+            return false;
+        };
+        let off = |v: &u32| plane.height(self.surface.points[*v as usize]).abs();
+        let mut is_off = false;
+        let is_near = self.vertices[&face].iter().all(|v| {
+            is_off |= off(v) > self.rules.flat;
+            off(v) <= LEVEL * self.rules.deviation_at(*v as usize)
+        });
+        is_near && is_off
+    }
+
+    /// Leaves the faces around a vertex as they are.
+    fn leave(&mut self, v: u32) {
+        for &face in &self.around[v as usize] {
+            self.plane_of[face as usize] = face;
+        }
+    }
+
+    /// Where the vertices are when all faces are in the planes that they get. Faces with vertices that cannot get there are left as they are.
+    fn places(&mut self) -> Vec<DVec3> {
+        let mut places = self.surface.points.clone();
+        let mut open: Vec<u32> = self.vertices.values().flatten().copied().collect();
+        open.sort_unstable();
+        open.dedup();
+        while let Some(v) = open.pop() {
+            match self.place(v) {
+                Some(place) => places[v as usize] = place,
+                None => {
+                    let mut left = self.around[v as usize].clone();
+                    left.retain(|&face| self.plane_of[face as usize] != face);
+                    self.leave(v);
+                    let again = left.iter().filter_map(|face| self.vertices.get(face));
+                    open.extend(again.flatten());
+                }
+            }
+        }
+        for link in self.rules.links {
+            for [v, w] in link.pairs.iter().map(|pair| pair.map(|v| v as usize)) {
+                if places[v] != self.surface.points[v] && v != w {
+                    places[w] = (link.image)(places[v]);
+                }
+            }
+        }
+        places
+    }
+
+    /// Where a vertex is in the planes that the faces around it get: in those of all, or if that is too far away, of all that are not narrow.
+    fn place(&self, v: u32) -> Option<DVec3> {
+        let faces = &self.around[v as usize];
+        let own = self.surface.points[v as usize];
+        let is_moved = |f: &u32| self.plane_of[*f as usize] != *f;
+        if !faces.iter().any(is_moved) {
+            return Some(own);
+        }
+        let bound = self.rules.bound[v as usize];
+        let most = LEVEL * self.rules.deviation_at(v as usize);
+        let within = |counts: &dyn Fn(&u32) -> bool| {
+            let mut planes: Vec<u32> = faces
+                .iter()
+                .filter(|f| counts(f))
+                .map(|&f| self.plane_of[f as usize])
+                .collect();
+            planes.dedup();
+            // Those that others are moved to first: along narrow ones they get there.
+            planes.sort_by_key(|&f| (self.is_narrow[f as usize], f));
+            let planes = planes
+                .iter()
+                .filter_map(|&f| self.patches.planes[f as usize]);
+            let all = bounds(self.rules, bound, own).into_iter();
+            let all = all.chain(planes.clone().map(|plane| (plane.normal, plane.origin)));
+            let place = self.rules.put(bound, onto_all(own, all))?;
+            let mut planes = planes;
+            let is_there = planes.all(|plane| plane.height(place).abs() <= self.rules.flat);
+            let moved = own.distance(place);
+            let may = moved <= most && (moved == 0.0 || !self.rules.held[v as usize]);
+            (is_there && may).then_some(place)
+        };
+        within(&|_| true).or_else(|| within(&|f| !self.is_narrow[*f as usize] || is_moved(f)))
+    }
+}
