@@ -185,6 +185,53 @@ fn negative_numbers_are_values() {
     );
 }
 
+/// A long bar over a polygon with a mirror plane, that one corner is off.
+fn bar_off_its_mirror_plane() -> Document {
+    let outline = [
+        [1.0, 0.0],
+        [0.3, 0.8],
+        [-0.7, 0.3],
+        [-0.7, -0.3],
+        [0.3, -0.8],
+    ];
+    let mut document = wheel(5, false);
+    let template = &mut document.templates[0];
+    let corner = |z: f64, scale: f64| outline.map(|[x, y]| DVec3::new(scale * x, scale * y, z));
+    template.vertices = [corner(0.0, 1.0), corner(8.0, 0.7)].concat();
+    template.vertices[1].y += 5e-3;
+    let ends = (1..4).flat_map(|i| [[0, i + 1, i], [5, 5 + i, 6 + i]]);
+    let sides = (0..5).flat_map(|i| {
+        let j = (i + 1) % 5;
+        [[i, j, 5 + j], [i, 5 + j, 5 + i]]
+    });
+    let like = template.triangles[0];
+    template.triangles = ends
+        .chain(sides)
+        .map(|vertices| Triangle { vertices, ..like })
+        .collect();
+    document
+}
+
+/// The number in the message is one that the tolerance is measured by: with a little more the plane is found.
+#[test]
+fn a_tolerance_as_large_as_a_mirror_plane_is_off_finds_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write(&bar_off_its_mirror_plane(), &path.join("bar.tmesh"));
+    let refused = symdetect(&["bar.tmesh"], path);
+    assert_eq!(refused.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(said.contains("closest is a mirror plane"), "{said}");
+    let (_, after) = said.split_once("off by ").expect("by how much");
+    let off: f64 = after.split(' ').next().unwrap().parse().unwrap();
+    let found = |tolerance: f64| {
+        let tolerance = format!("{tolerance:e}");
+        let output = symdetect(&["bar.tmesh", "--tolerance", &tolerance], path);
+        output.status.success()
+    };
+    assert!(!found(0.5 * off) && found(1.02 * off), "{said}");
+}
+
 #[test]
 fn what_cannot_be_done_says_why_and_where() {
     let folder = tempfile::tempdir().unwrap();

@@ -92,14 +92,8 @@ impl Query<'_> {
     /// axes, that lies best in the plane, turned into it.
     fn mirror_plane(&self, normal: DVec3) -> Option<(Beside, f64)> {
         let (shape, limits) = (self.shape, self.limits);
-        let faces = alignment(shape.triangles.len(), |t| shape.corners(t as u32));
-        let to_world = faces.map_or(DMat3::IDENTITY, |rows| rows.transpose());
-        let frame_of = |origin: DVec3, normal: DVec3| {
-            let along = [DVec3::Z, DVec3::X, DVec3::Y].map(|axis| to_world * axis);
-            let hint = (self.params.axis).unwrap_or_else(|| in_plane_axis(normal, along));
-            let z = (hint - normal * hint.dot(normal)).try_normalize()?;
-            Frame::from_axis(origin, z, normal.cross(z))
-        };
+        let along = self.along_faces();
+        let frame_of = |origin, normal| self.frame_of_plane(&along, origin, normal);
         let start = frame_of(self.centre, normal)?;
         let mirror = Isometry::MIRROR;
         let motion = |frame: &Frame| Motion::new(frame, mirror.matrix());
@@ -124,6 +118,27 @@ impl Query<'_> {
             permutation,
         };
         Some((found, radius))
+    }
+
+    /// Directions along faces, or of the coordinate axes, in the order in which an axis in a mirror plane is taken from them.
+    pub fn along_faces(&self) -> [DVec3; 3] {
+        let shape = self.shape;
+        let faces = alignment(shape.triangles.len(), |t| shape.corners(t as u32));
+        let to_world = faces.map_or(DMat3::IDENTITY, |rows| rows.transpose());
+        [DVec3::Z, DVec3::X, DVec3::Y].map(|axis| to_world * axis)
+    }
+
+    /// The frame of a mirror plane, whose normal is its y direction: its axis is that of some directions that lies best in the plane, turned
+    /// into it.
+    pub fn frame_of_plane(
+        &self,
+        along: &[DVec3; 3],
+        origin: DVec3,
+        normal: DVec3,
+    ) -> Option<Frame> {
+        let hint = (self.params.axis).unwrap_or_else(|| in_plane_axis(normal, *along));
+        let z = (hint - normal * hint.dot(normal)).try_normalize()?;
+        Frame::from_axis(origin, z, normal.cross(z))
     }
 
     /// Whether a mirror holds or an adjustment may make it hold: it helps only where much of the surface is a little

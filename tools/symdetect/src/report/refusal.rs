@@ -19,13 +19,24 @@ impl Query<'_> {
     /// The operation that comes nearest to being a symmetry.
     pub fn closest(&self, directions: &[DVec3]) -> Option<Closest> {
         let shape = self.shape;
+        // A mirror plane is told by the radius about the axis that would be found in it.
+        let along = self.along_faces();
+        let radius_of = |frame: &Frame, order: u32| match order {
+            1 => self
+                .frame_of_plane(&along, frame.origin, frame.rotation.z_axis)
+                .map_or_else(
+                    || self.radius_about(frame),
+                    |within| self.radius_about(&within),
+                ),
+            _ => self.radius_about(frame),
+        };
         let mut best: Option<(f64, Frame, u32)> = None;
         for &d in directions.iter().take(FIRST_DIRECTIONS) {
             let Some(frame) = self.frame_along(d) else {
                 continue;
             };
-            let radius = self.radius_about(&frame);
             for n in 1..=self.params.max_order.min(ORDERS) {
+                let radius = radius_of(&frame, n);
                 let most = if n == 1 {
                     f64::MAX
                 } else {
@@ -43,7 +54,7 @@ impl Query<'_> {
             1 => vec![Canonical::new(Isometry::FLIP, target)],
             n => powers(n, &target),
         };
-        let radius = self.radius_about(&frame);
+        let radius = radius_of(&frame, order);
         let measure = |frame: &Frame| self.off(frame, order, 2 * QUICK, f64::MAX);
         let adjusted = self.adjusted(frame, radius, &canonical, FIT);
         let (as_is, better) = (measure(&frame), measure(&adjusted));
