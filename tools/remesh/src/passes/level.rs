@@ -3,10 +3,11 @@
 use super::contract::contracted;
 use super::meet::{bounds, onto_all};
 use super::reduced::Reduced;
-use super::remesh::Told;
-use super::slender::slenderness;
+use super::remesh::{Remeshed, Told};
+use super::slender::by_facet;
 use super::worth::{LEVEL, WORTH};
 use crate::input::{Rules, Surface};
+use crate::mesh::NONE;
 use crate::shape::Patches;
 use geom::flat::FOLD_COSINE;
 use geom::measure::triangle_area;
@@ -43,13 +44,9 @@ pub fn leveled(surface: &Surface, rules: &Rules<'_>) -> Option<Reduced> {
         moved: (0..places.len()).filter(|&v| moves(v) > 0.0).count(),
         ..remeshed.told
     };
-    let faces = |surface: &Surface| Patches::of_facets(surface, rules).facet;
-    let cost =
-        |surface: &Surface, facet: &[u32]| slenderness(&surface.points, &surface.triangles, facet);
     let worth = if rules.drawn.is_exact() { WORTH } else { 1.0 };
-    let left = &remeshed.surface;
-    if remeshed.told.moved == 0 || cost(left, &faces(left)) >= worth * cost(surface, &patches.facet)
-    {
+    let [before, after] = costs(surface, rules, &patches, (&remeshed, moves));
+    if after >= worth * before {
         return None;
     }
     // What was moved may move as much less, and so may all that is beside it.
@@ -65,6 +62,40 @@ pub fn leveled(surface: &Surface, rules: &Rules<'_>) -> Option<Reduced> {
         }
     }
     Some(Reduced::new(remeshed, rules, &nearer))
+}
+
+/// What the facets cost at which something was moved, before and after.
+fn costs(
+    surface: &Surface,
+    rules: &Rules<'_>,
+    patches: &Patches,
+    (remeshed, moves): (&Remeshed, impl Fn(usize) -> f64),
+) -> [f64; 2] {
+    let left = &remeshed.surface;
+    let mut is_moved = [
+        vec![false; surface.points.len()],
+        vec![false; left.points.len()],
+    ];
+    for (v, &new) in remeshed.vertices.iter().enumerate() {
+        if moves(v) > 0.0 {
+            is_moved[0][v] = true;
+            if new != NONE {
+                is_moved[1][new as usize] = true;
+            }
+        }
+    }
+    let facets = Patches::of_facets(left, rules).facet;
+    let both = [(surface, &patches.facet), (left, &facets)];
+    let mut costs = [0.0; 2];
+    for (((surface, facets), is_moved), cost) in both.into_iter().zip(is_moved).zip(&mut costs) {
+        let all = surface.triangles.iter().zip(facets);
+        let touched = all.filter(|(corners, _)| corners.iter().any(|&v| is_moved[v as usize]));
+        let touched: FxHashSet<u32> = touched.map(|(_, facet)| *facet).collect();
+        let each = by_facet(&surface.points, &surface.triangles, facets);
+        let each = (0..).zip(each).filter(|(facet, _)| touched.contains(facet));
+        *cost = each.map(|(_, cost)| cost).sum();
+    }
+    costs
 }
 
 /// The flat faces of a surface with the planes that they get.

@@ -25,20 +25,25 @@ pub fn corners_of_facets(
     angles
 }
 
-/// What narrow facets cost: elements as wide as they are, along all of their borders. The sum over all facets of the square
-/// of the perimeter over the area, which for a strip is four times its length over its width, and over all their corners
-/// of two over the angle, as often elements fit along both sides of a corner while its width doubles: facets may be narrow
-/// only where they end. Triangles without vertices are none.
+/// What narrow facets cost, all of them together.
 pub fn slenderness(points: &[DVec3], triangles: &[[u32; 3]], facets: &[u32]) -> f64 {
+    by_facet(points, triangles, facets).into_iter().sum()
+}
+
+/// What each narrow facet costs: elements as wide as it is, along all of its border. The square
+/// of the perimeter over the area, which for a strip is four times its length over its width, and over all its corners
+/// two over the angle, as often elements fit along both sides of a corner while its width doubles: facets may be narrow
+/// only where they end. Triangles without vertices are none.
+pub fn by_facet(points: &[DVec3], triangles: &[[u32; 3]], facets: &[u32]) -> Vec<f64> {
     let corners = corners_of_facets(points, triangles, facets);
-    // As sharp as rounding may leave a corner.
-    let angles = corners
-        .into_values()
-        .map(|a| a.to_radians().max(f64::EPSILON));
-    let in_corners: f64 = angles.map(|angle| 2.0 / angle).sum();
     let there = triangles.iter().zip(facets).filter(|t| t.0[0] != NONE);
     let (there, facets): (Vec<[u32; 3]>, Vec<u32>) = there.map(|(t, f)| (*t, *f)).unzip();
     let count = facets.iter().max().map_or(0, |most| *most as usize + 1);
+    let mut costs = vec![0.0; count];
+    for ((facet, _), angle) in corners {
+        // As sharp as rounding may leave a corner.
+        costs[facet as usize] += 2.0 / angle.to_radians().max(f64::EPSILON);
+    }
     let mut measures = vec![(0.0, 0.0); count];
     for (corners, &facet) in there.iter().zip(&facets) {
         let [a, b, c] = corners.map(|v| points[v as usize]);
@@ -57,7 +62,10 @@ pub fn slenderness(points: &[DVec3], triangles: &[[u32; 3]], facets: &[u32]) -> 
             .iter()
             .for_each(|&f| measures[f as usize].0 += length);
     }
-    let there = measures.into_iter().filter(|m| m.1 > 0.0);
-    let along_sides = there.map(|(perimeter, area): (f64, f64)| perimeter * perimeter / area);
-    in_corners + along_sides.sum::<f64>()
+    for (cost, (perimeter, area)) in costs.iter_mut().zip(measures) {
+        if area > 0.0 {
+            *cost += perimeter * perimeter / area;
+        }
+    }
+    costs
 }

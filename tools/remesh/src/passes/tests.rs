@@ -11,7 +11,7 @@ use crate::{Drawn, Link, Remeshed, Rules, Sizes, Surface, remesh};
 use geom::contacts::contacts;
 use geom::measure::volume_of_region;
 use geom::tree::{Tree, closest_point};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
 
@@ -1437,4 +1437,131 @@ fn steps_go_where_faces_are_images_of_each_other() {
         let [p, q] = pair.map(|v| made.surface.points[v as usize]);
         assert!((p + DVec3::Z).distance(q) < 1e-12, "{p} {q}");
     }
+}
+
+/// A plate whose top is at a height of its own above each square of a grid, with upright walls between these.
+fn terrain(heights: &[Vec<f64>]) -> Surface {
+    let n = heights.len();
+    let cell = |i: i32, j: i32| -> Option<f64> {
+        let [i, j] = [usize::try_from(i).ok()?, usize::try_from(j).ok()?];
+        heights.get(i)?.get(j).copied()
+    };
+    let mut surface = Surface::default();
+    let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+    let mut id = |surface: &mut Surface, p: DVec3| {
+        let key = p.to_array().map(f64::to_bits);
+        *known.entry(key).or_insert_with(|| {
+            surface.points.push(p);
+            surface.points.len() as u32 - 1
+        })
+    };
+    // The heights between two of them at which squares around a corner end.
+    let column = |i: i32, j: i32, [low, high]: [f64; 2]| -> Vec<DVec3> {
+        let around = [[0, 0], [-1, 0], [0, -1], [-1, -1]];
+        let squares = around.map(|[k, l]| cell(i + k, j + l));
+        let mut all: Vec<f64> = squares.into_iter().flatten().chain([low, high]).collect();
+        all.retain(|z| (low..=high).contains(z));
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        let at = |z| DVec3::new(f64::from(i), f64::from(j), z);
+        all.into_iter().map(at).collect()
+    };
+    for i in 0..=n as i32 {
+        for j in 0..=n as i32 {
+            if let Some(z) = cell(i, j) {
+                for (z, turned) in [(z, false), (0.0, true)] {
+                    let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(|[k, l]| {
+                        let p = DVec3::new(f64::from(i + k), f64::from(j + l), z);
+                        id(&mut surface, p)
+                    });
+                    let [a, b, c, d] = corners;
+                    surface.triangles.extend(match turned {
+                        false => [[a, b, c], [a, c, d]],
+                        true => [[a, c, b], [a, d, c]],
+                    });
+                }
+            }
+            for (k, l) in [(1, 0), (0, 1)] {
+                let [here, before] = [cell(i, j), cell(i - k, j - l)].map(|z| z.unwrap_or(0.0));
+                if here == before {
+                    continue;
+                }
+                let span = [here.min(before), here.max(before)];
+                let mut sides = [column(i, j, span), column(i + l, j + k, span)];
+                // Seen from where it is lower.
+                if (here > before) == (k == 1) {
+                    sides.reverse();
+                }
+                let [left, right] = sides.map(|side| -> Vec<u32> {
+                    side.into_iter().map(|p| id(&mut surface, p)).collect()
+                });
+                for pair in left.windows(2) {
+                    surface.triangles.push([pair[0], right[0], pair[1]]);
+                }
+                for pair in right.windows(2) {
+                    surface
+                        .triangles
+                        .push([left[left.len() - 1], pair[0], pair[1]]);
+                }
+            }
+        }
+    }
+    surface.labels = vec![0; surface.triangles.len()];
+    surface
+}
+
+/// Steps of any height beside and above each other: whatever goes, the surface stays closed, does not meet itself and is no farther off than the deviation.
+#[test]
+fn terraces_stay_whole_whatever_steps_they_have() {
+    let mut state = 20_261_130_u64;
+    let mut below = |n: u64| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) % n
+    };
+    const ROUNDS: usize = 60;
+    let mut fewer = 0;
+    for round in 0..ROUNDS {
+        let kinds = [0.0, 0.004, 0.009, 0.013, 0.5];
+        let used = 2 + below(4) as usize;
+        let n = 2 + below(5) as usize;
+        let mut row = || -> Vec<f64> {
+            let each = (0..n).map(|_| 1.0 + kinds[below(used.min(5) as u64) as usize]);
+            each.collect()
+        };
+        let heights: Vec<Vec<f64>> = (0..n).map(|_| row()).collect();
+        let mut before = terrain(&heights);
+        let all: f64 = heights.iter().flatten().sum();
+        assert!((volume(&before) - all).abs() < 1e-9, "{round}");
+        // Walls lean, and planes are those of no coordinates.
+        let turned = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7 * round as f64);
+        let lean = [0.0, 0.3][round % 2];
+        for p in &mut before.points {
+            *p = turned * DVec3::new(p.x + lean * p.z, p.y, p.z);
+        }
+        let drawn = [Drawn::Roughly, Drawn::Exactly, Drawn::WithNeedles][round % 3];
+        let Some(made) = remade(&before, drawn) else {
+            continue;
+        };
+        let after = made.surface;
+        fewer += usize::from(2 * after.triangles.len() < before.triangles.len());
+        assert_eq!(is_closed(&before), is_closed(&after), "{round}");
+        let mut found = 0;
+        contacts(
+            &after.points,
+            &after.triangles,
+            |t| t,
+            |_| {
+                found += 1;
+                true
+            },
+        );
+        assert_eq!(found, 0, "{round}: {heights:?}");
+        let off = farthest(&after, &before).max(farthest(&before, &after));
+        assert!(off <= 0.02 * (1.0 + 1e-9), "{round}: {off}");
+        let change = (volume(&after) - volume(&before)).abs();
+        assert!(change <= 0.02 * (n * n) as f64, "{round}: {change}");
+    }
+    assert!(fewer > 20, "{fewer}");
 }
