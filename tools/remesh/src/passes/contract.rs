@@ -75,6 +75,7 @@ impl Contraction<'_> {
         for &v in &joined {
             members.entry(sets.find(v)).or_default().push(v);
         }
+        let mut wrong = Vec::new();
         for v in joined {
             let Some(all) = members.remove(&sets.find(v)) else {
                 continue;
@@ -90,18 +91,19 @@ impl Contraction<'_> {
                 Some(&first) if keeps_held(first) => {
                     all.iter().for_each(|&v| self.of[v as usize] = first);
                 }
-                _ => return Err(all),
+                _ => wrong.extend(all),
             }
         }
         for t in &mut self.triangles {
             let [a, b, c] = t.unwrap_or_default().map(|v| self.of[v as usize]);
             *t = (a != b && b != c && c != a).then_some([a, b, c]);
         }
-        Ok(())
+        none(wrong)
     }
 
     /// Whether every vertex still has one image by each link, and is one of one, where it was moved to.
     fn keep_links(&self) -> Result<(), Around> {
+        let mut wrong = Vec::new();
         for link in self.rules.links {
             let mut maps = [FxHashMap::default(), FxHashMap::default()];
             for pair in &link.pairs {
@@ -111,14 +113,14 @@ impl Contraction<'_> {
                 let is_one =
                     *maps[0].entry(v).or_insert(w) == w && *maps[1].entry(w).or_insert(v) == v;
                 if !is_there || !is_one {
-                    return Err(pair.to_vec());
+                    wrong.extend(pair);
                 }
             }
         }
-        Ok(())
+        none(wrong)
     }
 
-    /// Takes out triangles without an area: their longest side is divided in the one triangle beyond it.
+    /// Takes out triangles without an area: their longest side is divided in the triangles beyond it.
     fn drop_flat(&mut self) -> Result<(), Around> {
         let all = 0..self.triangles.len();
         let mut flat: Vec<usize> = all.filter(|&t| self.is_flat(t)).collect();
@@ -142,35 +144,36 @@ impl Contraction<'_> {
                     continue;
                 };
                 let [a, b, middle] = self.longest_first(corners);
-                let both = at.get(&key(a, b)).map_or(&[][..], Vec::as_slice);
-                let beyond = both.iter().find(|&&u| u != t).copied();
-                let Some(u) = beyond.filter(|_| both.len() == 2) else {
-                    return Err(corners.to_vec());
-                };
-                if self.is_flat(u) {
+                let mut beyond = at.get(&key(a, b)).cloned().unwrap_or_default();
+                beyond.retain(|&u| u != t);
+                if beyond.iter().any(|&u| self.is_flat(u)) {
                     left.push(t);
                     continue;
                 }
-                let Some(divided) = self.triangles[u] else {
-                    return Err(corners.to_vec());
-                };
-                let label = self.labels[u];
-                let is_linked = [t, u].iter().any(|&t| linked.contains(&self.labels[t]));
-                if is_linked || divided.contains(&middle) {
+                let all = beyond.iter().chain([&t]);
+                let is_linked = all.clone().any(|&t| linked.contains(&self.labels[t]));
+                let mut apexes = beyond.iter().filter_map(|&u| self.triangles[u]).flatten();
+                if beyond.is_empty() || is_linked || apexes.any(|v| v == middle) {
                     return Err(corners.to_vec());
                 }
-                for gone in [t, u] {
+                let divided = beyond
+                    .iter()
+                    .filter_map(|&u| Some((self.triangles[u]?, self.labels[u])));
+                let divided: Vec<([u32; 3], u32)> = divided.collect();
+                for &gone in all {
                     for key in self.triangles[gone].take().iter().flat_map(sides) {
                         at.entry(key).or_default().retain(|&t| t != gone);
                     }
                 }
-                for end in [a, b] {
-                    let half = divided.map(|v| if v == end { middle } else { v });
-                    for key in sides(&half) {
-                        at.entry(key).or_default().push(self.triangles.len());
+                for (corners, label) in divided {
+                    for end in [a, b] {
+                        let half = corners.map(|v| if v == end { middle } else { v });
+                        for key in sides(&half) {
+                            at.entry(key).or_default().push(self.triangles.len());
+                        }
+                        self.triangles.push(Some(half));
+                        self.labels.push(label);
                     }
-                    self.triangles.push(Some(half));
-                    self.labels.push(label);
                 }
             }
             if left.len() == before {
@@ -208,9 +211,10 @@ impl Contraction<'_> {
         let labels = self.triangles.iter().zip(&self.labels);
         let labels = labels.filter_map(|(t, label)| t.map(|_| *label));
         let labels: FxHashSet<u32> = labels.collect();
+        let mut wrong = Vec::new();
         for (corners, label) in surface.triangles.iter().zip(&surface.labels) {
             if !labels.contains(label) {
-                return Err(corners.to_vec());
+                wrong.extend(corners);
             }
         }
         let mut before: FxHashMap<[u32; 2], usize> = FxHashMap::default();
@@ -223,15 +227,15 @@ impl Contraction<'_> {
         for (edge, &ends) in now.ends.iter().enumerate() {
             let (count, old) = (now.around(edge).len(), before.get(&ends).copied());
             if count > old.unwrap_or(0).max(2) || count < old.unwrap_or(2).min(2) {
-                return Err(ends.to_vec());
+                wrong.extend(ends);
             }
         }
         let mut corners: Vec<[u32; 3]> = there.clone();
         corners.iter_mut().for_each(|t| t.sort_unstable());
         corners.sort_unstable();
-        if let Some(twins) = corners.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(twins[0].to_vec());
-        }
+        let twins = corners.windows(2).filter(|pair| pair[0] == pair[1]);
+        wrong.extend(twins.flat_map(|pair| pair[0]));
+        none(wrong)?;
         let euler = |triangles: &[[u32; 3]], edges: &Edges| {
             let mut vertices: Vec<u32> = triangles.iter().flatten().copied().collect();
             vertices.sort_unstable();
@@ -240,16 +244,16 @@ impl Contraction<'_> {
         };
         match euler(&there, &now) == euler(&surface.triangles, edges) {
             true => Ok(()),
-            false => Err((0..)
-                .zip(&self.is_moved)
-                .filter(|m| *m.1)
-                .map(|m| m.0)
-                .collect()),
+            false => {
+                let moved = (0..).zip(&self.is_moved).filter(|m| *m.1);
+                Err(moved.map(|m| m.0).collect())
+            }
         }
     }
 
     /// Whether triangles of faces that are as wide as before still face the same side.
     fn keep_sides(&self, surface: &Surface, patches: &Patches) -> Result<(), Around> {
+        let mut wrong = Vec::new();
         let all = self.triangles.iter().zip(&surface.triangles).enumerate();
         for (t, (now, before)) in all {
             let (Some(now), true) = (now, before.iter().any(|&v| self.is_moved[v as usize])) else {
@@ -257,10 +261,10 @@ impl Contraction<'_> {
             };
             let [a, b, c] = now.map(|v| self.places[v as usize]);
             if double_area_vector(a, b, c).dot(patches.normals[t]) < 0.0 {
-                return Err(before.to_vec());
+                wrong.extend(before);
             }
         }
-        Ok(())
+        none(wrong)
     }
 
     /// The surface that is left, numbered anew.
@@ -307,6 +311,14 @@ impl Contraction<'_> {
             ..Told::default()
         };
         remeshed
+    }
+}
+
+/// Whether there are none around which something is wrong.
+fn none(wrong: Around) -> Result<(), Around> {
+    match wrong.is_empty() {
+        true => Ok(()),
+        false => Err(wrong),
     }
 }
 

@@ -9,6 +9,7 @@ use super::worth::{LEVEL, WORTH};
 use crate::input::{Rules, Surface};
 use crate::mesh::NONE;
 use crate::shape::Patches;
+use geom::edges::EdgeUse;
 use geom::flat::FOLD_COSINE;
 use geom::measure::triangle_area;
 use glam::DVec3;
@@ -98,6 +99,14 @@ fn costs(
     costs
 }
 
+/// What is next to a narrow face around an edge.
+#[derive(Clone, Copy, PartialEq)]
+struct Beside {
+    face: u32,
+    /// Whether it is on the front of the narrow face, and that on the front of it.
+    sides: [bool; 2],
+}
+
 /// The flat faces of a surface with the planes that they get.
 struct Levels<'a> {
     surface: &'a Surface,
@@ -144,11 +153,10 @@ impl<'a> Levels<'a> {
     /// Gives faces beside a step the plane of the largest one across it.
     fn find(&mut self) {
         let faces = self.patches.planes.len();
-        let (mut area, mut label) = (vec![0.0; faces], vec![0; faces]);
+        let mut area = vec![0.0; faces];
         for (t, &face) in (0..).zip(&self.patches.of) {
             let [a, b, c] = self.surface.corners(t);
             area[face as usize] += triangle_area(a, b, c);
-            label[face as usize] = self.surface.labels[t as usize];
         }
         let is_cut = self.patches.cut(self.surface, self.rules);
         let pairs = self.across_steps();
@@ -158,8 +166,7 @@ impl<'a> Levels<'a> {
         for [f, g] in pairs {
             let is_smaller = (area[f as usize], g) < (area[g as usize], f);
             let pair = if is_smaller { [f, g] } else { [g, f] };
-            let is_alike = label[f as usize] == label[g as usize];
-            if is_alike && !is_cut[f as usize] && !is_cut[g as usize] && self.may_get(pair) {
+            if !is_cut[f as usize] && !is_cut[g as usize] && self.may_get(pair) {
                 found.push(pair);
             }
         }
@@ -179,23 +186,16 @@ impl<'a> Levels<'a> {
             .retain(|&face, _| self.plane_of[face as usize] != face);
     }
 
-    /// Pairs of faces that face the same side on both sides of a narrow one: beside corners of one of its triangles.
+    /// Pairs of faces that face the same side, which one side of a narrow one leads to with the same side of theirs: beside corners of one of
+    /// its triangles.
     fn across_steps(&self) -> FxHashSet<[u32; 2]> {
-        let edges = &self.patches.edges;
-        let of = |t: u32| self.patches.of[t as usize];
-        let mut beside: FxHashMap<(u32, u32), Vec<u32>> = FxHashMap::default();
-        for (edge, ends) in edges.ends.iter().enumerate() {
-            let around = edges.around(edge);
-            for narrow in around.iter().map(|u| of(u.triangle)) {
-                if self.is_narrow[narrow as usize] {
-                    let others = around.iter().map(|u| of(u.triangle));
-                    for other in others.filter(|&other| other != narrow) {
-                        for &v in ends {
-                            let known = beside.entry((narrow, v)).or_default();
-                            if !known.contains(&other) {
-                                known.push(other);
-                            }
-                        }
+        let mut beside: FxHashMap<(u32, u32), Vec<Beside>> = FxHashMap::default();
+        for (edge, ends) in self.patches.edges.ends.iter().enumerate() {
+            for (narrow, known) in self.beside(edge) {
+                for &v in ends {
+                    let all = beside.entry((narrow, v)).or_default();
+                    if !all.contains(&known) {
+                        all.push(known);
                     }
                 }
             }
@@ -205,8 +205,9 @@ impl<'a> Levels<'a> {
         for (corners, &face) in self.surface.triangles.iter().zip(&self.patches.of) {
             let at = |v: u32| beside.get(&(face, v)).map_or(&[][..], Vec::as_slice);
             for [v, w] in [[0, 1], [1, 2], [2, 0]].map(|e| e.map(|i: usize| corners[i])) {
-                for &f in at(v) {
-                    for &g in at(w) {
+                for x in at(v) {
+                    for y in at(w).iter().filter(|y| y.sides == x.sides) {
+                        let [f, g] = [x.face, y.face];
                         if f != g && normal(f).dot(normal(g)) >= FOLD_COSINE {
                             pairs.insert([f.min(g), f.max(g)]);
                         }
@@ -215,6 +216,31 @@ impl<'a> Levels<'a> {
             }
         }
         pairs
+    }
+
+    /// The narrow faces at an edge, each with what is next to it around the edge on either side.
+    fn beside(&self, edge: usize) -> Vec<(u32, Beside)> {
+        let of = |u: &EdgeUse| self.patches.of[u.triangle as usize];
+        let edges = &self.patches.edges;
+        let around = edges.around(edge);
+        if !around.iter().any(|u| self.is_narrow[of(u) as usize]) {
+            return Vec::new();
+        }
+        let around = edges.sorted_around(edge, &self.surface.triangles, &self.surface.points);
+        let mut found = Vec::new();
+        for (i, first) in around.iter().enumerate() {
+            // What runs along the edge has its front where angles grow.
+            let second = &around[(i + 1) % around.len()];
+            let sides = [first.forward, !second.forward];
+            let [f, g] = [of(first), of(second)];
+            if f != g {
+                found.push((f, Beside { face: g, sides }));
+                let sides = [sides[1], sides[0]];
+                found.push((g, Beside { face: f, sides }));
+            }
+        }
+        found.retain(|(face, _)| self.is_narrow[*face as usize]);
+        found
     }
 
     /// The vertices of some faces.

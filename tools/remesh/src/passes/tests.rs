@@ -1360,19 +1360,58 @@ fn low_steps_between_flat_faces_are_gone() {
     assert_eq!(heights(&made), heights(&before));
 }
 
-/// What has a label of its own is no step of what is beside it, and what is thinner than the deviation is none either: its faces look away from each other.
-#[test]
-fn labels_and_sheets_are_no_steps() {
-    let mut marked = stepped(0.009);
-    let top = marked.points.len() as u32 - 4;
-    let (triangles, labels) = (&marked.triangles, &mut marked.labels);
-    for (corners, label) in triangles.iter().zip(labels) {
-        *label = u32::from(corners.iter().all(|v| *v >= top));
+/// A block of two parts: the second one stands above the first one by so much, and below its top reaches so deep into it. The first has label 0,
+/// the second 1, and what is between them 2.
+fn inlaid(above: f64, depth: f64) -> Surface {
+    let rings = [(1.0, 0.0), (1.0, 1.0), (0.5, 1.0), (0.5, 1.0 - depth)];
+    let rings = &rings[..if depth > 0.0 { 4 } else { 3 }];
+    let rings: Vec<Vec<DVec3>> = rings.iter().map(|(half, z)| square(*half, *z)).collect();
+    let mut surface = lofted(&rings, 0);
+    for (corners, label) in surface.triangles.iter().zip(&mut surface.labels) {
+        let inside = corners.iter().filter(|&&v| v >= 8).count();
+        let is_between = inside == 3 && corners.iter().all(|v| *v < 16);
+        *label = if is_between { 2 } else { 0 };
     }
+    let second = lofted(&[square(0.5, 1.0), square(0.5, 1.0 + above)], 0);
+    let first = surface.points.len() as u32;
+    surface.points.extend(&second.points[4..]);
+    for corners in second.triangles {
+        if corners.iter().any(|v| *v >= 4) {
+            let number = |v: u32| if v < 4 { v + 8 } else { first + v - 4 };
+            surface.triangles.push(corners.map(number));
+            surface.labels.push(1);
+        }
+    }
+    surface
+}
+
+/// What stands above something else that it is a part of comes to the level of that; what lies on it does not, nor does a sheet, whose faces look away
+/// from each other.
+#[test]
+fn parts_that_are_inlaid_come_to_one_level() {
+    let highest = |surface: &Surface| surface.points.iter().fold(0.0, |z: f64, p| z.max(p.z));
+    let area = |surface: &Surface, label: u32| -> f64 {
+        let all = (0..).zip(&surface.labels).filter(|(_, l)| **l == label);
+        let areas = all.map(|(t, _)| {
+            let [a, b, c] = surface.corners(t);
+            geom::measure::triangle_area(a, b, c)
+        });
+        areas.sum()
+    };
+    let before = inlaid(0.009, 0.3);
+    for drawn in [Drawn::Exactly, Drawn::Roughly] {
+        let made = remade(&before, drawn).expect("a step").surface;
+        assert_eq!(highest(&made), 1.0);
+        for (label, expected) in [(0, 15.0), (1, 1.0), (2, 2.2)] {
+            let area = area(&made, label);
+            assert!((area - expected).abs() < 1e-9, "{label}: {area}");
+        }
+    }
+    let lying = inlaid(0.009, 0.0);
     let sheet = lofted(&[square(1.0, 0.0), square(1.0, 0.009)], 0);
-    for before in [marked, sheet] {
+    for before in [lying, sheet] {
         let made = remade(&before, Drawn::Roughly).map_or(before.clone(), |made| made.surface);
-        assert!((volume(&made) - volume(&before)).abs() < 1e-12);
+        assert_eq!(highest(&made), highest(&before));
         assert_eq!(count_of_faces(&made), count_of_faces(&before));
     }
 }
