@@ -423,6 +423,68 @@ fn steps_lower_than_half_of_the_deviation_cost_no_elements() {
     assert!(elements(&low, &["--deviation", "0"]) > 10 * few);
 }
 
+/// A core that stands above what is around it, or below, by less than half of the deviation, as parts of an assembly do: both keep their names, and all of
+/// their faces but those of the step.
+#[test]
+fn parts_that_stand_out_by_less_than_half_of_the_deviation_cost_no_elements() {
+    let ring = |radius: f64, z: f64| -> Vec<DVec3> {
+        let corner = |k: u32| {
+            let (sin, cos) = (std::f64::consts::FRAC_PI_3 * f64::from(k)).sin_cos();
+            DVec3::new(radius * cos, radius * sin, z)
+        };
+        (0..6).map(corner).collect()
+    };
+    let between = |low: &[DVec3], high: &[DVec3]| -> Vec<[DVec3; 3]> {
+        let side = |i: usize| {
+            let j = (i + 1) % 6;
+            [[low[i], low[j], high[j]], [low[i], high[j], high[i]]]
+        };
+        (0..6).flat_map(side).collect()
+    };
+    let end = |ring: &[DVec3]| -> Vec<[DVec3; 3]> {
+        (1..5).map(|i| [ring[0], ring[i], ring[i + 1]]).collect()
+    };
+    let turned = |ring: &[DVec3]| -> Vec<DVec3> { ring.iter().rev().copied().collect() };
+    let assembly = |above: f64| -> Vec<u8> {
+        let core = [ring(0.5, 0.3), ring(0.5, 1.0 + above)];
+        let core = [
+            between(&core[0], &core[1]),
+            end(&turned(&core[0])),
+            end(&core[1]),
+        ];
+        let shell = [
+            ring(1.0, 0.0),
+            ring(1.0, 1.0),
+            ring(0.5, 1.0),
+            ring(0.5, 0.3),
+        ];
+        let sides = shell
+            .windows(2)
+            .flat_map(|pair| between(&pair[0], &pair[1]));
+        let ends = [end(&turned(&shell[0])), end(&shell[3])].concat();
+        let shell: Vec<[DVec3; 3]> = sides.chain(ends).collect();
+        let named = |triangles: &[[DVec3; 3]], name: &str| {
+            let text = String::from_utf8(stl(triangles)).expect("text");
+            text.replace("vase", name).into_bytes()
+        };
+        [named(&core.concat(), "core"), named(&shell, "shell")].concat()
+    };
+    let level = elements(&assembly(0.0), &[]);
+    for above in [4e-4, -4e-4] {
+        let body = assembly(above);
+        assert!(elements(&body, &[]) <= 2 * level);
+        assert!(elements(&body, &["--deviation", "0"]) > 100 * level);
+        let found = run("symdetect", &["-q"], &body).success();
+        let cut = run("wedgecut", &["-q"], &found).success();
+        let filled = read(&run("tetwedge", &["-q"], &cut).success());
+        let names: Vec<&str> = filled.regions.iter().map(|r| r.name.as_str()).collect();
+        assert_eq!(names, ["core", "shell"]);
+        let used: std::collections::BTreeSet<u32> =
+            filled.templates[0].tets.iter().map(|t| t.region).collect();
+        assert_eq!(used.len(), 2);
+    }
+}
+
 #[test]
 fn vertices_inside_of_flat_faces_cost_no_elements() {
     let [plain, fine] = [1, 16].map(|parts| stl(&block(parts)));
