@@ -108,8 +108,10 @@ impl Contraction<'_> {
             let mut maps = [FxHashMap::default(), FxHashMap::default()];
             for pair in &link.pairs {
                 let [v, w] = pair.map(|v| self.of[v as usize]);
+                let moves = pair.iter().any(|&v| self.is_moved[v as usize]);
                 let image = (link.image)(self.places[v as usize]);
-                let is_there = image.distance(self.places[w as usize]) <= self.rules.flat;
+                let off = image.distance(self.places[w as usize]);
+                let is_there = !moves || off <= self.rules.flat;
                 let is_one =
                     *maps[0].entry(v).or_insert(w) == w && *maps[1].entry(w).or_insert(v) == v;
                 if !is_there || !is_one {

@@ -3,7 +3,7 @@
 use super::contract::contracted;
 use super::meet::{bounds, onto_all};
 use super::reduced::Reduced;
-use super::remesh::{Remeshed, Told};
+use super::remesh::{Remeshed, Told, crossings};
 use super::slender::by_facet;
 use super::worth::{LEVEL, WORTH};
 use crate::input::{Rules, Surface};
@@ -33,9 +33,19 @@ pub fn leveled(surface: &Surface, rules: &Rules<'_>) -> Option<Reduced> {
     let (places, mut remeshed) = (0..ATTEMPTS).find_map(|_| {
         let places = levels.places();
         match contracted(surface, rules, &patches, &places) {
-            Ok(remeshed) => Some((places, remeshed)),
+            Ok(remeshed) => {
+                let crossing = crossings(&remeshed.surface, rules);
+                for (v, p) in (0..).zip(&places) {
+                    if crossing.iter().any(|(at, size)| p.distance(*at) <= *size) {
+                        levels.leave(v);
+                    }
+                }
+                crossing.is_empty().then_some((places, remeshed))
+            }
             Err(around) => {
-                around.into_iter().for_each(|v| levels.leave(v));
+                for v in around {
+                    levels.leave(v);
+                }
                 None
             }
         }
@@ -268,30 +278,33 @@ impl<'a> Levels<'a> {
         is_near && is_off
     }
 
-    /// Leaves the faces around a vertex as they are.
-    fn leave(&mut self, v: u32) {
+    /// Leaves the faces around a vertex as they are. Returns their vertices, of those that were to be moved.
+    fn leave(&mut self, v: u32) -> Vec<u32> {
+        let mut again = Vec::new();
         for &face in &self.around[v as usize] {
-            self.plane_of[face as usize] = face;
+            if self.plane_of[face as usize] != face {
+                self.plane_of[face as usize] = face;
+                again.extend(&self.vertices[&face]);
+            }
         }
+        again
     }
 
-    /// Where the vertices are when all faces are in the planes that they get. Faces with vertices that cannot get there are left as they are.
+    /// Where the vertices are when all faces are in the planes that they get. Faces with vertices that cannot get there, or not together with their
+    /// images, are left as they are.
     fn places(&mut self) -> Vec<DVec3> {
         let mut places = self.surface.points.clone();
         let mut open: Vec<u32> = self.vertices.values().flatten().copied().collect();
         open.sort_unstable();
         open.dedup();
-        while let Some(v) = open.pop() {
-            match self.place(v) {
-                Some(place) => places[v as usize] = place,
-                None => {
-                    let mut left = self.around[v as usize].clone();
-                    left.retain(|&face| self.plane_of[face as usize] != face);
-                    self.leave(v);
-                    let again = left.iter().filter_map(|face| self.vertices.get(face));
-                    open.extend(again.flatten());
+        while !open.is_empty() {
+            while let Some(v) = open.pop() {
+                match self.place(v) {
+                    Some(place) => places[v as usize] = place,
+                    None => open.extend(self.leave(v)),
                 }
             }
+            open = self.apart_from_images(&places);
         }
         for link in self.rules.links {
             for [v, w] in link.pairs.iter().map(|pair| pair.map(|v| v as usize)) {
@@ -301,6 +314,21 @@ impl<'a> Levels<'a> {
             }
         }
         places
+    }
+
+    /// Leaves the faces around vertices that are not where their images are to be. Returns what is to be placed anew.
+    fn apart_from_images(&mut self, places: &[DVec3]) -> Vec<u32> {
+        let mut again = Vec::new();
+        for link in self.rules.links {
+            for &pair in &link.pairs {
+                let moves = |v: u32| places[v as usize] != self.surface.points[v as usize];
+                let [p, q] = pair.map(|v| places[v as usize]);
+                if pair.into_iter().any(moves) && (link.image)(p).distance(q) > self.rules.flat {
+                    pair.iter().for_each(|&v| again.extend(self.leave(v)));
+                }
+            }
+        }
+        again
     }
 
     /// Where a vertex is in the planes that the faces around it get: in those of all, or if that is too far away, of all that are not narrow.

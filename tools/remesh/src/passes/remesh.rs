@@ -110,12 +110,10 @@ fn of_needed(surface: &Surface, rules: &Rules<'_>) -> Option<Remeshed> {
     }
     if let Some(first) = leveled(surface, rules) {
         let (left, rules) = (&first.remeshed.surface, first.rules(rules));
-        if crossings(left, &rules).is_empty() {
-            return Some(match of_level(left, &rules) {
-                Some(remeshed) => first.then(remeshed),
-                None => first.remeshed,
-            });
-        }
+        return Some(match of_level(left, &rules) {
+            Some(remeshed) => first.then(remeshed),
+            None => first.remeshed,
+        });
     }
     of_level(surface, rules)
 }
@@ -172,7 +170,7 @@ fn uncrossed(surface: &Surface, rules: &Rules<'_>, joins: bool) -> Option<(Remes
 }
 
 /// Places where triangles of one space meet that should not, with their size.
-fn crossings(surface: &Surface, rules: &Rules<'_>) -> Vec<(DVec3, f64)> {
+pub(super) fn crossings(surface: &Surface, rules: &Rules<'_>) -> Vec<(DVec3, f64)> {
     let mut spaces: Vec<u32> = surface.labels.iter().map(|&l| rules.space(l)).collect();
     let of = spaces.clone();
     spaces.sort_unstable();
