@@ -1,7 +1,7 @@
 //! Joining vertices of a surface that were moved to the same place.
 
 use super::remesh::{Remeshed, Told};
-use crate::input::{Rules, Surface};
+use crate::input::{Place, Rules, Surface};
 use crate::mesh::NONE;
 use crate::shape::Patches;
 use geom::edges::Edges;
@@ -9,6 +9,11 @@ use geom::measure::double_area_vector;
 use geom::sets::DisjointSets;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeMap;
+
+/// How far a vertex may be from where an isometry takes the one that it is the image of, over the largest coordinate of all: what rounding makes of
+/// several isometries one after the other.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Vertices around which something is wrong.
 pub type Around = Vec<u32>;
@@ -26,7 +31,7 @@ pub fn contracted(
 ) -> Result<Remeshed, Around> {
     let mut contraction = Contraction {
         rules,
-        places,
+        places: places.to_vec(),
         is_moved: (surface.points.iter().zip(places))
             .map(|(old, new)| old != new)
             .collect(),
@@ -35,6 +40,7 @@ pub fn contracted(
         labels: surface.labels.clone(),
     };
     contraction.join(&patches.edges)?;
+    contraction.align_images();
     contraction.keep_links()?;
     contraction.drop_flat()?;
     contraction.keep_topology(surface, &patches.edges)?;
@@ -45,7 +51,7 @@ pub fn contracted(
 /// A surface of which vertices are joined.
 struct Contraction<'a> {
     rules: &'a Rules<'a>,
-    places: &'a [DVec3],
+    places: Vec<DVec3>,
     is_moved: Vec<bool>,
     /// The vertex that each one became.
     of: Vec<u32>,
@@ -101,9 +107,41 @@ impl Contraction<'_> {
         none(wrong)
     }
 
+    /// Puts what was moved exactly where its images say, of which those that were not moved stay.
+    fn align_images(&mut self) {
+        let mut beside: BTreeMap<u32, Vec<(u32, &Place)>> = BTreeMap::new();
+        for link in self.rules.links {
+            for pair in &link.pairs {
+                let [v, w] = pair.map(|v| self.of[v as usize]);
+                beside.entry(v).or_default().push((w, &link.image));
+                beside.entry(w).or_default().push((v, &link.back));
+            }
+        }
+        let mut is_put: Vec<bool> = self.is_moved.iter().map(|moved| !moved).collect();
+        let put = beside.keys().copied().filter(|&v| is_put[v as usize]);
+        let mut open: Vec<u32> = put.collect();
+        for &first in beside.keys() {
+            if open.is_empty() && !is_put[first as usize] {
+                is_put[first as usize] = true;
+                open.push(first);
+            }
+            while let Some(v) = open.pop() {
+                for (w, place) in &beside[&v] {
+                    if !is_put[*w as usize] {
+                        is_put[*w as usize] = true;
+                        self.places[*w as usize] = place(self.places[v as usize]);
+                        open.push(*w);
+                    }
+                }
+            }
+        }
+    }
+
     /// Whether every vertex still has one image by each link, and is one of one, where it was moved to.
     fn keep_links(&self) -> Result<(), Around> {
         let mut wrong = Vec::new();
+        let each = self.places.iter().map(|p| p.abs().max_element());
+        let size = each.fold(0.0, f64::max);
         for link in self.rules.links {
             let mut maps = [FxHashMap::default(), FxHashMap::default()];
             for pair in &link.pairs {
@@ -111,7 +149,7 @@ impl Contraction<'_> {
                 let moves = pair.iter().any(|&v| self.is_moved[v as usize]);
                 let image = (link.image)(self.places[v as usize]);
                 let off = image.distance(self.places[w as usize]);
-                let is_there = !moves || off <= self.rules.flat;
+                let is_there = !moves || off <= ROUNDING * size;
                 let is_one =
                     *maps[0].entry(v).or_insert(w) == w && *maps[1].entry(w).or_insert(v) == v;
                 if !is_there || !is_one {

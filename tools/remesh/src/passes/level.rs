@@ -306,24 +306,19 @@ impl<'a> Levels<'a> {
             }
             open = self.apart_from_images(&places);
         }
-        for link in self.rules.links {
-            for [v, w] in link.pairs.iter().map(|pair| pair.map(|v| v as usize)) {
-                if places[v] != self.surface.points[v] && v != w {
-                    places[w] = (link.image)(places[v]);
-                }
-            }
-        }
         places
     }
 
-    /// Leaves the faces around vertices that are not where their images are to be. Returns what is to be placed anew.
+    /// Leaves the faces around vertices that are not where their images are to be, but for rounding, and around those that are their own images. Returns what is to
+    /// be placed anew.
     fn apart_from_images(&mut self, places: &[DVec3]) -> Vec<u32> {
         let mut again = Vec::new();
         for link in self.rules.links {
             for &pair in &link.pairs {
                 let moves = |v: u32| places[v as usize] != self.surface.points[v as usize];
                 let [p, q] = pair.map(|v| places[v as usize]);
-                if pair.into_iter().any(moves) && (link.image)(p).distance(q) > self.rules.flat {
+                let is_apart = (link.image)(p).distance(q) > self.rules.flat;
+                if pair.into_iter().any(moves) && (is_apart || pair[0] == pair[1]) {
                     pair.iter().for_each(|&v| again.extend(self.leave(v)));
                 }
             }

@@ -1442,39 +1442,64 @@ fn steps_go_all_around_rounded_edges() {
     assert!(farthest(&made, &before).max(farthest(&before, &made)) <= 0.02);
 }
 
-/// A step that goes on in the image of a wedge: both ends of a bar stay images of each other.
+/// A step that goes on in the image of a wedge: both ends of a bar stay images of each other, whether they are shifted or turned, but for rounding.
 #[test]
 fn steps_go_where_faces_are_images_of_each_other() {
     let outline = [
-        [0.0, 0.0],
         [1.0, 0.0],
-        [1.0, 1.009],
-        [0.5, 1.009],
-        [0.5, 1.0],
-        [0.0, 1.0],
+        [2.0, 0.0],
+        [2.0, 1.009],
+        [1.3, 1.009],
+        [1.3, 1.0],
+        [1.0, 1.0],
     ];
-    let at = |z: f64| outline.map(|[x, y]| DVec3::new(x, y, z)).to_vec();
-    let mut before = lofted(&[at(0.0), at(1.0)], 4);
-    for (corners, label) in before.triangles.iter().zip(&mut before.labels) {
-        let low = corners.iter().filter(|v| **v < 6).count();
-        *label = [2, 0, 0, 1][low];
-    }
-    let shifted = |by: f64| -> Place { Arc::new(move |p| p + by * DVec3::Z) };
-    let links = [Link {
-        pairs: (0..6).map(|v| [v, v + 6]).collect(),
-        labels: vec![1, 2],
-        image: shifted(1.0),
-        back: shifted(-1.0),
-    }];
-    let free = vec![false; before.points.len()];
-    let made = linked(&before, 0.02, (&free, None), &links).expect("a step");
-    assert!(is_closed(&made.surface));
-    assert_eq!(count_of_faces(&made.surface), 6);
-    let on_ends = made.surface.points.iter().filter(|p| p.z == 0.0).count();
-    assert_eq!(made.links[0].len(), on_ends);
-    for pair in &made.links[0] {
-        let [p, q] = pair.map(|v| made.surface.points[v as usize]);
-        assert!((p + DVec3::Z).distance(q) < 1e-12, "{p} {q}");
+    let shifted = |by: f64| -> Place { Arc::new(move |p| p + by * DVec3::Y) };
+    let turned = |by: f64| -> Place {
+        let turned = DMat3::from_rotation_z(by);
+        Arc::new(move |p| turned * p)
+    };
+    let seventh = std::f64::consts::TAU / 7.0;
+    for (image, back) in [
+        (shifted(0.7), shifted(-0.7)),
+        (turned(seventh), turned(-seventh)),
+    ] {
+        // As far off the planes as counts as in them.
+        let first = (0..).zip(outline).map(|(i, [x, z])| {
+            let off = [3e-11, -3e-11][i % 2];
+            DVec3::new(x + off, 0.0, z + [off, -off][i / 2 % 2])
+        });
+        let first: Vec<DVec3> = first.collect();
+        let second: Vec<DVec3> = first.iter().map(|&p| image(p)).collect();
+        let mut before = lofted(&[first, second], 4);
+        for corners in &mut before.triangles {
+            corners.reverse();
+        }
+        for (corners, label) in before.triangles.iter().zip(&mut before.labels) {
+            let low = corners.iter().filter(|v| **v < 6).count();
+            *label = [2, 0, 0, 1][low];
+        }
+        let links = [Link {
+            pairs: (0..6).map(|v| [v, v + 6]).collect(),
+            labels: vec![1, 2],
+            image: Arc::clone(&image),
+            back,
+        }];
+        let free = vec![false; before.points.len()];
+        let made = linked(&before, 0.02, (&free, None), &links).expect("a step");
+        assert!(is_closed(&made.surface));
+        assert_eq!(count_of_faces(&made.surface), 6);
+        let end = |label: u32| -> FxHashSet<u32> {
+            let all = made.surface.triangles.iter().zip(&made.surface.labels);
+            let all = all.filter(|(_, l)| **l == label);
+            all.flat_map(|(corners, _)| *corners).collect()
+        };
+        assert_eq!(made.links[0].len(), end(1).len());
+        assert_eq!(made.links[0].len(), end(2).len());
+        for pair in &made.links[0] {
+            let [p, q] = pair.map(|v| made.surface.points[v as usize]);
+            let off = image(p).distance(q);
+            assert!(off <= 64.0 * f64::EPSILON * 2.0, "{p} {q}: {off:e}");
+        }
     }
 }
 
