@@ -18,7 +18,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// Attempts, each without the faces where the one before could not join what meets.
 const ATTEMPTS: usize = 4;
 
-/// Moves flat faces beside lower or higher ones that are as wide or wider, where a step between both is lower than the surface may move, into the plane
+/// Moves flat faces beside lower or higher ones that are larger, where a step between both is no higher than half of what the surface may move, into the plane
 /// of these, so that the step is gone: the mark on a case, the foot of a terminal, a seam between halves of a mould. All other flat faces keep
 /// their planes. `None` where there are none, and where what is left is no better. n log n.
 ///
@@ -342,9 +342,9 @@ impl<'a> Levels<'a> {
                 .filter(|f| counts(f))
                 .map(|&f| self.plane_of[f as usize])
                 .collect();
-            planes.dedup();
             // Those that others are moved to first: along narrow ones they get there.
             planes.sort_by_key(|&f| (self.is_narrow[f as usize], f));
+            planes.dedup();
             let planes = planes
                 .iter()
                 .filter_map(|&f| self.patches.planes[f as usize]);

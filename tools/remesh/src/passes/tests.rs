@@ -1,6 +1,7 @@
 //! Surfaces that are remeshed, without any document.
 
 use super::collapse::collapse;
+use super::contract::contracted;
 use super::flip::flip;
 use super::slender::slenderness;
 use super::split::split;
@@ -1500,6 +1501,49 @@ fn steps_go_where_faces_are_images_of_each_other() {
             let off = image(p).distance(q);
             assert!(off <= 64.0 * f64::EPSILON * 2.0, "{p} {q}: {off:e}");
         }
+    }
+}
+
+/// Where vertices are joined at both ends of a bar and those that stay were moved at one end only, by as little as counts as one place, they are images of each other
+/// but for rounding afterwards.
+#[test]
+fn what_is_joined_is_where_its_image_says() {
+    let outline = [
+        [1.0, 0.0],
+        [2.0, 0.0],
+        [2.0, 1.009],
+        [1.3, 1.009],
+        [1.3, 1.0],
+        [1.0, 1.0],
+    ];
+    let turn = DMat3::from_rotation_z(0.9);
+    let first = outline.map(|[x, z]| DVec3::new(x, 0.0, z)).to_vec();
+    let second: Vec<DVec3> = first.iter().map(|&p| turn * p).collect();
+    let before = lofted(&[first, second], 4);
+    let links = [Link {
+        pairs: (0..6).map(|v| [v, v + 6]).collect(),
+        labels: Vec::new(),
+        image: Arc::new(move |p| turn * p),
+        back: Arc::new(move |p| turn.transpose() * p),
+    }];
+    let mut places = before.points.clone();
+    for (v, to) in [(4, 3), (10, 9)] {
+        places[v] = before.points[to];
+    }
+    for v in [5, 11] {
+        places[v].z = 1.009;
+    }
+    places[9].z += 5e-11;
+    let free = vec![false; before.points.len()];
+    let bound = vec![0; before.points.len()];
+    let rules = rules(0.02, (&free, &[]), (&bound, &links));
+    let patches = Patches::of_facets(&before, &rules);
+    let made = contracted(&before, &rules, &patches, &places).expect("joined");
+    assert_eq!((made.links[0].len(), made.surface.points.len()), (5, 10));
+    for pair in &made.links[0] {
+        let [p, q] = pair.map(|v| made.surface.points[v as usize]);
+        let off = (turn * p).distance(q);
+        assert!(off <= 64.0 * f64::EPSILON * 2.0, "{p} {q}: {off:e}");
     }
 }
 
