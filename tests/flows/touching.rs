@@ -361,3 +361,57 @@ fn interfaces_are_drawn_once_where_facets_are_not_alike() {
         run("meshqual", &arguments, &mesh).success();
     }
 }
+
+/// The surface of a ball between `count` meridians, which has vertices on these at `bands` steps from pole to pole, the middle ones moved
+/// along them by a share of a step.
+fn globe(radius: f64, count: u32, bands: u32, shift: f64) -> Vec<Facet> {
+    let point = |meridian: u32, band: u32| {
+        let is_pole = band == 0 || band == bands;
+        let step = f64::from(band) + if is_pole { 0.0 } else { shift };
+        let (s, c) = libm::sincos(std::f64::consts::PI * step / f64::from(bands));
+        let (y, x) =
+            libm::sincos(std::f64::consts::TAU * f64::from(meridian % count) / f64::from(count));
+        let s = if is_pole { 0.0 } else { s };
+        [radius * s * x, radius * s * y, radius * c]
+    };
+    let mut facets = Vec::new();
+    for k in 0..count {
+        for band in 0..bands {
+            let [a, b] = [point(k, band), point(k + 1, band)];
+            let [c, d] = [point(k, band + 1), point(k + 1, band + 1)];
+            if band > 0 {
+                facets.push([a, d, b]);
+            }
+            if band + 1 < bands {
+                facets.push([a, c, d]);
+            }
+        }
+    }
+    facets
+}
+
+/// A layer on a ball is thinner than its facets are off the round shape, and they turn so far that meridians are edges: the vertices on
+/// the outside of the layer are no vertices of the ball.
+#[test]
+fn layers_thinner_than_facets_explain() {
+    for (bands, shift, thickness) in [(8, 0.2, 0.03), (8, 0.15, 0.03), (10, 0.3, 0.02)] {
+        let inside = globe(1.0, 11, bands, shift);
+        let inside = inside.into_iter().map(|[a, b, c]| [a, c, b]);
+        let outside = globe(1.0 + thickness, 11, bands, 0.5 * shift);
+        let solids = [
+            ("ball", globe(1.0, 11, bands, 0.0)),
+            ("layer", inside.chain(outside).collect()),
+        ];
+        let found = run("symdetect", &["--allow-asymmetric"], &ascii_stl(&solids));
+        assert!(!found.stderr.contains("overlap"), "{}", found.stderr);
+        let (_, moved) = (found.stderr.split_once("moved by more than ")).expect("a contact");
+        let moved: f64 = moved
+            .lines()
+            .next()
+            .expect("a line")
+            .parse()
+            .expect("a number");
+        assert!(moved < thickness, "{moved}");
+        mesh_of(&solids);
+    }
+}

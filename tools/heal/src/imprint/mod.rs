@@ -22,4 +22,4 @@ pub use faces::{Complex, Faces, Incidence};
 pub use near::{Spot, crossing, is_over};
 pub use overlay::overlay;
 pub use relate::{Reach, is_related};
-pub use settle::{Settled, settle};
+pub use settle::{Claim, Settled, settle};

@@ -2,7 +2,7 @@
 
 use super::faces::Faces;
 use super::redivide::redivided;
-use super::regions::{Match, Regions};
+use super::regions::{Matches, Regions};
 use super::rims::Rims;
 use super::skin::Skin;
 use super::touch::{Facets, Touches};
@@ -18,6 +18,8 @@ pub struct Drawn {
     pub surface: Surface,
     /// How far facets are from those that took their place, and edges from vertices put on them, model units.
     pub largest: f64,
+    /// The pairs of solids that have the same facets, the lower one first.
+    pub pairs: FxHashSet<[u32; 2]>,
 }
 
 /// Makes the facets of curved faces that touch those of one solid, where the contact ends at sharp edges of either; `None` where
@@ -57,7 +59,7 @@ pub fn draw_once(
         }
         .matches();
         if !drawing.touches.keep(&matches.pairs) {
-            return drawing.end(&matches.all);
+            return drawing.end(matches);
         }
         touches = drawing.touches;
     }
@@ -225,7 +227,7 @@ impl<'a> Drawing<'a> {
             if touch.at != Spot::Inside || !is_feature || self.skin.has(v, solid) {
                 continue;
             }
-            if self.skin.insert(v, touch.triangle) {
+            if self.skin.insert(v, touch.triangle, self.facets.equal) {
                 self.added.push(key);
                 self.largest = self.largest.max(touch.height);
             }
@@ -262,13 +264,13 @@ impl<'a> Drawing<'a> {
     }
 
     /// The solids with what was matched.
-    fn end(self, matches: &[Match]) -> Option<Drawn> {
+    fn end(self, matches: Matches) -> Option<Drawn> {
         let surface = self.surface;
         let group = |t: u32| surface.group[self.skin.origin[t as usize] as usize];
         let mut is_dropped = vec![false; self.skin.corners.len()];
         let mut added = Vec::new();
         let mut largest = self.largest;
-        for found in matches {
+        for found in &matches.all {
             let like = found.dropped[0];
             if found.dropped.iter().any(|&t| group(t) != group(like)) {
                 continue;
@@ -324,6 +326,7 @@ impl<'a> Drawing<'a> {
         Some(Drawn {
             surface: made,
             largest,
+            pairs: matches.pairs,
         })
     }
 }

@@ -20,15 +20,19 @@ pub struct Rim {
 pub struct Rims {
     /// Of vertices and solids: the other ends of sharp edges.
     next: FxHashMap<[u32; 2], Vec<u32>>,
+    /// Of vertices and solids: unit normals of the facets at sharp edges.
+    normals: FxHashMap<[u32; 2], Vec<DVec3>>,
 }
 
 impl Rims {
     /// Those of all solids; `solid` has the solid of each facet.
     pub fn new(edges: &Edges, curves: &Curves, solid: &[u32]) -> Self {
         let mut next: FxHashMap<[u32; 2], Vec<u32>> = FxHashMap::default();
+        let mut normals: FxHashMap<[u32; 2], Vec<DVec3>> = FxHashMap::default();
         for (e, &[a, b]) in edges.ends.iter().enumerate() {
             for u in edges.around(e) {
-                if curves.patches[u.triangle as usize].smooth[u.corner as usize] {
+                let patch = &curves.patches[u.triangle as usize];
+                if patch.smooth[u.corner as usize] {
                     continue;
                 }
                 let solid = solid[u.triangle as usize];
@@ -37,15 +41,29 @@ impl Rims {
                     if !list.contains(&w) {
                         list.push(w);
                     }
+                    let list = normals.entry([v, solid]).or_default();
+                    if !list.contains(&patch.normal) {
+                        list.push(patch.normal);
+                    }
                 }
             }
         }
-        Self { next }
+        Self { next, normals }
     }
 
     /// Whether a vertex is on a sharp edge of a solid.
     pub fn has(&self, v: u32, solid: u32) -> bool {
         self.next.contains_key(&[v, solid])
+    }
+
+    /// Whether a facet at a sharp edge of one solid looks at one at a sharp edge of another solid, at these vertices of theirs: the cosine
+    /// between their normals is no more than `most`.
+    pub fn face(&self, one: [u32; 2], other: [u32; 2], most: f64) -> bool {
+        let of = |key| self.normals.get(&key).map_or(&[][..], Vec::as_slice);
+        let others = of(other);
+        of(one)
+            .iter()
+            .any(|n| others.iter().any(|m| n.dot(*m) <= most))
     }
 
     /// The curve behind a sharp edge of a solid, by how it turns where it goes on.

@@ -158,8 +158,9 @@ impl Skin {
         true
     }
 
-    /// Puts a vertex into a facet of before that is only divided since, seen along that; whether the solid does not have it yet.
-    pub fn insert(&mut self, v: u32, facet: u32) -> bool {
+    /// Puts a vertex into a facet of before that is only divided since, seen along that, or onto an edge of it that is within `equal`:
+    /// facets without an area on both sides of one could not be flipped. Whether the solid does not have it yet.
+    pub fn insert(&mut self, v: u32, facet: u32, equal: f64) -> bool {
         let solid = self.solid[facet as usize];
         if self.has(v, solid) {
             return false;
@@ -167,6 +168,9 @@ impl Skin {
         let Some(t) = self.part_at(self.place(v), facet) else {
             return false;
         };
+        if let Some([a, b]) = self.edge_at(self.place(v), t, equal) {
+            return self.divide_edge(a, b, solid, v);
+        }
         let [a, b, c] = self.corners[t as usize];
         self.put(t, [a, b, v]);
         self.add(t, [b, c, v]);
@@ -176,6 +180,18 @@ impl Skin {
             skin.origin[t as usize] == skin.origin[u as usize] && around.has_corner_in_circle()
         });
         true
+    }
+
+    /// The edge of a facet that a place in it is on, if that edge may be flipped.
+    fn edge_at(&self, p: DVec3, t: u32, equal: f64) -> Option<[u32; 2]> {
+        let (corners, solid) = (self.corners[t as usize], self.solid[t as usize]);
+        let edges = [0, 1, 2].map(|i| [corners[i], corners[(i + 1) % 3]]);
+        edges.into_iter().find(|&[a, b]| {
+            let [from, to] = [a, b].map(|v| self.place(v));
+            let across = (p - from).reject_from(to - from);
+            let beside = across.reject_from(self.normal[t as usize]);
+            beside.length() <= equal && !self.is_fixed(a, b, solid)
+        })
     }
 
     /// The part of a facet at a place, or the one that is nearest to it.
@@ -394,6 +410,27 @@ fn coord(frame: &Frame, p: DVec3) -> Coord<f64> {
 mod tests {
     use super::*;
 
+    /// Vertices on an edge, of which one is said to be in the facet on its left and the next one in that on its right.
+    #[test]
+    fn edges_are_divided_from_both_sides() {
+        let mut points: Vec<DVec3> = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]]
+            .map(|[x, y]| DVec3::new(x, y, 0.0))
+            .to_vec();
+        points.extend([1.0, 3.0, 2.0, 0.5].map(|x| DVec3::new(x, x, 0.0)));
+        let border = |t: u32| [t == 0, true, t == 1];
+        let mut skin = Skin::new(points, vec![[0, 1, 2], [0, 2, 3]], vec![0; 2], border);
+        let added: Vec<[u32; 2]> = (4..8).map(|v| [v, 0]).collect();
+        for (v, facet) in (4..8).zip([0, 1, 1, 0]) {
+            assert!(skin.insert(v, facet, 1e-12), "vertex {v}");
+        }
+        skin.settle(&added);
+        for corners in &skin.corners {
+            let [a, b, c] = corners.map(|v| skin.place(v));
+            assert!((b - a).cross(c - a).z > 0.0, "{corners:?}");
+        }
+        assert_eq!(skin.corners.len(), 10);
+    }
+
     /// A square of two facets with vertices in two rows across the diagonal.
     #[test]
     fn edges_are_recovered_across_others() {
@@ -411,9 +448,9 @@ mod tests {
         let mut skin = Skin::new(points, vec![[0, 1, 2], [0, 2, 3]], vec![0; 2], border);
         let facet = |p: DVec3| u32::from(p.y > p.x);
         for v in 4..12 {
-            assert!(skin.insert(v, facet(skin.place(v))), "vertex {v}");
+            assert!(skin.insert(v, facet(skin.place(v)), 1e-9), "vertex {v}");
         }
-        assert!(!skin.insert(4, 0), "it is there");
+        assert!(!skin.insert(4, 0, 1e-9), "it is there");
         assert!(skin.recover(10, 11, 0));
         skin.settle(&[[10, 0], [11, 0]]);
         assert!(skin.side(10, 11, 0).is_some() && skin.side(11, 10, 0).is_some());

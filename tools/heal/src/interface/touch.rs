@@ -186,10 +186,18 @@ impl Facets<'_> {
         if is_beside && !self.rims.has(v, own) {
             return None;
         }
+        // Where two solids end side by side, faces beyond these edges look at each other.
+        let is_met = |ends: [u32; 2]| {
+            let look = |end| self.rims.face([v, own], [end, solid], -FACING_COSINE);
+            !is_beside || ends.into_iter().all(look)
+        };
         let on_sharp = (0..3).filter(|&i| !patch.smooth[i]).find_map(|i| {
+            let ends = [ids[i], ids[(i + 1) % 3]];
+            if !is_met(ends) {
+                return None;
+            }
             let (a, b) = (corners[i], corners[(i + 1) % 3]);
             let along = (p - a).dot(b - a) / (b - a).length_squared();
-            let ends = [ids[i], ids[(i + 1) % 3]];
             let rim = self.rims.rim(ends, solid, &self.complex.points);
             let off = p - (a + (b - a) * along);
             let bent = off.dot(rim.bend);

@@ -4,7 +4,7 @@ use super::solids::Labels;
 use super::surface::{NONE, Surface};
 use crate::contacts::{Changed, Claimed, Contacts, Joined, Overlap};
 use crate::imprint::{
-    Complex, Curves, Faces, Incidence, Reach, Settled, is_related, overlay, settle,
+    Claim, Complex, Curves, Faces, Incidence, Reach, Settled, is_related, overlay, settle,
 };
 use crate::interface::{Drawn, draw_once};
 use crate::meeting::{Met, contacts_within, meetings, meetings_within};
@@ -25,6 +25,8 @@ pub struct Imprinted {
     pub labels: Labels,
     /// What was done.
     pub joined: Joined,
+    /// Of each claim in that: who has the space, and whose it was.
+    claims: Vec<[u32; 2]>,
     /// Whether all that was done is to take out what a single solid has twice, and that is less of it than single
     /// precision tells: noise makes thin layers cross, and what is taken out leaves slivers.
     pub is_slight: bool,
@@ -133,7 +135,8 @@ pub fn imprinted(
 }
 
 /// The complex of solids with interfaces that are drawn once, which is divided where it crosses; `None` where solids cross
-/// themselves that did not, or claim each other's space. `surface` has the solids as they are in the file.
+/// themselves that did not, or some that share facets claim each other's space; others do so only if they did in the file.
+/// `surface` has the solids as they are there.
 fn interfaces_once(
     surface: &Surface,
     once: &Drawn,
@@ -152,7 +155,7 @@ fn interfaces_once(
         moved: once.largest,
     };
     let mut made = attempt(solids, tolerance, flat, &after).ok()?;
-    if !made.is_clean() {
+    if !made.has_all() || made.claimed_between(|pair| once.pairs.contains(&pair)) > 0.0 {
         return None;
     }
     made.joined.volumes = volumes(surface);
@@ -177,8 +180,14 @@ impl Imprinted {
 
     /// The volume that solids claim of each other, model units cubed, but for those that lie inside of others.
     fn claimed(&self) -> f64 {
-        let claims = self.joined.overlaps.iter().filter(|c| !c.nested);
-        claims.map(|c| c.volume).sum()
+        self.claimed_between(|_| true)
+    }
+
+    /// The same of some pairs of solids, which are given with the lower one first.
+    fn claimed_between(&self, some: impl Fn([u32; 2]) -> bool) -> f64 {
+        let claims = self.joined.overlaps.iter().zip(&self.claims);
+        let between = claims.filter(|(c, [a, b])| !c.nested && some([*a.min(b), *a.max(b)]));
+        between.map(|(c, _)| c.volume).sum()
     }
 }
 
@@ -252,8 +261,10 @@ fn attempt(
     let volume: f64 = joined.volumes.iter().map(|v| v.before).sum();
     let is_slight =
         surface.solids.len() == 1 && doubled > 0.0 && doubled <= f64::from(f32::EPSILON) * volume;
+    let thick = thick_overlaps(&settled, tolerance);
     Ok(Imprinted {
         divided: None,
+        claims: thick.map(|c| [c.winner, c.loser]).collect(),
         is_slight,
         labels: labels(&settled, notices),
         surface: sided(surface, complex, &settled),
@@ -421,6 +432,15 @@ fn labels(settled: &Settled, notices: Vec<String>) -> Labels {
     }
 }
 
+/// What solids claim of each other that rounding does not explain.
+fn thick_overlaps<'a>(
+    settled: &'a Settled,
+    tolerance: &Tolerance,
+) -> impl Iterator<Item = &'a Claim> {
+    let equal = tolerance.equal();
+    (settled.overlaps.iter()).filter(move |c| c.thickness > equal)
+}
+
 /// What was done, before volumes afterwards are known.
 fn joined(
     surface: &Surface,
@@ -429,10 +449,7 @@ fn joined(
     tolerance: &Tolerance,
 ) -> Joined {
     let name = |solid: u32| surface.solids[solid as usize].clone();
-    let thick = settled
-        .overlaps
-        .iter()
-        .filter(|c| c.thickness > tolerance.equal());
+    let thick = thick_overlaps(settled, tolerance);
     Joined {
         drawn: None,
         interfaces: settled.triangles.iter().filter(|t| t.2[0] != NONE).count(),
@@ -548,10 +565,7 @@ fn notices(
             short(joined.largest)
         ));
     }
-    for claim in &settled.overlaps {
-        if claim.thickness <= tolerance.equal() {
-            continue;
-        }
+    for claim in thick_overlaps(settled, tolerance) {
         let [winner, loser] = [claim.winner, claim.loser].map(name);
         notices.push(match claim.nested {
             true => format!("{winner} lies inside {loser}: its place is cut out of that"),

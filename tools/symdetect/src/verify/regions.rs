@@ -60,9 +60,9 @@ impl Shape {
         };
         if self.may_exchange
             && self.region_count() > 2
-            && check(None).is_ok()
             && let Some(permutation) = self.vote(&motion, bound)
             && !permutation.is_identity()
+            && check(None).is_ok()
             && let Ok(deviation) = check(Some(&permutation))
         {
             return Ok((deviation, permutation));
