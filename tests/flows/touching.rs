@@ -469,3 +469,17 @@ fn a_shaft_in_a_sleeve_with_windows() {
     let arguments = ["--fail-below", "min_dihedral_deg.min=10"];
     run("meshqual", &arguments, &mesh).success();
 }
+
+/// A cube in the middle of a block that is no larger than what is moved onto cut planes.
+#[test]
+fn regions_of_which_nothing_is_left_are_told() {
+    let block = |half: f64| cuboid([-half; 3], [half; 3]);
+    let solids = [("block", block(1.0)), ("dot", block(1e-3))];
+    let found = run("symdetect", &[], &ascii_stl(&solids)).success();
+    run("wedgecut", &[], &found).success();
+    let told = [
+        "nothing is left of region 2 'dot', of volume 8.0e-9",
+        "--snap",
+    ];
+    run("wedgecut", &["--snap", "1e-2"], &found).fails(1, &told);
+}

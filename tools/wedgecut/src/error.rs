@@ -188,6 +188,21 @@ pub enum CutError {
         /// Largest difference accepted, model units cubed.
         allowed: f64,
     },
+    /// Nothing is left of a region of the body.
+    #[error(
+        "nothing is left of region {region} '{name}', of volume {body:.1e}, in the wedge: points within {within:.1e} of the \
+         axis and of cut planes are moved onto these; leave it out, or move less with --snap, relative to the radius"
+    )]
+    RegionLost {
+        /// Id of the region.
+        region: u32,
+        /// Its name.
+        name: String,
+        /// Volume in the body, model units cubed.
+        body: f64,
+        /// How far points are moved at most, model units.
+        within: f64,
+    },
     /// A hub that cannot be made.
     #[error("there can be no hub of radius {radius}: {reason}; use --hub none or another radius")]
     BadHub {
@@ -226,6 +241,7 @@ impl CutError {
             | Self::NotClosed { .. }
             | Self::VolumeDiffers { .. }
             | Self::RegionVolumeDiffers { .. }
+            | Self::RegionLost { .. }
             | Self::BadHub { .. }
             | Self::Empty => true,
             Self::NoSymmetry

@@ -19,7 +19,7 @@ mod settle;
 pub use curves::{Curves, Patch, bend};
 pub use divide::{Division, Parts};
 pub use faces::{Complex, Faces, Incidence};
-pub use near::{Spot, crossing, is_over};
+pub use near::{Spot, crossing, crossing_along, is_over};
 pub use overlay::overlay;
 pub use relate::{Reach, is_related};
 pub use settle::{Claim, Settled, settle};

@@ -71,9 +71,21 @@ fn beside(p: DVec3, a: DVec3, b: DVec3) -> (f64, f64) {
 /// Where two segments pass each other within a distance, farther than `clear` from the ends of both: the place along
 /// either.
 pub fn crossing(e: [DVec3; 2], f: [DVec3; 2], within: f64, clear: f64) -> Option<[f64; 2]> {
+    let normal = (e[1] - e[0]).cross(f[1] - f[0]);
+    crossing_along(normal, e, f, within, clear)
+}
+
+/// The same where one segment is over the other one along a direction. Two chords of one curved surface that are almost parallel are
+/// nearest to each other far beside that.
+pub fn crossing_along(
+    normal: DVec3,
+    e: [DVec3; 2],
+    f: [DVec3; 2],
+    within: f64,
+    clear: f64,
+) -> Option<[f64; 2]> {
     let (u, v, w) = (e[1] - e[0], f[1] - f[0], f[0] - e[0]);
-    let normal = u.cross(v);
-    let size = normal.length_squared();
+    let size = u.cross(v).dot(normal);
     if size == 0.0 {
         return None;
     }
@@ -110,4 +122,39 @@ pub fn piercing(e: [DVec3; 2], t: &[DVec3; 3], border: [bool; 3], within: f64) -
     };
     let clear = e.iter().all(|x| x.distance(p) > within);
     (clear && (0..3).all(clear_of)).then_some(s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chords of two curves on a cylinder that touch each other, seen from outside: across the axis, and rising a little.
+    #[test]
+    fn chords_that_are_almost_parallel_cross_where_one_is_over_the_other() {
+        let on = |angle: f64, z: f64| DVec3::new(angle.cos(), angle.sin(), z);
+        let level = [on(-0.1, 0.0), on(0.1, 0.0)];
+        let rising = [on(-0.02, -2e-4), on(0.09, 9e-4)];
+        let outwards = on(0.0, 0.0);
+        let passed = |along: [f64; 2]| {
+            let [p, q] = [(level, along[0]), (rising, along[1])].map(|([a, b], t)| a.lerp(b, t));
+            (p - q).reject_from(outwards).length()
+        };
+        let over = crossing_along(outwards, level, rising, 0.1, 0.0).expect("they cross");
+        assert!(passed(over) < 1e-15, "{over:?}");
+        let nearest = crossing(level, rising, 0.1, 0.0);
+        assert!(
+            nearest.is_none_or(|along| passed(along) > 1e-4),
+            "{nearest:?}"
+        );
+        assert!(
+            crossing_along(outwards, level, rising, 1e-4, 0.0).is_none(),
+            "too far apart"
+        );
+        let beyond = [on(0.11, -2e-4), on(0.2, 9e-4)];
+        assert!(crossing_along(outwards, level, beyond, 0.1, 0.0).is_none());
+        assert!(
+            crossing_along(outwards, level, level, 0.1, 0.0).is_none(),
+            "parallel"
+        );
+    }
 }

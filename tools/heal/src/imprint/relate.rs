@@ -2,7 +2,7 @@
 
 use super::curves::Curves;
 use super::faces::{Complex, Faces, Incidence};
-use super::near::{Spot, crossing, is_beside, piercing, spot};
+use super::near::{Spot, crossing, crossing_along, is_beside, piercing, spot};
 use geom::contacts::contact;
 use geom::edges::Edges;
 use geom::sets::DisjointSets;
@@ -425,17 +425,13 @@ impl<'a> Finder<'a> {
         });
         let found = found.or_else(|| {
             let curves = self.reach.curves.filter(|_| others)?;
-            let (along, x, y) = at(crossing(
-                p,
-                q,
-                self.reach.of(s).max(self.reach.of(t)),
-                equal,
-            )?);
+            let normal = curves.patches[s as usize].normal;
+            let reach = self.reach.of(s).max(self.reach.of(t));
+            let (along, x, y) = at(crossing_along(normal, p, q, reach, equal)?);
             let first = curves.edge_over(e, along[0], t, self.edges);
             let second = curves.edge_over(f, along[1], s, self.edges);
             let (first, second) = (first?, second?);
             // Both are under the surface that both stand for; the one that is nearer to it has the point.
-            let normal = curves.patches[s as usize].normal;
             let apart = (x + normal * first.0 - y + normal * second.0)
                 .dot(normal)
                 .abs();

@@ -1,7 +1,7 @@
 //! Where vertices and sharp edges of solids touch curved faces of others.
 
 use super::rims::Rims;
-use crate::imprint::{Complex, Curves, Patch, Spot, crossing};
+use crate::imprint::{Complex, Curves, Patch, Spot, crossing_along};
 use geom::edges::Edges;
 use geom::sets::DisjointSets;
 use geom::smooth::SMOOTH_COSINE;
@@ -356,7 +356,10 @@ impl Finder<'_> {
                 }
                 let [p, q] =
                     [e, f].map(|e| facets.edges.ends[e as usize].map(|v| points[v as usize]));
-                let Some(along) = crossing(p, q, reach.max(facets.equal), facets.equal) else {
+                // They look at each other.
+                let normal = own.normal - other.normal;
+                let reach = reach.max(facets.equal);
+                let Some(along) = crossing_along(normal, p, q, reach, facets.equal) else {
                     continue;
                 };
                 let [x, y] = [

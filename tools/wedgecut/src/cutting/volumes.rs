@@ -43,10 +43,10 @@ impl Whole {
     /// The difference between the body and all copies of `templates`, of which `count` are wedges.
     ///
     /// # Errors
-    /// A larger difference than the symmetry's residual allows, of the whole or of a region.
+    /// A larger difference than the symmetry's residual allows, of the whole or of a region; a region of which nothing is left.
     pub fn compare(
         &self,
-        body: &Body<'_>,
+        of: &Body<'_>,
         templates: &[Template],
         copies: &Copies,
         count: usize,
@@ -65,7 +65,7 @@ impl Whole {
         }
         let wedge: f64 = of_copies.values().sum();
         let relative = (wedge - self.volume).abs() / self.volume.abs();
-        let allowed = body.tolerance.volume(self.area, self.volume);
+        let allowed = of.tolerance.volume(self.area, self.volume);
         if relative > allowed {
             return Err(CutError::VolumeDiffers {
                 copies: count,
@@ -77,9 +77,12 @@ impl Whole {
         }
         let mut displacement =
             displacement_of((wedge - self.volume).abs(), self.volume.abs(), self.area);
-        let known = body.document.displacement();
+        let known = of.document.displacement();
         for ((&region, &body), &area) in self.regions.iter().zip(self.areas.values()) {
             let wedge = of_copies.get(&region).copied().unwrap_or_default();
+            if wedge == 0.0 && body > 0.0 {
+                return Err(lost(of, region, body));
+            }
             let allowed = allowed * self.volume.abs();
             if (wedge - body).abs() > allowed {
                 return Err(CutError::RegionVolumeDiffers {
@@ -97,5 +100,16 @@ impl Whole {
             relative,
             displacement: (displacement - known).max(0.0),
         })
+    }
+}
+
+/// A region of a body of which nothing is left.
+fn lost(of: &Body<'_>, region: u32, body: f64) -> CutError {
+    let named = of.document.regions.iter().find(|r| r.id == region);
+    CutError::RegionLost {
+        region,
+        name: named.map_or_else(String::new, |r| r.name.clone()),
+        body,
+        within: of.tolerance.on_axis().max(of.tolerance.on_plane()),
     }
 }
