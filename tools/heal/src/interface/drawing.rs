@@ -4,7 +4,7 @@ use super::faces::Faces;
 use super::redivide::redivided;
 use super::regions::{Matches, Regions};
 use super::rims::Rims;
-use super::skin::{Behind, Skin};
+use super::skin::Skin;
 use super::touch::{Facets, Touches};
 use crate::imprint::{Complex, Curves, Spot};
 use crate::soup::Surface;
@@ -121,14 +121,7 @@ impl<'a> Drawing<'a> {
             surface.points.clone(),
             corners,
             surface.solid.clone(),
-            |t| {
-                let patch = &facets.curves.patches[t as usize];
-                Behind {
-                    stays: stays[t as usize],
-                    normals: patch.means,
-                    sagitta: patch.sagitta,
-                }
-            },
+            |t| stays[t as usize],
         );
         Some(Self {
             surface,

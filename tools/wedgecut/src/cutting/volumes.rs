@@ -80,9 +80,6 @@ impl Whole {
         let known = of.document.displacement();
         for ((&region, &body), &area) in self.regions.iter().zip(self.areas.values()) {
             let wedge = of_copies.get(&region).copied().unwrap_or_default();
-            if wedge == 0.0 && body > 0.0 {
-                return Err(lost(of, region, body));
-            }
             let allowed = allowed * self.volume.abs();
             if (wedge - body).abs() > allowed {
                 return Err(CutError::RegionVolumeDiffers {
@@ -94,6 +91,10 @@ impl Whole {
                 });
             }
             let of_region = displacement_of((wedge - body).abs(), body.abs(), area);
+            // What is thinner than detail is taken out.
+            if wedge == 0.0 && of_region > of.tolerance.detail() {
+                return Err(lost(of, region, body));
+            }
             displacement = displacement.max(of_region);
         }
         Ok(Difference {
