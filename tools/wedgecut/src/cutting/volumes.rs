@@ -46,7 +46,7 @@ impl Whole {
     /// A larger difference than the symmetry's residual allows, of the whole or of a region; a region of which nothing is left.
     pub fn compare(
         &self,
-        of: &Body<'_>,
+        body: &Body<'_>,
         templates: &[Template],
         copies: &Copies,
         count: usize,
@@ -65,7 +65,7 @@ impl Whole {
         }
         let wedge: f64 = of_copies.values().sum();
         let relative = (wedge - self.volume).abs() / self.volume.abs();
-        let allowed = of.tolerance.volume(self.area, self.volume);
+        let allowed = body.tolerance.volume(self.area, self.volume);
         if relative > allowed {
             return Err(CutError::VolumeDiffers {
                 copies: count,
@@ -77,23 +77,23 @@ impl Whole {
         }
         let mut displacement =
             displacement_of((wedge - self.volume).abs(), self.volume.abs(), self.area);
-        let known = of.document.displacement();
-        for ((&region, &body), &area) in self.regions.iter().zip(self.areas.values()) {
+        let known = body.document.displacement();
+        for ((&region, &volume), &area) in self.regions.iter().zip(self.areas.values()) {
             let wedge = of_copies.get(&region).copied().unwrap_or_default();
             let allowed = allowed * self.volume.abs();
-            if (wedge - body).abs() > allowed {
+            if (wedge - volume).abs() > allowed {
                 return Err(CutError::RegionVolumeDiffers {
                     region,
                     copies: count,
                     wedge,
-                    body,
+                    body: volume,
                     allowed,
                 });
             }
-            let of_region = displacement_of((wedge - body).abs(), body.abs(), area);
+            let of_region = displacement_of((wedge - volume).abs(), volume.abs(), area);
             // What is thinner than detail is taken out.
-            if wedge == 0.0 && of_region > of.tolerance.detail() {
-                return Err(lost(of, region, body));
+            if wedge == 0.0 && of_region > body.tolerance.detail() {
+                return Err(lost(body, region, volume));
             }
             displacement = displacement.max(of_region);
         }
@@ -104,13 +104,13 @@ impl Whole {
     }
 }
 
-/// A region of a body of which nothing is left.
-fn lost(of: &Body<'_>, region: u32, body: f64) -> CutError {
-    let named = of.document.regions.iter().find(|r| r.id == region);
+/// The error of a region of a body, with this volume, of which nothing is left.
+fn lost(body: &Body<'_>, region: u32, volume: f64) -> CutError {
+    let named = body.document.regions.iter().find(|r| r.id == region);
     CutError::RegionLost {
         region,
         name: named.map_or_else(String::new, |r| r.name.clone()),
-        body,
-        within: of.tolerance.on_axis().max(of.tolerance.on_plane()),
+        body: volume,
+        within: body.tolerance.on_axis().max(body.tolerance.on_plane()),
     }
 }
