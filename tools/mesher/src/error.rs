@@ -100,6 +100,18 @@ pub enum Error {
         /// What is wrong, with numbers and a place.
         what: String,
     },
+    /// The mesh has a triangle of the surface that a copy has as well.
+    #[error(
+        "the mesh of template {template} is unusable: a triangle beside wall '{wall}' lies on it near {place}; {ADVICE}"
+    )]
+    Doubled {
+        /// Template index.
+        template: usize,
+        /// Name of the wall.
+        wall: String,
+        /// Its middle.
+        place: Place,
+    },
 }
 
 /// What to try when it is not known what is wrong.
@@ -128,9 +140,11 @@ impl Error {
             | Self::Open { .. }
             | Self::MixedCell { .. }
             | Self::Unbounded { .. } => Fault::Input,
-            Self::TooMany { .. } | Self::Walls(_) | Self::Mesher { .. } | Self::Unusable { .. } => {
-                Fault::Impossible
-            }
+            Self::TooMany { .. }
+            | Self::Walls(_)
+            | Self::Mesher { .. }
+            | Self::Unusable { .. }
+            | Self::Doubled { .. } => Fault::Impossible,
         }
     }
 
@@ -138,7 +152,7 @@ impl Error {
     pub fn is_chance(&self) -> bool {
         match self {
             Self::Mesher { failure, .. } => failure.kind == FailureKind::Chance,
-            Self::Unusable { .. } => true,
+            Self::Unusable { .. } | Self::Doubled { .. } => true,
             _ => false,
         }
     }

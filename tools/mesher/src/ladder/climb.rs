@@ -56,6 +56,16 @@ impl Left<'_> {
     }
 }
 
+/// How an attempt ended that gave no mesh, what is answered first before what is.
+fn endings(error: &Error) -> &'static [Ending] {
+    match error {
+        Error::Doubled { .. } => &[Ending::Doubled, Ending::Chance],
+        _ if error.is_chance() && error.is_of_recovery() => &[Ending::Chance, Ending::Recovery],
+        _ if error.is_chance() => &[Ending::Chance],
+        _ => &[],
+    }
+}
+
 impl Climb<'_> {
     /// Makes attempts, this one first, until the rule ends them: at most one more than there are rungs. `take`
     /// makes something of a mesh, or says why it cannot be used.
@@ -90,14 +100,7 @@ impl Climb<'_> {
                 },
                 Err(broken) => broken,
             };
-            let recovery = error.is_of_recovery();
-            let change = match error.is_chance() {
-                true => left.next(Ending::Chance).or_else(|| {
-                    let next = recovery.then(|| left.next(Ending::Recovery));
-                    next.flatten()
-                }),
-                false => None,
-            };
+            let change = endings(&error).iter().find_map(|&e| left.next(e));
             let Some(change) = change else {
                 return Err(match plc {
                     Some(plc) => self.located(error, &plc),

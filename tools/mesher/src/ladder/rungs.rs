@@ -11,6 +11,8 @@ pub enum Ending {
     Chance,
     /// The mesher failed so, in every description, while it put the surface into its mesh.
     Recovery,
+    /// A triangle of the mesh is one that copies have as well: an uneven facet was divided so.
+    Doubled,
     /// All points that may be added were used, on edges not much shorter than the surface's: the mesh is to be that large.
     Large,
     /// All points that may be added were used, and heap up at sharp places.
@@ -61,6 +63,7 @@ const fn describe(order: Order, stir: Option<f64>, rounds_from: Option<u32>) -> 
 /// - Where points heap up, refinement would not end: Delaunay refinement is sure to end for radius-edge bounds of 2 and above
 ///   without a bound of the angle, if no angle of the input is acute (Shewchuk, "Tetrahedral mesh generation by
 ///   Delaunay refinement", 1998). Acute ones are left to the last limit, some points for each of the surface.
+/// - What is divided within an uneven facet is divided otherwise where that is none.
 /// - Equivalent descriptions of the surface are draws of the same lot. Of 72 open vias with films of 1e-4 to 7e-4 at orders
 ///   24 to 64 the first failed for 10, and the third for none; the others came with ten thousand random bodies. An
 ///   order by itself is another draw; a stir breaks up points that are cospherical or coplanar up to the rounding of a file,
@@ -70,11 +73,18 @@ const fn describe(order: Order, stir: Option<f64>, rounds_from: Option<u32>) -> 
 ///   coplanar triangles, are for surfaces on which flattening or merging is what fails.
 /// - Where all of them fail, it is TetGen's points on segments that do, in gaps of a hundred-thousandth of the body between curved faces:
 ///   without any, the surface can be filled, if not as well.
-pub const LADDER: [Rung; 12] = [
+pub const LADDER: [Rung; 13] = [
     rung(Ending::Large, Change::AllowMore),
     rung(Ending::Large, Change::AllowMore),
     rung(Ending::Heaped, Change::Loosen),
     rung(Ending::Heaped, Change::Stop),
+    rung(
+        Ending::Doubled,
+        Change::Describe(Description {
+            apart: true,
+            ..Description::PLAIN
+        }),
+    ),
     describe(Order::Reversed, Some(1e-9), Some(0)),
     describe(Order::FromTheMiddle, Some(1e-7), Some(4)),
     rung(

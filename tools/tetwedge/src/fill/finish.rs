@@ -1,6 +1,7 @@
 //! Improvement of a filled template, and the checks of all of it.
 
 use super::answer::{Origin, put_onto_relief};
+use super::doubled::doubled;
 use super::filled::Filled;
 use super::measures::{volumes, walls};
 use super::orientations::orientations;
@@ -18,7 +19,7 @@ use tmesh::Template;
 /// unless triangles meet then that did not, or sizes change that are to stay.
 ///
 /// # Errors
-/// [`Error::Unusable`] when anything that must hold does not.
+/// [`Error::Unusable`] or [`Error::Doubled`] when anything that must hold does not.
 pub fn finish(
     (climb, footing): (&Climb<'_>, Option<&Footing>),
     plc: &Plc,
@@ -82,6 +83,7 @@ pub fn finish(
     orientations(template, origin.first_new, reach).map_err(unusable)?;
     let diagonal = climb.piece.document.diagonal();
     separation(template, climb.piece.index, diagonal).map_err(unusable)?;
+    doubled(template, climb.piece.index, &origin.faces)?;
     // What has slid was held against the input before.
     let surface = if filled.has_slid { template } else { input };
     volumes(surface, plc, template).map_err(unusable)?;

@@ -1,6 +1,7 @@
 //! From the mesher's answer back to a template: numbered, its walls restored, improved, checked.
 
 mod answer;
+mod doubled;
 mod filled;
 mod finish;
 mod measures;

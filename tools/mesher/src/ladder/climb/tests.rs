@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Asks, Elements, LADDER, Mesh, Task};
+use crate::{Asks, Description, Elements, LADDER, Mesh, Task};
 use glam::DVec3;
 use std::sync::Mutex;
 use tmesh::{Document, OUTSIDE, Region, Template, Triangle, Wishes};
@@ -108,14 +108,14 @@ fn document() -> Document {
 
 /// Climbs until a mesh is taken; gives the number of its run.
 fn climb(mesher: &Scripted, rungs: &[Rung], timeout: Option<Duration>) -> Result<usize, Error> {
-    take(mesher, rungs, timeout, |_| mesher.runs())
+    take(mesher, rungs, timeout, |_| Ok(mesher.runs()))
 }
 
 fn take<T>(
     mesher: &Scripted,
     rungs: &[Rung],
     timeout: Option<Duration>,
-    what: impl Fn(Answer) -> T,
+    what: impl Fn(Answer) -> Result<T, Error>,
 ) -> Result<T, Error> {
     let document = document();
     let params = Params {
@@ -133,9 +133,7 @@ fn take<T>(
         mesher,
         log: Log::new(&|_| ()),
     };
-    climb.climb(Attempt::new(Asks::Eased([1.1, 0.5])), |answer| {
-        Ok(what(answer))
-    })
+    climb.climb(Attempt::new(Asks::Eased([1.1, 0.5])), what)
 }
 
 #[test]
@@ -184,7 +182,7 @@ fn failures_by_chance_get_other_descriptions_until_the_ladder_ends() {
         step: "Constrained Delaunay",
         ..Scripted::new(&vec![FailureKind::Chance; 1 + descriptions])
     };
-    let told = take(&mesher, &LADDER, None, |answer| answer.advice);
+    let told = take(&mesher, &LADDER, None, |answer| Ok(answer.advice));
     let told = told.unwrap().unwrap();
     assert!(told.contains("added none"), "{told}");
     let asked = mesher.asked.into_inner().unwrap();
@@ -195,6 +193,30 @@ fn failures_by_chance_get_other_descriptions_until_the_ladder_ends() {
     let mesher = Scripted::new(&[FailureKind::Chance]);
     assert!(climb(&mesher, &[], None).is_err());
     assert_eq!(mesher.runs(), 1);
+}
+
+#[test]
+fn what_copies_have_as_well_is_divided_otherwise_at_once() {
+    let mesher = Scripted::new(&[]);
+    let made = take(&mesher, &LADDER, None, |_| match mesher.runs() {
+        run @ 1..3 => Err(Error::Doubled {
+            template: 0,
+            wall: format!("wall of run {run}"),
+            place: Place(DVec3::ZERO),
+        }),
+        run => Ok(run),
+    });
+    assert_eq!(made.unwrap(), 3);
+    // First in the same order, then as after any other failure.
+    let asked = mesher.asked.into_inner().unwrap();
+    let orders: Vec<&[u32]> = asked.iter().map(|(_, points)| &points[..]).collect();
+    assert_eq!(orders, [[0, 1, 2, 3], [0, 1, 2, 3], [3, 2, 1, 0]]);
+    let doubled = LADDER.iter().find(|r| r.after == Ending::Doubled);
+    let apart = Description {
+        apart: true,
+        ..Description::PLAIN
+    };
+    assert_eq!(doubled.map(|r| r.change), Some(Change::Describe(apart)));
 }
 
 #[test]
