@@ -42,11 +42,12 @@ fn random_bladed_bodies_are_meshed_and_checked() {
 fn surfaces_stay_within_the_deviation_asked_for() {
     let mended = [
         // Filling uneven facets that meet at a small angle makes them cross.
-        9_400_049, // TetGen's walk goes in circles while it refines.
+        9_400_049,  // TetGen's walk goes in circles while it refines.
         9_401_263, // Closing a gap that coarse facets would explain makes solids overlap that do not.
         9_901_334, // A small piece lies between a curved seam and its chords.
         9_902_529, // The mesher divides an uneven facet between three points of its outline on a mirror plane.
-        10_237_822,
+        10_237_822, // A corner on a seam moves to where its image is that stays, which is no image to the bit of where it came from.
+        10_238_498,
     ];
     all_are_meshed(Kind::Solids, true, (1..=16).chain(mended));
 }

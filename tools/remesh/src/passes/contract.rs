@@ -107,8 +107,14 @@ impl Contraction<'_> {
         none(wrong)
     }
 
-    /// Puts what was moved exactly where its images say, of which those that were not moved stay.
+    /// Puts what was moved exactly where its images say, of which those that were not moved stay but for rounding.
     fn align_images(&mut self) {
+        self.align_to_kept();
+        self.align_forth();
+    }
+
+    /// Puts what was moved where the images of what was not moved say, there or back, or those of the first that was.
+    fn align_to_kept(&mut self) {
         let mut beside: BTreeMap<u32, Vec<(u32, &Place)>> = BTreeMap::new();
         for link in self.rules.links {
             for pair in &link.pairs {
@@ -133,6 +139,39 @@ impl Contraction<'_> {
                         open.push(*w);
                     }
                 }
+            }
+        }
+    }
+
+    /// Puts images of what was moved, and what was moved if it is one, where links say to the bit: an image of what goes back
+    /// need not be where it was.
+    fn align_forth(&mut self) {
+        let mut forth: BTreeMap<u32, Vec<(u32, &Place)>> = BTreeMap::new();
+        let mut is_image = vec![false; self.places.len()];
+        for link in self.rules.links {
+            for pair in &link.pairs {
+                let [v, w] = pair.map(|v| self.of[v as usize]);
+                if v != w {
+                    forth.entry(v).or_default().push((w, &link.image));
+                    is_image[w as usize] = true;
+                }
+            }
+        }
+        let firsts = forth.keys().filter(|&&v| !is_image[v as usize]);
+        let mut open: Vec<u32> = firsts.copied().collect();
+        let mut is_put = vec![false; self.places.len()];
+        let mut moves = self.is_moved.clone();
+        while let Some(v) = open.pop() {
+            for (w, place) in forth.get(&v).into_iter().flatten() {
+                let [from, to] = [v, *w].map(|v| v as usize);
+                if std::mem::replace(&mut is_put[to], true) {
+                    continue;
+                }
+                if moves[from] || moves[to] {
+                    moves[to] = true;
+                    self.places[to] = place(self.places[from]);
+                }
+                open.push(*w);
             }
         }
     }

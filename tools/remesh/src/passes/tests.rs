@@ -1516,7 +1516,7 @@ fn what_is_joined_is_where_its_image_says() {
         [1.3, 1.0],
         [1.0, 1.0],
     ];
-    let turn = DMat3::from_rotation_z(0.9);
+    let turn = DMat3::from_rotation_z(0.94);
     let first = outline.map(|[x, z]| DVec3::new(x, 0.0, z)).to_vec();
     let second: Vec<DVec3> = first.iter().map(|&p| turn * p).collect();
     let before = lofted(&[first, second], 4);
@@ -1534,6 +1534,10 @@ fn what_is_joined_is_where_its_image_says() {
         places[v].z = 1.009;
     }
     places[9].z += 5e-11;
+    // Of these the first is moved, and its image is where nothing is taken to the bit by way of where it came from.
+    for v in [0, 1, 2] {
+        places[v].z += 5e-11;
+    }
     let free = vec![false; before.points.len()];
     let bound = vec![0; before.points.len()];
     let rules = rules(0.02, (&free, &[]), (&bound, &links));
@@ -1542,8 +1546,7 @@ fn what_is_joined_is_where_its_image_says() {
     assert_eq!((made.links[0].len(), made.surface.points.len()), (5, 10));
     for pair in &made.links[0] {
         let [p, q] = pair.map(|v| made.surface.points[v as usize]);
-        let off = (turn * p).distance(q);
-        assert!(off <= 64.0 * f64::EPSILON * 2.0, "{p} {q}: {off:e}");
+        assert_eq!(turn * p, q);
     }
 }
 
