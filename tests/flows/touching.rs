@@ -429,3 +429,57 @@ fn regions_of_which_nothing_is_left_are_told() {
     ];
     run("wedgecut", &["--snap", "1e-2"], &found).fails(1, &told);
 }
+
+/// A sleeve around the z axis from `radii[0]` to `radii[1]`, of cells: as many around the axis as are given, and in rows of a height; without
+/// those that are `open`, by their number around the axis and their row.
+fn windowed(
+    radii: [f64; 2],
+    (around, rows, height): (u32, u32, f64),
+    open: impl Fn(u32, u32) -> bool,
+) -> Vec<Facet> {
+    let point = |radius: f64, [k, row]: [u32; 2]| {
+        let (s, c) =
+            libm::sincos(std::f64::consts::TAU * f64::from(k % around) / f64::from(around));
+        [radius * c, radius * s, height * f64::from(row)]
+    };
+    let is_full = |k: u32, row: u32| row < rows && !open(k % around, row);
+    let mut facets = Vec::new();
+    let mut quad = |[a, b, c, d]: [[f64; 3]; 4]| facets.extend([[a, b, c], [a, c, d]]);
+    for k in 0..around {
+        for row in (0..rows).filter(|&row| is_full(k, row)) {
+            let cell = [[k, row], [k + 1, row], [k + 1, row + 1], [k, row + 1]];
+            let [inner, outer] = radii.map(|radius| cell.map(|at| point(radius, at)));
+            quad(outer);
+            quad([inner[3], inner[2], inner[1], inner[0]]);
+            let below = row > 0 && is_full(k, row - 1);
+            let next = [is_full(k + 1, row), is_full(k, row + 1)];
+            let sides = [below, next[0], next[1], is_full(k + around - 1, row)];
+            for (i, _) in sides.iter().enumerate().filter(|side| !side.1) {
+                let j = (i + 1) % 4;
+                quad([outer[j], outer[i], inner[i], inner[j]]);
+            }
+        }
+    }
+    facets
+}
+
+/// The shaft has long facets, and between windows of the sleeve nothing of it but what is imprinted there: facets from one window to
+/// another are chords across several of its own, and far from the sleeve.
+#[test]
+fn a_shaft_in_a_sleeve_with_windows() {
+    let shaft = Circle {
+        radius: 1.0,
+        corners: 63,
+        phase: 0.3,
+    };
+    let open = |k: u32, row: u32| row % 2 == 1 && (k + row) % 4 == 0;
+    let solids = [
+        ("shaft", cylinder(shaft, [0.0, 2.8])),
+        ("sleeve", windowed([1.0, 1.2], (40, 7, 0.4), open)),
+    ];
+    let found = run("symdetect", &[], &ascii_stl(&solids));
+    assert!(found.stderr.contains("drawn once"), "{}", found.stderr);
+    let mesh = mesh_of(&solids);
+    let arguments = ["--fail-below", "min_dihedral_deg.min=10"];
+    run("meshqual", &arguments, &mesh).success();
+}

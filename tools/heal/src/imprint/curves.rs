@@ -18,6 +18,8 @@ pub struct Patch {
     corners: [DVec3; 3],
     /// Unit normal of the facet.
     pub normal: DVec3,
+    /// Unit normals of the surface at the corners: the mean ones of the facets around them.
+    pub means: [DVec3; 3],
     /// Of the edge that begins at each corner: eight times the height of the patch over its middle.
     bends: [f64; 3],
     /// Whether the surface goes on smoothly beyond the edge that begins at each corner.
@@ -159,7 +161,7 @@ fn patch(
     around: &[Vec<FlatPart>],
 ) -> Patch {
     let corners = complex.corners(t as u32);
-    let mean = complex.triangles[t].map(|v| {
+    let means = complex.triangles[t].map(|v| {
         let smooth = (around[v as usize].iter())
             .filter(|part| part.solid == solid && part.normal.dot(normal) >= SMOOTH_COSINE);
         smooth
@@ -169,21 +171,27 @@ fn patch(
     });
     let bends = [0, 1, 2].map(|i| {
         let j = (i + 1) % 3;
-        let along = corners[j] - corners[i];
-        let [back, ahead] = [-mean[i].dot(along), mean[j].dot(along)];
-        // Where the surface ends, the mean normal is the facet's own.
-        2.0 * if back.abs() > ahead.abs() {
-            back
-        } else {
-            ahead
-        }
+        bend([corners[i], corners[j]], [means[i], means[j]])
     });
     Patch {
         corners,
         normal,
+        means,
         bends,
         smooth: [false; 3],
         sagitta: bends.into_iter().map(f64::abs).fold(0.0, f64::max) / 8.0,
+    }
+}
+
+/// Eight times the height of a surface over the middle of an edge, by the unit normals at its ends.
+pub fn bend([from, to]: [DVec3; 2], [first, second]: [DVec3; 2]) -> f64 {
+    let along = to - from;
+    let [back, ahead] = [-first.dot(along), second.dot(along)];
+    // Where the surface ends, the mean normal is the facet's own.
+    2.0 * if back.abs() > ahead.abs() {
+        back
+    } else {
+        ahead
     }
 }
 

@@ -16,7 +16,7 @@ mod overlay;
 mod relate;
 mod settle;
 
-pub use curves::{Curves, Patch};
+pub use curves::{Curves, Patch, bend};
 pub use divide::{Division, Parts};
 pub use faces::{Complex, Faces, Incidence};
 pub use near::{Spot, crossing, crossing_along, is_over};

@@ -4,7 +4,7 @@ use super::faces::Faces;
 use super::redivide::redivided;
 use super::regions::{Matches, Regions};
 use super::rims::Rims;
-use super::skin::Skin;
+use super::skin::{Behind, Skin};
 use super::touch::{Facets, Touches};
 use crate::imprint::{Complex, Curves, Spot};
 use crate::soup::Surface;
@@ -121,7 +121,14 @@ impl<'a> Drawing<'a> {
             surface.points.clone(),
             corners,
             surface.solid.clone(),
-            |t| stays[t as usize],
+            |t| {
+                let patch = &facets.curves.patches[t as usize];
+                Behind {
+                    stays: stays[t as usize],
+                    normals: patch.means,
+                    sagitta: patch.sagitta,
+                }
+            },
         );
         Some(Self {
             surface,
@@ -260,7 +267,7 @@ impl<'a> Drawing<'a> {
                 }
             }
         }
-        self.skin.settle(&self.added);
+        self.skin.settle(&self.added, self.facets.equal);
     }
 
     /// The solids with what was matched.

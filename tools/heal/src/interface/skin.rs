@@ -1,5 +1,6 @@
 //! The facets of closed solids, which can be divided and flipped.
 
+use crate::imprint::bend;
 use geom::cdt::Frame;
 use geom::smooth::SMOOTH_COSINE;
 use glam::DVec3;
@@ -19,6 +20,10 @@ pub struct Skin {
     pub solid: Vec<u32>,
     /// Unit vectors that each is seen along, of the surface behind it: facets between vertices on one line are steep.
     normal: Vec<DVec3>,
+    /// Unit normals of the surface behind each at its corners.
+    normals: Vec<[DVec3; 3]>,
+    /// How far the surface behind each facet of before is from that, model units.
+    sagitta: Vec<f64>,
     /// The facet of a solid that has an edge in this direction: start, end, solid.
     sides: FxHashMap<[u32; 3], u32>,
     /// A facet of a solid at a vertex.
@@ -26,6 +31,19 @@ pub struct Skin {
     /// Edges that stay: lower end, higher end, solid.
     fixed: FxHashSet<[u32; 3]>,
 }
+
+/// What is known of a facet.
+pub struct Behind {
+    /// Which of its edges stay.
+    pub stays: [bool; 3],
+    /// Unit normals of the surface behind it at its corners.
+    pub normals: [DVec3; 3],
+    /// How far that surface is from it at most, model units.
+    pub sagitta: f64,
+}
+
+/// A corner of a facet, and the unit normal of the surface there.
+type Corner = (u32, DVec3);
 
 /// What is around an edge.
 struct Around {
@@ -49,13 +67,18 @@ impl Around {
 /// some ten facets from where one begins to look.
 const STEPS: usize = 2000;
 
+/// How many times as far off the surface as facets of before an edge is that is about as near: the chord of one facet is once
+/// as far off, that across two is four times. Between both, so that facets that are alike around an axis are judged alike
+/// whatever rounding makes of them.
+const NEAR: f64 = 2.0;
+
 impl Skin {
-    /// The facets with indices `some`, of solids that are closed and oriented; `is_fixed` tells of each facet which edges stay.
+    /// The facets of solids that are closed and oriented; `behind` tells of each what is known of it.
     pub fn new(
         points: Vec<DVec3>,
         corners: Vec<[u32; 3]>,
         solid: Vec<u32>,
-        is_fixed: impl Fn(u32) -> [bool; 3],
+        behind: impl Fn(u32) -> Behind,
     ) -> Self {
         let mut skin = Self {
             points,
@@ -63,6 +86,8 @@ impl Skin {
             corners: Vec::new(),
             solid: Vec::new(),
             normal: Vec::new(),
+            normals: Vec::new(),
+            sagitta: Vec::new(),
             sides: FxHashMap::default(),
             at: FxHashMap::default(),
             fixed: FxHashSet::default(),
@@ -74,9 +99,12 @@ impl Skin {
             let [a, b, c] = corners.map(|v| skin.place(v));
             let normal = (b - a).cross(c - a).normalize_or_zero();
             skin.normal.push(normal);
+            let behind = behind(t);
+            skin.normals.push(behind.normals);
+            skin.sagitta.push(behind.sagitta);
             skin.enter(t);
-            for (i, fixed) in is_fixed(t).into_iter().enumerate() {
-                if fixed {
+            for (i, stays) in behind.stays.into_iter().enumerate() {
+                if stays {
                     skin.fix(corners[i], corners[(i + 1) % 3], solid);
                 }
             }
@@ -121,13 +149,32 @@ impl Skin {
         self.points[v as usize]
     }
 
-    fn put(&mut self, t: u32, corners: [u32; 3]) {
-        self.corners[t as usize] = corners;
+    /// A corner of a facet with its normal there.
+    fn corner(&self, t: u32, v: u32) -> Corner {
+        let corners = self.corners[t as usize];
+        let i = corners.iter().position(|&c| c == v).unwrap_or(0);
+        (v, self.normals[t as usize][i])
+    }
+
+    /// A vertex on or in a facet as a corner: with normals between those of the facet's corners.
+    fn corner_within(&self, t: u32, v: u32) -> Corner {
+        let [a, b, c] = self.corners[t as usize].map(|v| self.place(v));
+        let (p, normal) = (self.place(v), self.normal[t as usize]);
+        let part = |u: DVec3, v: DVec3| (u - p).cross(v - p).dot(normal).max(0.0);
+        let [x, y, z] = self.normals[t as usize];
+        let mean = x * part(b, c) + y * part(c, a) + z * part(a, b);
+        (v, mean.try_normalize().unwrap_or(normal))
+    }
+
+    fn put(&mut self, t: u32, corners: [Corner; 3]) {
+        self.corners[t as usize] = corners.map(|c| c.0);
+        self.normals[t as usize] = corners.map(|c| c.1);
         self.enter(t);
     }
 
-    fn add(&mut self, like: u32, corners: [u32; 3]) {
-        self.corners.push(corners);
+    fn add(&mut self, like: u32, corners: [Corner; 3]) {
+        self.corners.push(corners.map(|c| c.0));
+        self.normals.push(corners.map(|c| c.1));
         self.origin.push(self.origin[like as usize]);
         self.solid.push(self.solid[like as usize]);
         self.normal.push(self.normal[like as usize]);
@@ -147,10 +194,12 @@ impl Skin {
         }
         self.sides.remove(&[a, b, solid]);
         self.sides.remove(&[b, a, solid]);
-        self.put(t, [a, v, c]);
-        self.add(t, [v, b, c]);
-        self.put(u, [v, a, d]);
-        self.add(u, [b, v, d]);
+        for (t, [from, to, apex]) in [(t, [a, b, c]), (u, [b, a, d])] {
+            let [from, to, apex] = [from, to, apex].map(|v| self.corner(t, v));
+            let middle = self.corner_within(t, v);
+            self.put(t, [from, middle, apex]);
+            self.add(t, [middle, to, apex]);
+        }
         if self.is_fixed(a, b, solid) {
             self.fix(a, v, solid);
             self.fix(v, b, solid);
@@ -172,9 +221,11 @@ impl Skin {
             return self.divide_edge(a, b, solid, v);
         }
         let [a, b, c] = self.corners[t as usize];
-        self.put(t, [a, b, v]);
-        self.add(t, [b, c, v]);
-        self.add(t, [c, a, v]);
+        let [x, y, z] = [a, b, c].map(|v| self.corner(t, v));
+        let middle = self.corner_within(t, v);
+        self.put(t, [x, y, middle]);
+        self.add(t, [y, z, middle]);
+        self.add(t, [z, x, middle]);
         self.legalize(vec![[a, b], [b, c], [c, a]], solid, |skin, around| {
             let [t, u] = around.facets;
             skin.origin[t as usize] == skin.origin[u as usize] && around.has_corner_in_circle()
@@ -219,7 +270,7 @@ impl Skin {
 
     /// Flips edges around vertices that were put in, which are given, until facets that stand for one surface are as those of a Delaunay
     /// triangulation, seen along both.
-    pub fn settle(&mut self, vertices: &[[u32; 2]]) {
+    pub fn settle(&mut self, vertices: &[[u32; 2]], equal: f64) {
         for &[v, solid] in vertices {
             let edges = self.fan(v, solid).into_iter().flat_map(|t| {
                 let corners = self.corners[t as usize];
@@ -227,9 +278,26 @@ impl Skin {
             });
             let edges = edges.collect();
             self.legalize(edges, solid, |skin, around| {
-                around.has_corner_in_circle() && skin.stays_flat(around)
+                around.has_corner_in_circle()
+                    && skin.stays_flat(around)
+                    && skin.stays_near(around, equal)
             });
         }
+    }
+
+    /// Whether an edge that a flip makes is about as near to the surface as facets of before were there, or far nearer than the one before: a
+    /// chord across several of these would not be.
+    fn stays_near(&self, around: &Around, equal: f64) -> bool {
+        let ([t, u], [a, b, c, d]) = (around.facets, around.corners);
+        let off = |[p, q]: [Corner; 2]| {
+            let ends = [p, q].map(|c| self.place(c.0));
+            bend(ends, [p, q].map(|c| c.1)).abs() / 8.0
+        };
+        let before = [t, u].map(|t| self.sagitta[self.origin[t as usize] as usize]);
+        let explained = equal.max(NEAR * before[0].max(before[1]));
+        let new = off([self.corner(t, c), self.corner(u, d)]);
+        let old = [t, u].map(|t| off([a, b].map(|v| self.corner(t, v))));
+        new <= explained || NEAR * new <= old[0].max(old[1])
     }
 
     /// Whether the facets that a flip makes are turned against those of before by no more than is smooth.
@@ -277,8 +345,10 @@ impl Skin {
         }
         self.sides.remove(&[a, b, solid]);
         self.sides.remove(&[b, a, solid]);
-        self.put(t, [a, d, c]);
-        self.put(u, [d, b, c]);
+        let [from, left] = [a, c].map(|v| self.corner(t, v));
+        let [to, right] = [b, d].map(|v| self.corner(u, v));
+        self.put(t, [from, right, left]);
+        self.put(u, [right, to, left]);
         let normal = self.normal[t as usize] + self.normal[u as usize];
         for t in [t, u] {
             self.normal[t as usize] = normal.normalize_or_zero();
@@ -410,6 +480,15 @@ fn coord(frame: &Frame, p: DVec3) -> Coord<f64> {
 mod tests {
     use super::*;
 
+    /// Two facets of a square, of something flat.
+    fn square(t: u32) -> Behind {
+        Behind {
+            stays: [t == 0, true, t == 1],
+            normals: [DVec3::Z; 3],
+            sagitta: 0.1,
+        }
+    }
+
     /// Vertices on an edge, of which one is said to be in the facet on its left and the next one in that on its right.
     #[test]
     fn edges_are_divided_from_both_sides() {
@@ -417,13 +496,12 @@ mod tests {
             .map(|[x, y]| DVec3::new(x, y, 0.0))
             .to_vec();
         points.extend([1.0, 3.0, 2.0, 0.5].map(|x| DVec3::new(x, x, 0.0)));
-        let border = |t: u32| [t == 0, true, t == 1];
-        let mut skin = Skin::new(points, vec![[0, 1, 2], [0, 2, 3]], vec![0; 2], border);
+        let mut skin = Skin::new(points, vec![[0, 1, 2], [0, 2, 3]], vec![0; 2], square);
         let added: Vec<[u32; 2]> = (4..8).map(|v| [v, 0]).collect();
         for (v, facet) in (4..8).zip([0, 1, 1, 0]) {
             assert!(skin.insert(v, facet, 1e-12), "vertex {v}");
         }
-        skin.settle(&added);
+        skin.settle(&added, 1e-12);
         for corners in &skin.corners {
             let [a, b, c] = corners.map(|v| skin.place(v));
             assert!((b - a).cross(c - a).z > 0.0, "{corners:?}");
@@ -444,15 +522,14 @@ mod tests {
         let rows = [1.0, 2.0, 3.0].map(|x| [place(x, 1.5), place(x, 2.5)]);
         points.extend(rows.as_flattened());
         points.extend([place(0.5, 2.0), place(3.5, 2.1)]);
-        let border = |t: u32| [t == 0, true, t == 1];
-        let mut skin = Skin::new(points, vec![[0, 1, 2], [0, 2, 3]], vec![0; 2], border);
+        let mut skin = Skin::new(points, vec![[0, 1, 2], [0, 2, 3]], vec![0; 2], square);
         let facet = |p: DVec3| u32::from(p.y > p.x);
         for v in 4..12 {
             assert!(skin.insert(v, facet(skin.place(v)), 1e-9), "vertex {v}");
         }
         assert!(!skin.insert(4, 0, 1e-9), "it is there");
         assert!(skin.recover(10, 11, 0));
-        skin.settle(&[[10, 0], [11, 0]]);
+        skin.settle(&[[10, 0], [11, 0]], 1e-9);
         assert!(skin.side(10, 11, 0).is_some() && skin.side(11, 10, 0).is_some());
         assert!(!skin.recover(0, 99, 0), "no such vertex");
         let seen = |t: &[u32; 3]| {
