@@ -1,6 +1,6 @@
 //! Whether a group that holds within what facets hide is that of the body.
 
-use crate::budget::QUICK;
+use crate::budget::{FIT, FULL};
 use crate::group::found::Found;
 use crate::rotation::{Query, Rotation};
 use crate::shape::{Motion, Target};
@@ -61,21 +61,25 @@ impl Query<'_> {
                 .collect(),
         };
         let within = limit + 2.0 * shape.smooth().largest();
-        let mut evidence = Evidence::default();
-        for motion in (turns.iter())
+        let motions = (turns.iter())
             .flat_map(|&turn| generators.iter().map(move |&g| turn * g))
-            .map(|matrix| Motion::new(&found.frame, matrix))
-        {
-            for sample in shape.samples.mixed.iter().take(QUICK / turns.len()) {
+            .map(|matrix| Motion::new(&found.frame, matrix));
+        let motions: Vec<Motion> = motions.collect();
+        let mut evidence = Evidence::default();
+        for sample in shape.samples.mixed.iter().take(FULL) {
+            for motion in &motions {
                 let image = motion.apply(sample.point);
                 match shape.nearest(image, sample.triangle, &Target::Any, within) {
                     Some(hit) => {
-                        if let Some(apart) = shape.apart(sample, &motion, &hit) {
+                        if let Some(apart) = shape.apart(sample, motion, &hit) {
                             evidence.add(apart.facets.abs() - limit, apart.gap - limit);
                         }
                     }
                     None => evidence.add(within - limit, within - limit),
                 }
+            }
+            if evidence.places >= ENOUGH {
+                break;
             }
         }
         evidence
@@ -85,6 +89,10 @@ impl Query<'_> {
 /// Rotations that an operation is turned on by to see whether facets can tell it from others: as few as still spread
 /// evenly over the steps of an order.
 const TURNS: usize = 8;
+
+/// Places beyond the tolerance after which no more are looked for: a share of one in twenty is known to a tenth of itself then, while
+/// that of twenty places is one of chance, and another one with the triangles in another order.
+const ENOUGH: u32 = FIT as u32;
 
 /// Largest share of the places beyond the tolerance that may remain so where facets explain nearly all: the usual level
 /// of significance.
