@@ -1,7 +1,7 @@
 //! Verification of all powers of a rotation, and of other families of operations.
 
 use crate::budget::{FULL, QUICK};
-use crate::shape::{Motion, Permutation, Random, Shape, Target};
+use crate::shape::{Motion, Permutation, Random, Shape};
 use crate::verify::deviation::{Bound, Depth, Deviation};
 use crate::verify::operation::Operation;
 use tmesh::{Frame, Isometry};
@@ -19,14 +19,6 @@ impl Shape {
         let step = Motion::new(frame, Isometry::rotation(1, n).matrix());
         self.with_permutation(step, bound, |permutation| {
             let motion = |k: u32| Motion::new(frame, Isometry::rotation(i64::from(k), n).matrix());
-            let Some(permutation) = permutation else {
-                let bare = |k| Operation {
-                    motion: motion(k),
-                    target: Target::Any,
-                };
-                let operations: Vec<Operation> = (1..n).map(bare).collect();
-                return self.verify_family(&operations, bound, Depth::Quick);
-            };
             let powers = permutation.powers(n);
             if !powers[n as usize - 1].after(permutation).is_identity() {
                 return Err(Deviation {

@@ -1,7 +1,7 @@
 //! Verification of a single operation.
 
 use crate::budget::QUICK;
-use crate::shape::{Motion, Permutation, Shape, Target};
+use crate::shape::{Motion, Permutation, Shape};
 use crate::verify::deviation::{Bound, Depth, Deviation};
 use crate::verify::operation::Operation;
 
@@ -17,7 +17,7 @@ impl Shape {
         self.with_permutation(motion, bound, |permutation| {
             let operation = Operation {
                 motion,
-                target: permutation.map_or(Target::Any, |p| self.target(p)),
+                target: self.target(permutation),
             };
             if let Some(everywhere) = self.deviation_of_faces(&operation, bound) {
                 return Ok(everywhere);
@@ -25,7 +25,7 @@ impl Shape {
             let (mixed, sorted) = (&self.samples.mixed, &self.samples.sorted);
             let first = mixed.len().min(QUICK);
             let worst = self.worst(first, bound, |i| (&mixed[i], &operation))?;
-            if depth == Depth::Quick || permutation.is_none() {
+            if depth == Depth::Quick {
                 return Ok(worst);
             }
             self.worst(sorted.len(), bound, |i| (&sorted[i], &operation))

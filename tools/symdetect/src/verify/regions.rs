@@ -45,16 +45,16 @@ impl Shape {
         (permutation.get(last) == last).then_some(permutation)
     }
 
-    /// Runs `check` with regions in place; should that fail while the bare geometry (`None`) passes, with the
-    /// permutation of regions that the motion makes.
+    /// Runs `check` with regions in place; should that fail, with the permutation of regions that the motion makes. Without regions, what is
+    /// near another solid lands on that instead of where it belongs, and tells nothing.
     pub fn with_permutation(
         &self,
         motion: Motion,
         bound: Bound,
-        check: impl Fn(Option<&Permutation>) -> Result<Deviation, Deviation>,
+        check: impl Fn(&Permutation) -> Result<Deviation, Deviation>,
     ) -> Result<(Deviation, Permutation), Deviation> {
         let identity = Permutation::identity(self.region_count());
-        let failed = match check(Some(&identity)) {
+        let failed = match check(&identity) {
             Ok(deviation) => return Ok((deviation, identity)),
             Err(failed) => failed,
         };
@@ -62,8 +62,7 @@ impl Shape {
             && self.region_count() > 2
             && let Some(permutation) = self.vote(&motion, bound)
             && !permutation.is_identity()
-            && check(None).is_ok()
-            && let Ok(deviation) = check(Some(&permutation))
+            && let Ok(deviation) = check(&permutation)
         {
             return Ok((deviation, permutation));
         }
