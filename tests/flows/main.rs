@@ -13,6 +13,7 @@ mod groups;
 mod hubs;
 mod makefiles;
 mod pipe;
+mod placements;
 mod referee;
 mod seams;
 mod sections;

@@ -32,6 +32,16 @@ pub struct Local {
 }
 
 impl Sizes {
+    /// None at all, of a document.
+    pub fn none(document: &Document) -> Self {
+        let regions = document.regions.len();
+        Self {
+            of_region: vec![None; regions],
+            lengths: vec![None; regions],
+            local: vec![None; document.templates.len()],
+        }
+    }
+
     /// What holds for regions as a whole.
     pub fn of_regions(document: &Document) -> Self {
         let regions = &document.regions;

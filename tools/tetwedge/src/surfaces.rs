@@ -70,7 +70,7 @@ fn recovered(document: &Document, params: &Params, log: Log<'_>) -> Result<(), E
     };
     let job = Job {
         params: &plain,
-        sizes: &Sizes::new(document)?,
+        sizes: &Sizes::none(document),
         guide: Guide::Mesher,
         log,
     };

@@ -145,10 +145,11 @@ impl Attempt {
             Some(layers) => layers.to_string(),
             None => "refinement did not come to an end at sharp angles of the surface".to_owned(),
         };
-        let loosened = (self.asks == Asks::Loosened).then(|| {
-            format!(
+        let loosened = (self.asks == Asks::Loosened).then(|| match params.quality {
+            true => format!(
                 "{why}: radius-edge bound eased to {radius_edge}, that of the smallest dihedral angle left out{stopped}",
-            )
+            ),
+            false => format!("{why}{stopped}"),
         });
         let kept = (self.keeps_surface == Some(Kept::Last)).then(|| {
             "TetGen fails where it adds points to the surface, so that it added none: elements there are as large as its triangles"

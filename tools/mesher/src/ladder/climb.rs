@@ -87,7 +87,7 @@ impl Climb<'_> {
             let answer = self.run(&mut attempt, failed);
             if let Ok(Answer { plc, mesh, .. }) = &answer
                 && let Some(room) = attempt.room.filter(|_| !attempt.stop)
-                && let Some(ending) = room.ending(plc, &**mesh)
+                && let Some(ending) = room.ending(plc, &**mesh, !self.params.quality)
                 && let Some(change) = left.next(ending)
             {
                 attempt = attempt.changed(change);
@@ -121,10 +121,13 @@ impl Climb<'_> {
             Plc::new(self.piece, self.sizes, attempt.description).map_err(|error| (error, None))?;
         let prepared = Instant::now();
         let preserve = self.preserve && plc.faces.preserve();
-        if self.params.quality && !self.params.switches.contains('S') {
+        // What is divided as volumes are too large need not come to an end either.
+        let refines = self.params.quality || !plc.sizes.is_empty();
+        if refines && !self.params.switches.contains('S') {
             // The user's own limit counts, and the user's own bounds do, as do elements across walls. Faces that are preserved get
             // no points, however thin layers are.
-            let yields = self.params.default_bounds && !preserve && plc.graded.is_none();
+            let asks = self.params.quality && self.params.default_bounds;
+            let yields = asks && !preserve && plc.graded.is_none();
             let layers = || yields.then(|| Layers::of(&plc)).flatten();
             attempt.limit(|| Room::new(self.piece, self.sizes, &plc), layers, &plc);
         }

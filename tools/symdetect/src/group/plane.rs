@@ -3,7 +3,7 @@
 use crate::budget::{FIT, QUICK, SCAN};
 use crate::group::found::{Beside, Found};
 use crate::group::turned::Turned;
-use crate::rotation::{Canonical, OUTLIERS, Query, Rotation};
+use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, principal};
 use crate::shape::{Motion, Permutation, Target};
 use crate::tolerance::SINGLE;
 use crate::verify::{Check, Depth, Deviation, Verified};
@@ -12,12 +12,18 @@ use glam::{DMat3, DVec3};
 use tmesh::{Frame, Group, Isometry, Kind};
 
 impl Query<'_> {
-    /// The best single mirror plane with a normal among `directions`.
+    /// The best single mirror plane with a normal among `directions`, or that contains the axis given or the one that second moments tell: a
+    /// mirror takes that to itself, and where features of two orders have nothing else in common, no moments tell its normal.
     pub fn mirror_only(&self, directions: &[DVec3]) -> Option<Found> {
         let shape = self.shape;
         let normals = match self.params.axis {
-            None => directions.to_vec(),
-            Some(axis) => vec![self.normal_across(axis)?],
+            None => {
+                let principal = principal(shape, self.same_candidate());
+                let odd = principal.odd();
+                let across = odd.and_then(|axis| self.normal_across(axis, false));
+                directions.iter().copied().chain(across).collect()
+            }
+            Some(axis) => vec![self.normal_across(axis, true)?],
         };
         let mut best: Option<(Beside, f64)> = None;
         for normal in normals {
@@ -66,8 +72,8 @@ impl Query<'_> {
         Some(found)
     }
 
-    /// The normal of the mirror plane that contains an axis given.
-    fn normal_across(&self, axis: DVec3) -> Option<DVec3> {
+    /// The normal of the mirror plane that contains an axis, which may be adjusted unless `fixed`.
+    fn normal_across(&self, axis: DVec3, fixed: bool) -> Option<DVec3> {
         let start = Frame::from_axis(self.centre, axis, axis.any_orthogonal_vector())?;
         let rotation = Rotation {
             frame: start,
@@ -82,7 +88,7 @@ impl Query<'_> {
             query: self,
             rotation: &rotation,
             operation: Isometry::MIRROR,
-            fixed: true,
+            fixed,
         };
         Some(turned.find()?.frame.rotation.y_axis)
     }

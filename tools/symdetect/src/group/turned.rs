@@ -1,6 +1,6 @@
 //! Mirrors that contain the axis, and half turns about axes across it.
 
-use crate::budget::{FIT, NEXT_BEST};
+use crate::budget::{FIT, NEXT_BEST, QUICK, SCAN};
 use crate::group::found::Beside;
 use crate::rotation::{Canonical, OUTLIERS, Query, Rotation, powers};
 use crate::shape::{Motion, Target};
@@ -131,7 +131,8 @@ impl Turned<'_> {
         let limits = &self.query.limits;
         let (shape, rotation) = (self.query.shape, self.rotation);
         let telling = shape.telling_samples(&rotation.frame, limits.loosely(rotation.radius));
-        let scores = threads::map(&angles, |&angle| self.score(angle, &telling));
+        let sum = |&angle: &f64| self.score(angle, &telling).map_or(f64::INFINITY, |s| s.1);
+        let scores = threads::map(&angles, sum);
         let mut candidates: Vec<usize> = (0..steps)
             .filter(|&i| {
                 let s = scores[i];
@@ -140,12 +141,24 @@ impl Turned<'_> {
             })
             .collect();
         candidates.sort_by(|&i, &j| scores[i].total_cmp(&scores[j]).then(i.cmp(&j)));
-        candidates.truncate(NEXT_BEST);
+        if candidates.len() > NEXT_BEST {
+            // Where something is there at equal steps all around, and something else is not, few samples are of that, and
+            // all of those are off.
+            candidates.truncate(SCAN);
+            let more: Vec<usize> = (0..QUICK.min(shape.samples.mixed.len())).collect();
+            let again = threads::map(&candidates, |&i| self.score(angles[i], &more));
+            let mut ranked: Vec<((usize, f64), usize)> = (again.into_iter().zip(candidates))
+                .filter_map(|(score, i)| Some((score?, i)))
+                .collect();
+            ranked.sort_by(|(a, i), (b, j)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(i.cmp(j)));
+            candidates = ranked.into_iter().map(|c| c.1).collect();
+            candidates.truncate(NEXT_BEST);
+        }
         candidates.into_iter().map(|i| angles[i]).collect()
     }
 
-    /// Sum of the deviations of a few samples; infinite where too many are off.
-    fn score(&self, angle: f64, places: &[usize]) -> f64 {
+    /// How many of some samples are off, and the sum of the deviations of all; `None` where too many are off.
+    fn score(&self, angle: f64, places: &[usize]) -> Option<(usize, f64)> {
         let shape = self.query.shape;
         let loose = self.query.limits.loosely(self.rotation.radius);
         let samples = places.iter().map(|&i| &shape.samples.mixed[i]);
@@ -160,12 +173,12 @@ impl Turned<'_> {
                     sum += shape.most(loose);
                     missed += 1;
                     if missed > allowed {
-                        return f64::INFINITY;
+                        return None;
                     }
                 }
             }
         }
-        sum
+        Some((missed, sum))
     }
 
     /// The frame adjusted to the operation: together with the rotation, or, where axis and centre are fixed, the angle

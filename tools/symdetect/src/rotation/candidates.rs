@@ -19,6 +19,14 @@ pub struct Principal {
     pub isotropic: bool,
 }
 
+impl Principal {
+    /// The direction of the odd moment, where the two others nearly agree: all operations take it to itself.
+    pub fn odd(&self) -> Option<DVec3> {
+        let first = self.directions.first().copied();
+        first.filter(|_| self.degenerate && !self.isotropic)
+    }
+}
+
 /// Principal directions: if a body has an axis of order three or more and is not isotropic, that axis
 /// is the eigenvector of the odd eigenvalue; half-turn axes and mirror normals are eigenvectors too.
 pub fn principal(shape: &Shape, parallel: f64) -> Principal {

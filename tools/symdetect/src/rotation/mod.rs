@@ -11,6 +11,7 @@ mod refine;
 mod scan;
 
 pub use axes::FIRST_DIRECTIONS;
+pub use candidates::principal;
 pub use find::{Rotation, golden, powers};
 pub use limits::{LOOSE_RANGE, Limits, OUTLIERS};
 pub use query::{Drawn, Query};
