@@ -472,7 +472,7 @@ fn a_shaft_in_a_sleeve_with_windows() {
         corners: 63,
         phase: 0.3,
     };
-    let open = |k: u32, row: u32| row % 2 == 1 && (k + row) % 4 == 0;
+    let open = |k: u32, row: u32| row % 2 == 1 && (k + row).is_multiple_of(4);
     let solids = [
         ("shaft", cylinder(shaft, [0.0, 2.8])),
         ("sleeve", windowed([1.0, 1.2], (40, 7, 0.4), open)),
