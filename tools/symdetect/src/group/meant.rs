@@ -18,8 +18,9 @@ impl Query<'_> {
     /// It is more if it has all operations of the drawing's. A drawing that has a rotation, of a body that any rotation
     /// about the same axis takes to itself within its facets, is drawn as it was meant, unless other ones of the `rotations`
     /// that were found do so, too: a ball has no axis of its own. And a drawing with a group of its own is given up for
-    /// significant evidence only: next to all of what is off has to be explained, and by facets that would not explain
-    /// most of what is off in any other position about the axis: those are too coarse to tell.
+    /// significant evidence only: next to all of what is off has to be explained. The less facets leave of what is off in
+    /// other positions about the axis, the less it tells that they leave next to nothing here: those that are too coarse explain
+    /// anything.
     pub fn is_behind(&self, found: &Found, rotations: &[Rotation], drawn: Option<&Found>) -> bool {
         let Some(drawn) = drawn else {
             return self.is_meant(found);
@@ -32,7 +33,8 @@ impl Query<'_> {
         let is_more = found.group.size() > drawn.group.size() && has_all && !is_round;
         is_more && {
             let evidence = self.evidence(found, &[DMat3::IDENTITY]);
-            evidence.is_most() && evidence.is_nearly_all() && self.is_singled_out(found)
+            let elsewhere = self.remains_turned(found);
+            evidence.remains() < SIGNIFICANCE * elsewhere * elsewhere
         }
     }
 
@@ -43,11 +45,14 @@ impl Query<'_> {
         self.evidence(found, &[DMat3::IDENTITY]).is_most()
     }
 
-    /// Whether facets would leave most of what is off unexplained if the images under a group were turned on about the
-    /// axis, by angles of all kinds. Of a body of revolution they are all the same.
-    fn is_singled_out(&self, found: &Found) -> bool {
+    /// The share of what is off that facets would leave unexplained if the images under a group were turned on about the
+    /// axis, by angles of all kinds. Of a body of revolution they are all the same, and it is all.
+    fn remains_turned(&self, found: &Found) -> f64 {
         let turns: Vec<DMat3> = golden_turns(TURNS).collect();
-        found.axisymmetric || !self.evidence(found, &turns).is_most()
+        match found.axisymmetric {
+            true => 1.0,
+            false => self.evidence(found, &turns).remains(),
+        }
     }
 
     /// How much of what is beyond the tolerance under the generators of a group, turned on about the axis by each of some
@@ -94,7 +99,7 @@ const TURNS: usize = 8;
 /// that of twenty places is one of chance, and another one with the triangles in another order.
 const ENOUGH: u32 = FIT as u32;
 
-/// Largest share of the places beyond the tolerance that may remain so where facets explain nearly all: the usual level
+/// How much may remain where facets explain nearly all, of what remains in other positions, and times that: the usual level
 /// of significance.
 const SIGNIFICANCE: f64 = 0.05;
 
@@ -102,7 +107,6 @@ const SIGNIFICANCE: f64 = 0.05;
 #[derive(Default)]
 struct Evidence {
     places: u32,
-    places_left: u32,
     squares: f64,
     squares_left: f64,
 }
@@ -110,18 +114,21 @@ struct Evidence {
 impl Evidence {
     fn add(&mut self, beyond: f64, left: f64) {
         self.places += u32::from(beyond > 0.0);
-        self.places_left += u32::from(left > 0.0);
         self.squares += beyond.max(0.0).powi(2);
         self.squares_left += left.max(0.0).powi(2);
     }
 
-    /// Half of the sum of squares or more: a coefficient of determination.
-    fn is_most(&self) -> bool {
-        2.0 * self.squares_left <= self.squares
+    /// The share of the sum of squares that remains: one less the coefficient of determination. Places that are off by next
+    /// to nothing do not count as others do.
+    fn remains(&self) -> f64 {
+        match self.squares > 0.0 {
+            true => self.squares_left / self.squares,
+            false => 0.0,
+        }
     }
 
-    /// All places but for what is not significant.
-    fn is_nearly_all(&self) -> bool {
-        f64::from(self.places_left) <= SIGNIFICANCE * f64::from(self.places)
+    /// Half of it is explained, or more.
+    fn is_most(&self) -> bool {
+        self.remains() <= 0.5
     }
 }
