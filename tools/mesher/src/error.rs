@@ -109,7 +109,7 @@ pub enum Error {
         template: usize,
         /// Name of the wall.
         wall: String,
-        /// Its middle.
+        /// Middle of the triangle.
         place: Place,
     },
 }

@@ -269,7 +269,7 @@ impl Skin {
     }
 
     /// Flips edges around vertices that were put in, which are given, until facets that stand for one surface are as those of a Delaunay
-    /// triangulation, seen along both.
+    /// triangulation, seen along both, and no farther off the surface than facets were, or `equal`.
     pub fn settle(&mut self, vertices: &[[u32; 2]], equal: f64) {
         for &[v, solid] in vertices {
             let edges = self.fan(v, solid).into_iter().flat_map(|t| {

@@ -69,16 +69,16 @@ impl Room {
         self.0.min(f64::from(i32::MAX))
     }
 
-    /// How the attempt ended, if it used all points, or was stopped by nothing but the mesher's resolution. Where volumes alone are `bounded`, no
-    /// more elements are wanted than there is room for.
-    pub fn ending(self, plc: &Plc, mesh: &dyn Elements, bounded: bool) -> Option<Ending> {
+    /// How the attempt ended, if it used all points, or was stopped by nothing but the mesher's resolution. Where `only_volumes` are
+    /// bounded, no more elements are wanted than there is room for.
+    pub fn ending(self, plc: &Plc, mesh: &dyn Elements, only_volumes: bool) -> Option<Ending> {
         let added = mesh.points().len().saturating_sub(plc.points.len());
         let used_all = added as f64 >= self.most();
         let of_mesh = shortest(mesh.points(), mesh.tetrahedra());
         if !used_all && of_mesh > FAR * RESOLUTION {
             return None;
         }
-        if bounded || FAR * of_mesh < shortest(&plc.points, &plc.triangles) {
+        if only_volumes || FAR * of_mesh < shortest(&plc.points, &plc.triangles) {
             Some(Ending::Heaped)
         } else {
             used_all.then_some(Ending::Large)

@@ -12,8 +12,8 @@ use tmesh::Template;
 /// [`Error::Doubled`] with the first one.
 pub fn doubled(template: &Template, index: usize, faces: &[u32]) -> Result<(), Error> {
     for gluing in &template.gluings {
-        let is_mirror = gluing.is_mirror(index);
-        if !is_mirror && !gluing.is_seam(index) {
+        // What is shared with another template is in the mesh of either as one of them settled it.
+        if gluing.other_than(index).is_some() {
             continue;
         }
         let mut image = vec![None; template.vertices.len()];
