@@ -8,6 +8,7 @@
 //!
 //! Every coefficient is a field of [`CostModel`]; `make calibrate` measures them.
 
+mod asked;
 mod elements;
 mod features;
 pub mod harm;
@@ -20,10 +21,10 @@ mod way;
 mod ways;
 mod wedge;
 
+pub use asked::Asked;
 pub use elements::{Estimate, Terms};
 pub use model::{Accepted, CostModel};
 pub use needles::needles;
-pub use remade::Asked;
 pub use way::{Cut, Way};
 pub use ways::{Bounds, Hubs, Ways};
 pub use wedge::{Wedge, edge_of_volume};

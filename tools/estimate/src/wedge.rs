@@ -1,6 +1,6 @@
 //! A wedge as the estimate sees it: its surface, and which part of that the cuts have made.
 
-use crate::remade::Asked;
+use crate::asked::Asked;
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use tmesh::{Isometry, Template};

@@ -5,7 +5,7 @@
 //! it is found anew. The result is that of one thread, to the last bit.
 
 use crate::flip::{self, Flip};
-use crate::freedom::Freedoms;
+use crate::freedoms::Freedoms;
 use crate::mesh::Mesh;
 use crate::smooth::{self, Move};
 use rayon::prelude::*;

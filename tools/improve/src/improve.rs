@@ -2,7 +2,7 @@
 //! all of it once more with the bounds before anything else, and once more for larger angles.
 
 use crate::ahead::{self, Bad, Failed};
-use crate::freedom::Freedoms;
+use crate::freedoms::Freedoms;
 use crate::insert;
 use crate::mesh::{Corners, Mesh};
 use crate::quality::Goal;

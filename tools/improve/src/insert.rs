@@ -8,7 +8,8 @@
 //! there is a cavity in each of the spaces that meet there.
 
 use crate::cavity::{Cavity, faces};
-use crate::freedom::{Exact, Freedom, Freedoms};
+use crate::freedom::{Exact, Freedom};
+use crate::freedoms::Freedoms;
 use crate::mesh::{Corners, Mesh};
 use crate::quality::{GAIN, Grade, HALF_DIGITS};
 use crate::smooth::{Newcomer, settle};

@@ -13,6 +13,7 @@ mod coarsen;
 mod flats;
 mod flip;
 mod freedom;
+mod freedoms;
 mod improve;
 mod insert;
 mod mesh;
@@ -30,6 +31,6 @@ mod tests;
 
 pub use coarsen::{Coarse, Face, Leaves, coarsen};
 pub use flats::Flats;
-pub use freedom::Freedoms;
+pub use freedoms::Freedoms;
 pub use improve::{Improved, Wish, improve};
 pub use shape::{Curved, NO_PATCH, Point, Shape};

@@ -7,7 +7,8 @@
 //! where even the slope itself would not gain enough by the step.
 //! A vertex on a seam has its star on both sides of it: what is at its partner is turned back.
 
-use crate::freedom::{Exact, Freedom, Freedoms};
+use crate::freedom::{Exact, Freedom};
+use crate::freedoms::Freedoms;
 use crate::mesh::{Corners, Mesh};
 use crate::near::are_near;
 use crate::quality::{GAIN, Grade, HALF_DIGITS};

@@ -3,7 +3,8 @@
 //! Around an edge, triangles of the surface and the spaces between them take turns. The vertex divides the triangles, and what is in each
 //! of the spaces makes room for it.
 
-use crate::freedom::{Exact, Freedom, Freedoms};
+use crate::freedom::{Exact, Freedom};
+use crate::freedoms::Freedoms;
 use crate::mesh::Mesh;
 use crate::surface::Sheet;
 use arrayvec::ArrayVec;

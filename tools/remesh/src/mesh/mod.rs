@@ -325,6 +325,14 @@ impl<'a> Mesh<'a> {
         edges
     }
 
+    /// Edges by what `wanted` makes of them, least first.
+    pub fn edges_by(&self, wanted: impl Fn([u32; 2]) -> Option<f64>) -> Vec<[u32; 2]> {
+        let edges = self.edges().into_iter();
+        let mut found: Vec<(f64, [u32; 2])> = edges.filter_map(|e| Some((wanted(e)?, e))).collect();
+        found.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+        found.into_iter().map(|f| f.1).collect()
+    }
+
     /// How far the surface may move at all of these vertices.
     pub fn deviation_at(&self, vertices: &[u32]) -> f64 {
         let each = vertices.iter().map(|&v| self.near[v as usize]);

@@ -1,6 +1,6 @@
 //! Joining vertices of a surface that were moved to the same place.
 
-use super::remesh::{Remeshed, Told};
+use super::remeshed::{Remeshed, Told};
 use crate::input::{Place, Rules, Surface};
 use crate::mesh::NONE;
 use crate::shape::Patches;

@@ -3,7 +3,7 @@
 use super::collapse::collapse;
 use super::flip::flip;
 use super::reduced::Reduced;
-use super::remesh::{Told, taken};
+use super::remeshed::{Remeshed, Told};
 use crate::input::{Rules, Surface};
 use crate::mesh::Mesh;
 use crate::shape::{Allowance, Curves, Envelope, Patches, untold};
@@ -71,7 +71,11 @@ pub fn decimated(surface: &Surface, rules: &Rules<'_>) -> Option<Reduced> {
     if told.is_nothing() {
         return None;
     }
-    Some(Reduced::new(taken(surface, mesh, told), rules, &nearer))
+    Some(Reduced::new(
+        Remeshed::taken(surface, mesh, told),
+        rules,
+        &nearer,
+    ))
 }
 
 /// The vertices that may go.

@@ -1,9 +1,10 @@
 //! Bringing flat faces to one level that are nearly in one plane.
 
 use super::contract::contracted;
+use super::crossings::crossings;
 use super::meet::{bounds, onto_all};
 use super::reduced::Reduced;
-use super::remesh::{Remeshed, Told, crossings};
+use super::remeshed::{Remeshed, Told};
 use super::slender::by_facet;
 use super::worth::{LEVEL, WORTH};
 use crate::input::{Rules, Surface};

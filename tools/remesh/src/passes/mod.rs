@@ -2,6 +2,7 @@
 
 mod collapse;
 mod contract;
+mod crossings;
 mod decimate;
 mod flip;
 mod level;
@@ -9,7 +10,9 @@ mod meet;
 mod reduced;
 mod relocate;
 mod remesh;
+mod remeshed;
 mod ridges;
+mod rounds;
 mod rows;
 mod slender;
 mod spare;
@@ -17,7 +20,8 @@ mod split;
 mod uncap;
 mod worth;
 
-pub use remesh::{Remeshed, Told, remesh};
+pub use remesh::remesh;
+pub use remeshed::{Remeshed, Told};
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! A surface that something was left out of, with what it must keep, for what is done to it next.
 
-use super::remesh::Remeshed;
+use super::remeshed::Remeshed;
 use crate::input::{Link, Rules};
 use crate::mesh::NONE;
 use std::sync::Arc;

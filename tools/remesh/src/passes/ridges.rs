@@ -1,6 +1,6 @@
 //! Points on the folds of the input, for who moves a remeshed surface further.
 
-use super::remesh::Remeshed;
+use super::remeshed::Remeshed;
 use crate::input::{Rules, Surface};
 use crate::mesh::{NONE, Sample};
 use crate::shape::{Allowance, Patches};

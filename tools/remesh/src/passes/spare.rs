@@ -2,7 +2,7 @@
 
 use super::collapse::collapse;
 use super::reduced::Reduced;
-use super::remesh::{Told, ordered, taken};
+use super::remeshed::{Remeshed, Told};
 use super::worth::DETAIL;
 use crate::input::{Rules, Surface};
 use crate::mesh::Mesh;
@@ -46,7 +46,7 @@ pub fn without_spare(surface: &Surface, rules: &Rules<'_>) -> Option<Reduced> {
         let is_spare = |mesh: &Mesh<'_>, [from, to]: [u32; 2]| {
             mesh.length([from, to]) < DETAIL * mesh.width[from as usize]
         };
-        let shortest = ordered(&mesh, |[a, b]| {
+        let shortest = mesh.edges_by(|[a, b]| {
             let goes = is_spare(&mesh, [a, b]) || is_spare(&mesh, [b, a]);
             goes.then(|| mesh.length([a, b]))
         });
@@ -70,5 +70,9 @@ pub fn without_spare(surface: &Surface, rules: &Rules<'_>) -> Option<Reduced> {
     let nearer: Vec<f64> = (0..surface.points.len())
         .map(|v| rules.deviation_at(v))
         .collect();
-    Some(Reduced::new(taken(surface, mesh, told), rules, &nearer))
+    Some(Reduced::new(
+        Remeshed::taken(surface, mesh, told),
+        rules,
+        &nearer,
+    ))
 }

@@ -3,7 +3,7 @@
 //! A wedge has a part of a facet where it was cut there, and nothing beside it: how wide the facet is, and how what it stands for bends, tells only all
 //! of it, with what is beside that.
 
-use super::facets::Beside;
+use super::beside::Beside;
 use crate::input::{Place, Rules, Surface};
 use geom::edges::{Edges, apex_of};
 use geom::flat::Plane;

@@ -1,6 +1,7 @@
-//! What is beside facets: whether they are some of many that stand for something curved.
+//! Facets and the folds between them: whether they are some of many that stand for something curved.
 
 use super::allowance::outer;
+use super::beside::Beside;
 use super::beyond::{Beyond, Part};
 use geom::edges::{EdgeUse, Edges};
 use geom::measure::triangle_area;
@@ -30,34 +31,6 @@ pub struct Facets<'a> {
     /// both sides as it does at the edge between. Of what rises more the facet is no part: it is flat, and a fine drawing of a
     /// rounding begins beside it; of what rises less, where what is beside it does not say so.
     pub rise: f64,
-}
-
-/// What is beside a facet. Lengths are in model units.
-#[derive(Clone, Debug, Default)]
-pub struct Beside {
-    /// Number of its triangles.
-    pub triangles: u32,
-    /// Length of its outline.
-    pub border: f64,
-    /// Length of the part beside which the surface goes on smoothly.
-    pub smooth: f64,
-    /// Length of the part of it beside which it goes on with a facet of half its mean width at least, across the edge, or turns as
-    /// one curve does for the width of both, or is bent by less than a degree and does not rise far, unless a curve begins there.
-    pub like: f64,
-    /// The first of the facets beyond that part.
-    pub first: Option<u32>,
-    /// Whether there are others.
-    pub more: bool,
-}
-
-impl Beside {
-    /// Takes what is beside another facet, which is one with this one, for beside this one, too.
-    pub fn add(&mut self, other: &Self) {
-        self.triangles += other.triangles;
-        self.border += other.border;
-        self.smooth += other.smooth;
-        self.like += other.like;
-    }
 }
 
 /// A smooth edge between two facets.

@@ -3,6 +3,7 @@
 
 mod allowance;
 mod arc;
+mod beside;
 mod beyond;
 mod curves;
 mod envelope;
@@ -14,10 +15,11 @@ mod wanted;
 
 pub use allowance::{Allowance, untold};
 pub use arc::{DETAIL, LONG};
+pub use beside::Beside;
 pub use beyond::Beyond;
 pub use curves::Curves;
 pub use envelope::{Envelope, Near};
-pub use facets::{Beside, Facets};
+pub use facets::Facets;
 pub use ground::Ground;
 pub use patches::{ALIKE, Patches, UPRIGHT};
 pub use wanted::{Curve, Wanted};

@@ -1,7 +1,8 @@
 //! Patches: connected triangles without a feature between them. A flat face is a patch of its own.
 
+use super::beside::Beside;
 use super::beyond::Beyond;
-use super::facets::{Beside, Facets};
+use super::facets::Facets;
 use crate::input::{Rules, Surface};
 use geom::edges::{EdgeUse, Edges, apex_of};
 use geom::flat::{FOLD_COSINE, Flatness, Flats, Plane};
