@@ -226,16 +226,22 @@ fn printed(facets: Vec<Facet>, [about_z, about_x]: [f64; 2], digits: usize) -> V
 }
 
 /// Where no more is known of coordinates than the six digits that are printed of them, faces that touch cross by what was rounded
-/// away.
+/// away; and where they were rounded before they were turned and printed with all digits.
 #[test]
-fn solids_that_touch_as_far_as_digits_are_printed() {
+fn solids_that_touch_as_far_as_coordinates_are_known() {
     let circle = |radius: f64| Circle {
         radius,
         corners: 26,
         phase: 0.0,
     };
-    for step in [2.0, 3.0, 6.0] {
-        let placed = |facets| printed(facets, [0.7 * step, 0.4 * step], 6);
+    for (step, digits) in [(2.0, 6), (3.0, 6), (6.0, 6), (2.0, 8), (3.0, 8), (6.0, 8)] {
+        let placed = |facets| {
+            let rounded = printed(facets, [0.7 * step, 0.4 * step], digits);
+            match digits {
+                8 => printed(rounded, [0.3 * step, 0.5 * step], 17),
+                _ => rounded,
+            }
+        };
         let solids = [
             ("core", placed(cylinder(circle(7.0), [-6.0, 4.0]))),
             ("ring", placed(tube(circle(7.0), circle(12.0), [-3.0, 1.0]))),
@@ -243,7 +249,7 @@ fn solids_that_touch_as_far_as_digits_are_printed() {
         ];
         let found = run("symdetect", &[], &ascii_stl(&solids));
         let says = |what: &str| assert!(found.stderr.contains(what), "{}", found.stderr);
-        says("no more is known of coordinates than the digits that are printed of them");
+        says("coordinates are known less well than their digits tell");
         says("C26v about");
         let [core, ring, plate] = [7.0, 12.0, 14.0].map(|r| circle(r).area());
         let exact = [10.0 * core, 4.0 * (ring - core), plate - core];
@@ -254,6 +260,37 @@ fn solids_that_touch_as_far_as_digits_are_printed() {
             );
         }
     }
+}
+
+/// A layer of a ten millionth of its solids that touches them with other triangles is thinner than single precision tells, and stays where
+/// coordinates are exact.
+#[test]
+fn a_layer_thinner_than_single_precision_tells_is_no_rounding() {
+    let square = |half: f64, [low, high]: [f64; 2]| {
+        cylinder(
+            Circle {
+                radius: half,
+                corners: 4,
+                phase: 0.0,
+            },
+            [low, high],
+        )
+    };
+    let solids = [
+        ("base", square(7.0, [-6.0, 0.0])),
+        ("oxide", square(5.0, [0.0, 1e-6])),
+        ("gate", square(3.0, [1e-6, 4.0])),
+    ];
+    let found = run("symdetect", &[], &ascii_stl(&solids));
+    assert!(found.stderr.contains("C4v about"), "{}", found.stderr);
+    assert!(
+        !found.stderr.contains("known less well"),
+        "{}",
+        found.stderr
+    );
+    let document = tmesh::read(&found.stdout[..]).expect("a document");
+    let volume = document.regions[1].volume.expect("a volume");
+    assert!((volume / 50e-6 - 1.0).abs() < 1e-6, "{volume}");
 }
 
 /// A wedge that touches the axis along an edge only, whose surface is kept with the lengths asked for: vertices that divide this

@@ -1,13 +1,13 @@
 //! From polygons in groups to a document.
 
-use super::imprinted::{Imprinted, Unjoined, imprinted, touching};
+use super::imprinted::{Unjoined, imprinted, touching};
 use super::mended::Mended;
 use super::mending::Mending;
+use super::precision::less_precise;
 use super::solids::label;
 use super::surface::{NONE, Surface};
 use super::undrawn::{Reading, Undrawn};
 use super::weld;
-use crate::contacts::Contacts;
 use crate::document::{Imported, check_scale, tolerance};
 use crate::words::{short, unique_names};
 use crate::{HealError, Repair, Repairing};
@@ -26,14 +26,6 @@ use interchange::parsed::Soup;
 pub fn build(soup: Soup, format: &str, repairing: Repairing) -> Result<Imported, HealError> {
     label_mended(mend(soup, Solids::Groups, repairing)?, format, repairing)
 }
-
-/// What the precision is multiplied by where solids cannot be joined within it, as long as what is printed of the numbers explains more. A
-/// choice: no wider than what does by much, in a handful of steps.
-const WIDER: f64 = 8.0;
-
-/// Precision, relative to the largest coordinate, beyond which nothing is taken for rounding: what is nearer than sixteen times that is
-/// one, and the default tolerance of a symmetry is a thousandth.
-const LEAST_PRECISE: f64 = 1e-3 / 16.0;
 
 /// What the solids of a soup are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,14 +109,13 @@ pub fn label_mended(
             let known = known.filter(|_| !several);
             let mut made = imprinted(apart, &tolerance, contacts, known);
             // What is sound as it is stays so.
+            let precision = [relative_precision, printed_precision];
             if told.is_err()
-                && made.as_ref().is_err_and(|e| e.may_be_rounding)
-                && let Some((wider, again)) =
-                    as_printed(apart, [relative_precision, printed_precision], contacts)
+                && let Some((wider, again)) = less_precise(apart, &made, precision, contacts)
             {
                 let equal = self::tolerance(&apart.points, wider).equal();
                 notices.push(format!(
-                    "no more is known of coordinates than the digits that are printed of them: what is nearer than {} is taken for one",
+                    "coordinates are known less well than their digits tell: what is nearer than {} is taken for one",
                     short(equal)
                 ));
                 relative_precision = wider;
@@ -169,24 +160,6 @@ pub fn label_mended(
     let mut imported = reading.finished((surface, labels), joined)?;
     imported.undrawn = undrawn;
     Ok(imported)
-}
-
-/// Solids that cannot be joined within the precision that coordinates seem to have, joined within the least that can be, no wider
-/// than what is printed of them explains; with that precision.
-fn as_printed(
-    surface: &Surface,
-    [mut precision, printed]: [f64; 2],
-    contacts: Contacts,
-) -> Option<(f64, Imprinted)> {
-    let most = printed.min(LEAST_PRECISE);
-    while precision < most {
-        precision = (WIDER * precision).min(most);
-        let tolerance = tolerance(&surface.points, precision);
-        if let Ok(imprinted) = imprinted(surface, &tolerance, contacts, None) {
-            return Some((precision, imprinted));
-        }
-    }
-    None
 }
 
 /// The triangles of a soup by distinct points, in groups that have triangles.

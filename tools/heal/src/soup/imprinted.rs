@@ -27,6 +27,8 @@ pub struct Imprinted {
     pub joined: Joined,
     /// Of each claim in that: who has the space, and whose it was.
     claims: Vec<[u32; 2]>,
+    /// How thick the thinnest claim is that one solid makes of another one that is not inside of it, model units; infinite where there is none.
+    pub thinnest: f64,
     /// Whether all that was done is to take out what a single solid has twice, and that is less of it than single
     /// precision tells: noise makes thin layers cross, and what is taken out leaves slivers.
     pub is_slight: bool,
@@ -261,10 +263,12 @@ fn attempt(
     let volume: f64 = joined.volumes.iter().map(|v| v.before).sum();
     let is_slight =
         surface.solids.len() == 1 && doubled > 0.0 && doubled <= f64::from(f32::EPSILON) * volume;
-    let thick = thick_overlaps(&settled, tolerance);
+    let thick = || thick_overlaps(&settled, tolerance);
+    let between = thick().filter(|c| !c.nested);
     Ok(Imprinted {
         divided: None,
-        claims: thick.map(|c| [c.winner, c.loser]).collect(),
+        claims: thick().map(|c| [c.winner, c.loser]).collect(),
+        thinnest: between.map(|c| c.thickness).fold(f64::INFINITY, f64::min),
         is_slight,
         labels: labels(&settled, notices),
         surface: sided(surface, complex, &settled),

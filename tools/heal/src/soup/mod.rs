@@ -7,6 +7,7 @@ mod imprinted;
 mod mended;
 mod mending;
 mod needles;
+mod precision;
 mod solids;
 mod stitch;
 mod surface;
