@@ -262,6 +262,74 @@ fn solids_that_touch_as_far_as_coordinates_are_known() {
     }
 }
 
+/// Names and volumes of the regions of a mesh whose solids are the shells of the one that the file has.
+fn meshed_by_shells(facets: Vec<Facet>) -> Vec<(String, f64)> {
+    let stages: [&[&str]; 4] = [
+        &["symdetect", "--solids", "shells"],
+        &["wedgecut"],
+        &["tetwedge"],
+        &["rotassemble", "--to", "tmesh"],
+    ];
+    let mesh = pipe(&stages, &ascii_stl(&[("all", facets)])).pop();
+    let mesh = mesh.expect("a stage").success();
+    run("meshqual", &["--check"], &mesh).success();
+    volumes_of(&mesh)
+}
+
+/// An assembly that was written as one solid: a pin in two collars that are drawn with other chords, and touch each other with the same triangles.
+#[test]
+fn shells_of_one_solid_are_solids_where_that_is_asked_for() {
+    let circle = |radius: f64, corners: u32| Circle {
+        radius,
+        corners,
+        phase: 0.0,
+    };
+    let collar = |z| tube(circle(7.0, 26), circle(12.0, 26), z);
+    let solids = [
+        cylinder(circle(7.0, 26), [-6.0, 4.0]),
+        collar([-3.0, 1.0]),
+        collar([1.0, 2.0]),
+    ];
+    let all = solids.concat();
+    let found = meshed_by_shells(all.clone());
+    let [core, ring] = [7.0, 12.0].map(|r| circle(r, 26).area());
+    let exact = [10.0 * core, 4.0 * (ring - core), ring - core];
+    assert_eq!(found.len(), 3);
+    for ((name, volume), (known, exact)) in found
+        .iter()
+        .zip(["all", "all-2", "all-3"].iter().zip(exact))
+    {
+        assert_eq!(name, known);
+        assert!(
+            (volume / exact - 1.0).abs() < 1e-6,
+            "{name}: {volume} for {exact}"
+        );
+    }
+    // Otherwise they are one body.
+    let whole = meshed(&[("all", all)]);
+    let sum: f64 = exact.iter().sum();
+    assert!((whole[0].1 / sum - 1.0).abs() < 1e-6, "{whole:?}");
+    assert_eq!(whole.len(), 1);
+}
+
+/// A shell that looks inwards is no solid, whether or not another one fills it.
+#[test]
+fn shells_that_look_inwards_are_cavities() {
+    let cube = |half: f64| cuboid([-half; 3], [half; 3]);
+    let inwards = |half: f64| cube(half).into_iter().map(|[a, b, c]| [a, c, b]);
+    let hollow: Vec<Facet> = cube(6.0).into_iter().chain(inwards(2.0)).collect();
+    let of = |facets: &[Vec<Facet>]| -> Vec<f64> {
+        let found = meshed_by_shells(facets.concat());
+        found
+            .into_iter()
+            .map(|(_, volume)| volume.round())
+            .collect()
+    };
+    assert_eq!(of(std::slice::from_ref(&hollow)), [1664.0]);
+    assert_eq!(of(&[hollow.clone(), cube(2.0)]), [1664.0, 64.0]);
+    assert_eq!(of(&[hollow, cube(1.0)]), [1664.0, 8.0]);
+}
+
 /// A layer of a ten millionth of its solids that touches them with other triangles is thinner than single precision tells, and stays where
 /// coordinates are exact.
 #[test]

@@ -1,7 +1,7 @@
 //! From bytes, or from parsed data, to a document.
 
 use crate::document::Imported;
-use crate::{HealError, Repairing, mesh, plc, shells, soup};
+use crate::{HealError, Healing, mesh, plc, shells, soup};
 use interchange::{Format, Parsed, parse};
 
 /// Reads a whole file of the given format into a document: one template in world coordinates, with
@@ -10,26 +10,26 @@ use interchange::{Format, Parsed, parse};
 /// # Errors
 /// Malformed bytes, and surfaces that do not bound a body.
 pub fn read(bytes: &[u8], format: Format) -> Result<Imported, HealError> {
-    read_with(bytes, format, Repairing::default())
+    read_with(bytes, format, Healing::default())
 }
 
-/// The same, where the caller says whether the surface may be repaired.
+/// The same, where the caller says what is made of surfaces.
 ///
 /// # Errors
 /// Malformed bytes, and surfaces that do not bound a body.
 pub fn read_with(
     bytes: &[u8],
     format: Format,
-    repairing: Repairing,
+    healing: impl Into<Healing>,
 ) -> Result<Imported, HealError> {
-    heal(parse(bytes, format)?, format, repairing)
+    heal(parse(bytes, format)?, format, healing.into())
 }
 
 /// Makes a document of what a file of the given format lists.
 ///
 /// # Errors
 /// Surfaces that do not bound a body.
-pub fn heal(parsed: Parsed, format: Format, repairing: Repairing) -> Result<Imported, HealError> {
+pub fn heal(parsed: Parsed, format: Format, healing: Healing) -> Result<Imported, HealError> {
     let format = format.name();
     match parsed {
         Parsed::Document(document) => Ok(Imported {
@@ -40,9 +40,9 @@ pub fn heal(parsed: Parsed, format: Format, repairing: Repairing) -> Result<Impo
             undrawn: None,
             is_apart: false,
         }),
-        Parsed::Soup(soup) => soup::build(soup, format, repairing),
+        Parsed::Soup(soup) => soup::build(soup, format, healing),
         Parsed::Plc(plc) => plc::build(plc, format),
-        Parsed::Shells(shells) => shells::build(shells, format, repairing),
+        Parsed::Shells(shells) => shells::build(shells, format, healing.repairing),
         Parsed::Mesh(mesh) => mesh::build(mesh, format),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::args::inputs;
 use crate::{Failure, InputFile, Session};
-use heal::{HealError, Imported, Repairing};
+use heal::{HealError, Healing, Imported};
 use interchange::{Format, sniff};
 use std::fs::File;
 use std::io::{BufReader, IsTerminal, Read};
@@ -23,21 +23,21 @@ impl Session {
 
     /// Reads the inputs named on the command line, whatever their formats.
     pub fn read(&self) -> Result<Document, Failure> {
-        self.read_with(Repairing::default())
+        self.read_with(Healing::default())
     }
 
-    /// The same, where the caller says whether a surface may be repaired.
-    pub fn read_with(&self, repairing: Repairing) -> Result<Document, Failure> {
+    /// The same, where the caller says what is made of surfaces.
+    pub fn read_with(&self, healing: Healing) -> Result<Document, Failure> {
         self.check_input()?;
         let document = match &self.inputs[..] {
-            [] => self.read_stream(repairing)?,
+            [] => self.read_stream(healing)?,
             [input] if input.region.is_none() && input.is_standard_input() => {
-                self.read_stream(repairing)?
+                self.read_stream(healing)?
             }
             [input] if input.region.is_none() => {
-                self.read_file(&input.path, self.common.from, repairing)?
+                self.read_file(&input.path, self.common.from, healing)?
             }
-            _ => self.read_several(repairing)?,
+            _ => self.read_several(healing)?,
         };
         let (vertices, triangles, tets) = document.templates.iter().fold((0, 0, 0), |n, t| {
             (
@@ -54,11 +54,11 @@ impl Session {
 
     /// Reads a further input, whose format its content shows.
     pub fn read_other(&self, path: &Path) -> Result<Document, Failure> {
-        self.read_file(path, None, Repairing::default())
+        self.read_file(path, None, Healing::default())
     }
 
-    fn read_stream(&self, repairing: Repairing) -> Result<Document, Failure> {
-        self.read_from(std::io::stdin().lock(), (None, self.common.from), repairing)
+    fn read_stream(&self, healing: Healing) -> Result<Document, Failure> {
+        self.read_from(std::io::stdin().lock(), (None, self.common.from), healing)
             .map_err(|text| Failure::Input(format!("standard input: {text}")))
     }
 
@@ -66,9 +66,9 @@ impl Session {
         &self,
         path: &Path,
         from: Option<Format>,
-        repairing: Repairing,
+        healing: Healing,
     ) -> Result<Document, Failure> {
-        self.read_from(self.open(path)?, (Some(path), from), repairing)
+        self.read_from(self.open(path)?, (Some(path), from), healing)
             .map_err(|text| Failure::Input(format!("{}: {text}", path.display())))
     }
 
@@ -88,7 +88,7 @@ impl Session {
         &self,
         input: impl Read,
         (path, from): (Option<&Path>, Option<Format>),
-        repairing: Repairing,
+        healing: Healing,
     ) -> Result<Document, String> {
         let mut input = BufReader::new(input);
         let (mut head, format) = recognized(&mut input, (path, from))?;
@@ -100,7 +100,7 @@ impl Session {
             return Ok(document);
         }
         input.read_to_end(&mut head).map_err(unreadable)?;
-        let imported = heal::read_with(&head, format, repairing).map_err(|error| {
+        let imported = heal::read_with(&head, format, healing).map_err(|error| {
             let text = error.to_string();
             if let HealError::NotClosed { edges, .. } = error {
                 let _ = self.odd_edges.set(*edges);

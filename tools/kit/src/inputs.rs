@@ -1,7 +1,7 @@
 //! Several inputs that are one body together.
 
 use crate::{Failure, InputFile, Session};
-use heal::{HealError, Imported, Part, Repairing, assemble, read_part};
+use heal::{HealError, Healing, Imported, Part, assemble, read_part};
 use std::collections::BTreeMap;
 use std::fs::File;
 use tmesh::Document;
@@ -30,11 +30,11 @@ impl Session {
     }
 
     /// Reads all inputs as one body.
-    pub(crate) fn read_several(&self, repairing: Repairing) -> Result<Document, Failure> {
+    pub(crate) fn read_several(&self, healing: Healing) -> Result<Document, Failure> {
         let mut parts = Vec::new();
         let mut notices = Vec::new();
         for input in &self.inputs {
-            let mut part = self.read_one(input, repairing)?;
+            let mut part = self.read_one(input, healing)?;
             let label = input.label();
             let told = part.take_notices().into_iter();
             notices.extend(told.map(|notice| format!("{label}: {notice}")));
@@ -44,7 +44,7 @@ impl Session {
             [input] => Failure::Input(format!("{}: {e}", input.label())),
             all => Failure::Input(format!("the {} inputs together: {e}", all.len())),
         };
-        let imported = assemble(parts, repairing).map_err(together)?;
+        let imported = assemble(parts, healing.repairing).map_err(together)?;
         notices.extend(imported.notices);
         Ok(self.accept(Imported {
             notices,
@@ -52,7 +52,7 @@ impl Session {
         }))
     }
 
-    fn read_one(&self, input: &InputFile, repairing: Repairing) -> Result<Part, Failure> {
+    fn read_one(&self, input: &InputFile, healing: Healing) -> Result<Part, Failure> {
         let label = input.label();
         let fail = |text: String| Failure::Input(format!("{label}: {text}"));
         let read = if input.is_standard_input() {
@@ -62,7 +62,7 @@ impl Session {
             self.read_all(file, Some(&input.path)).map_err(fail)?
         };
         let (bytes, format) = read;
-        read_part(&bytes, format, input.naming(), repairing).map_err(|error| {
+        read_part(&bytes, format, input.naming(), healing).map_err(|error| {
             let text = error.to_string();
             if let HealError::NotClosed { edges, .. } = error {
                 let _ = self.odd_edges.set(*edges);

@@ -8,7 +8,7 @@ use crate::redrawn::redrawn;
 use crate::report::{Defects, Detection, FailureReport, Report, ReportGap, svg};
 use crate::threads;
 use glam::DVec3;
-use heal::{Contacts, Gap, Imported, Overlap, Repairing, gaps};
+use heal::{Contacts, Gap, Healing, Imported, Overlap, Repairing, Solids, gaps};
 use kit::{Command, CommonArgs, Failure, InputFile, Output, Session, ThreadArgs, number};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -85,6 +85,11 @@ pub struct Cli {
     #[arg(long, value_name = "auto|off", default_value = "auto")]
     repair: RepairArg,
 
+    /// What the solids of a surface file are: its groups (STL solids, OBJ groups), where each is closed, or the closed shells of each group, as of an assembly
+    /// that was written as one solid; a shell that looks inwards is a cavity of the one around it
+    #[arg(long, value_name = "groups|shells", default_value = "groups")]
+    solids: SolidsArg,
+
     /// Which of two solids keeps the space that both claim, where neither lies inside the other: the one that is listed
     /// later or earlier; refuse such files
     #[arg(long, value_name = "later|earlier|refuse", default_value = "later")]
@@ -123,6 +128,22 @@ enum RegionsArg {
 enum RepairArg {
     Auto,
     Off,
+}
+
+/// Values of `--solids`.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum SolidsArg {
+    Groups,
+    Shells,
+}
+
+impl From<SolidsArg> for Solids {
+    fn from(arg: SolidsArg) -> Self {
+        match arg {
+            SolidsArg::Groups => Self::Groups,
+            SolidsArg::Shells => Self::Shells,
+        }
+    }
 }
 
 /// Values of `--overlap`.
@@ -198,13 +219,16 @@ fn direction(text: &str) -> Result<DVec3, String> {
 }
 
 impl Cli {
-    fn repairing(&self) -> Repairing {
-        match self.repair {
-            RepairArg::Auto => Repairing::Auto(Contacts {
-                overlap: self.overlap.into(),
-                gap: self.contact_gap,
-            }),
-            RepairArg::Off => Repairing::Off,
+    fn healing(&self) -> Healing {
+        Healing {
+            repairing: match self.repair {
+                RepairArg::Auto => Repairing::Auto(Contacts {
+                    overlap: self.overlap.into(),
+                    gap: self.contact_gap,
+                }),
+                RepairArg::Off => Repairing::Off,
+            },
+            solids: self.solids.into(),
         }
     }
 
@@ -362,7 +386,7 @@ impl Command for Cli {
     fn run(self, session: &Session) -> Result<(), Failure> {
         session.check_output()?;
         let params = self.params();
-        let mut document = session.read_with(self.repairing()).inspect_err(|failure| {
+        let mut document = session.read_with(self.healing()).inspect_err(|failure| {
             let defects = session.odd_edges().map(Defects::of_open);
             self.report_failure(failure, &defects.unwrap_or_default(), session);
         })?;

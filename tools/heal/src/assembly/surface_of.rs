@@ -2,9 +2,10 @@
 
 use super::part::{Naming, Part};
 use crate::HealError;
+use crate::Solids;
 use crate::document::{Imported, largest_coordinate};
 use crate::mesh;
-use crate::soup::{Mended, Mending, NONE, Solids, Surface};
+use crate::soup::{Mended, Mending, NONE, Surface};
 use crate::words::unique_names;
 use interchange::Format;
 use interchange::text::counted;
@@ -63,7 +64,7 @@ pub fn surface_of(
     mending.repairs = repairs;
     let wishes = match solids {
         Solids::Whole => Vec::new(),
-        Solids::Groups => bounded.wishes,
+        Solids::Groups | Solids::Shells => bounded.wishes,
     };
     Ok(Part {
         mended: Mended { mending, notices },

@@ -133,7 +133,7 @@ fn as_solids(
         printed_precision: 0.0,
         notices: shells.notices,
     };
-    let mut imported = soup::build(soup, format, repairing)?;
+    let mut imported = soup::build(soup, format, repairing.into())?;
     if let ([region], [volume]) = (&mut imported.document.regions[..], &shells.volumes[..]) {
         region.name.clone_from(&volume.name);
     }

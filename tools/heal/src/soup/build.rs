@@ -10,7 +10,7 @@ use super::undrawn::{Reading, Undrawn};
 use super::weld;
 use crate::document::{Imported, check_scale, tolerance};
 use crate::words::{short, unique_names};
-use crate::{HealError, Repair, Repairing};
+use crate::{HealError, Healing, Repair, Repairing, Solids};
 use interchange::parsed::Soup;
 
 /// Builds the document of a surface: welded, closed, with regions on the inside.
@@ -23,17 +23,9 @@ use interchange::parsed::Soup;
 /// # Errors
 /// Open surfaces; solids that overlap, cross, or touch with different triangles; with [`Repairing::Off`], surfaces that
 /// have triangles to be dropped.
-pub fn build(soup: Soup, format: &str, repairing: Repairing) -> Result<Imported, HealError> {
-    label_mended(mend(soup, Solids::Groups, repairing)?, format, repairing)
-}
-
-/// What the solids of a soup are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Solids {
-    /// Groups, where each of them is closed.
-    Groups,
-    /// All groups together.
-    Whole,
+pub fn build(soup: Soup, format: &str, healing: Healing) -> Result<Imported, HealError> {
+    let Healing { repairing, solids } = healing;
+    label_mended(mend(soup, solids, repairing)?, format, repairing)
 }
 
 /// Welds a soup, mends it and tells its solids.
@@ -45,6 +37,12 @@ pub fn mend(mut soup: Soup, solids: Solids, repairing: Repairing) -> Result<Mend
     let precision = [soup.relative_precision, soup.printed_precision];
     let mut mending = Mending::new(welded(soup)?, precision);
     mending.drop_collapsed()?;
+    if solids == Solids::Shells {
+        if repairing != Repairing::Off {
+            mending.close()?;
+        }
+        mending.divide_into_shells();
+    }
     mending.merge(false)?;
     if repairing != Repairing::Off {
         mending.close()?;

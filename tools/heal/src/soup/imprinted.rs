@@ -557,7 +557,7 @@ fn notices(
             false => String::new(),
         };
         notices.push(format!(
-            "{} crosses or touches itself: it is taken as the union of its parts{twice}",
+            "{} crosses or touches itself: it is taken as the union of its parts{twice}; --solids shells makes each closed shell a solid",
             name(solid)
         ));
     }

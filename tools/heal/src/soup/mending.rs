@@ -3,9 +3,11 @@
 use super::closure::{groups_are_closed, odd_edges, open_surface};
 use super::coincident::merge;
 use super::needles;
+use super::shells::solids_of_shells;
 use super::stitch::{Division, close, divide_alike};
 use super::surface::Surface;
 use crate::document::{largest_coordinate, tolerance};
+use crate::words::unique_names;
 use crate::{HealError, Repair, RepairKind};
 use geom::edges::Edges;
 use geom::tolerance::Tolerance;
@@ -160,6 +162,21 @@ impl Mending {
             }
             self.update_edges();
         }
+    }
+
+    /// Makes each closed shell of a group a group of its own, if all groups are closed.
+    pub fn divide_into_shells(&mut self) {
+        let Some((solid, groups)) = solids_of_shells(&self.surface, &self.edges) else {
+            return;
+        };
+        let names = groups
+            .iter()
+            .map(|&g| self.surface.groups[g as usize].as_str());
+        let names = unique_names(names, "region");
+        self.surface.group.clone_from(&solid);
+        self.surface.solid = solid;
+        self.surface.groups.clone_from(&names);
+        self.surface.solids = names;
     }
 
     /// Groups are solids where each is closed; else all of them are one.

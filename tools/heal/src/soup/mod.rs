@@ -8,13 +8,14 @@ mod mended;
 mod mending;
 mod needles;
 mod precision;
+mod shells;
 mod solids;
 mod stitch;
 mod surface;
 mod undrawn;
 mod weld;
 
-pub use build::{Solids, build, label_mended, mend};
+pub use build::{build, label_mended, mend};
 pub use closure::odd_edges;
 pub use mended::{Mended, join};
 pub use mending::Mending;

@@ -61,7 +61,7 @@ pub fn label(surface: &Surface, edges: &Edges, flat: f64) -> Result<Labels, Heal
     let met = pairs.map(|pairs| Met { pairs, group: face });
     if let Parts::Pieces(place) = &parts {
         notices.push(format!(
-            "pieces of the surface {place}; it cannot be meshed as it is"
+            "pieces of the surface {place}; it cannot be meshed as it is, and where it is an assembly, --solids shells makes each closed shell a solid"
         ));
         let oriented = as_oriented(surface, edges, notices)?;
         return Ok(Labels { met, ..oriented });
