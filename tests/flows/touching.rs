@@ -276,7 +276,7 @@ fn meshed_by_shells(facets: Vec<Facet>) -> Vec<(String, f64)> {
     volumes_of(&mesh)
 }
 
-/// An assembly that was written as one solid: a pin in two collars that are drawn with other chords, and touch each other with the same triangles.
+/// An assembly that was written as one solid: a pin in two collars.
 #[test]
 fn shells_of_one_solid_are_solids_where_that_is_asked_for() {
     let circle = |radius: f64, corners: u32| Circle {
@@ -328,6 +328,20 @@ fn shells_that_look_inwards_are_cavities() {
     assert_eq!(of(std::slice::from_ref(&hollow)), [1664.0]);
     assert_eq!(of(&[hollow.clone(), cube(2.0)]), [1664.0, 64.0]);
     assert_eq!(of(&[hollow, cube(1.0)]), [1664.0, 8.0]);
+}
+
+#[test]
+fn shells_that_are_open_or_no_choice_end_in_a_message() {
+    let mut facets = cuboid([-1.0; 3], [1.0; 3]);
+    facets.pop();
+    let open = run(
+        "symdetect",
+        &["--solids", "shells"],
+        &ascii_stl(&[("all", facets)]),
+    );
+    open.fails(3, &["the surface is not closed"]);
+    let unknown = run("symdetect", &["--solids", "bodies"], b"");
+    unknown.fails(2, &["bodies", "--solids"]);
 }
 
 /// A layer of a ten millionth of its solids that touches them with other triangles is thinner than single precision tells, and stays where

@@ -59,36 +59,11 @@ pub fn solids_of_shells(surface: &Surface, edges: &Edges) -> Option<(Vec<u32>, V
     let whole: f64 = shells.iter().map(|s| s.volume).sum();
     let is_solid = |s: usize| shells[s].volume * whole > 0.0;
     let rays = Rays::new(&surface.points, &surface.triangles);
-    let of: Vec<usize> = (0..count)
-        .map(|s| {
-            if is_solid(s) {
-                return Some(s);
-            }
-            let is_wanted = |t: u32| {
-                let other = shell[t as usize] as usize;
-                is_solid(other) && shells[other].group == shells[s].group
-            };
-            let mut hits: FxHashMap<usize, usize> = FxHashMap::default();
-            for hit in rays.all(shells[s].place, Direction::ALL[0], is_wanted) {
-                *hits
-                    .entry(shell[hit.triangle as usize] as usize)
-                    .or_default() += 1;
-            }
-            // What fills a cavity has its triangles, too.
-            let size = |s: usize| shells[s].volume.abs();
-            let is_around = |other: usize| {
-                let of_other = |t: u32| shell[t as usize] as usize == other;
-                let met = rays.nearest(shells[s].place, Direction::ALL[0], of_other);
-                size(other) > size(s) && !matches!(met, Met::Touches(_))
-            };
-            let around = hits
-                .into_iter()
-                .filter(|(s, count)| count % 2 == 1 && is_around(*s));
-            around
-                .map(|(other, _)| other)
-                .min_by(|&a, &b| size(a).total_cmp(&size(b)).then(a.cmp(&b)))
-        })
-        .collect::<Option<_>>()?;
+    let of = |s: usize| match is_solid(s) {
+        true => Some(s),
+        false => around((surface, &rays), (&shell, &shells), s, is_solid),
+    };
+    let of: Vec<usize> = (0..count).map(of).collect::<Option<_>>()?;
     let mut number: FxHashMap<usize, u32> = FxHashMap::default();
     let mut groups = Vec::new();
     let solid = shell.iter().map(|&s| {
@@ -110,6 +85,32 @@ struct Shell {
     group: u32,
     /// A place on it.
     place: DVec3,
+}
+
+/// The least solid of the same group around a shell that is a cavity.
+fn around(
+    (surface, rays): (&Surface, &Rays<'_>),
+    (shell, shells): (&[u32], &[Shell]),
+    cavity: usize,
+    is_solid: impl Fn(usize) -> bool,
+) -> Option<usize> {
+    let Shell { place, group, .. } = shells[cavity];
+    let along = Direction::ALL[0];
+    let of = |t: u32| shell[t as usize] as usize;
+    let is_wanted = |t: u32| surface.group[t as usize] == group && is_solid(of(t));
+    let mut hits: FxHashMap<usize, usize> = FxHashMap::default();
+    for hit in rays.all(place, along, is_wanted) {
+        *hits.entry(of(hit.triangle)).or_default() += 1;
+    }
+    // What fills a cavity has its triangles, too.
+    let size = |s: usize| shells[s].volume.abs();
+    let is_around = |other: usize| {
+        let met = rays.nearest(place, along, |t| of(t) == other);
+        size(other) > size(cavity) && !matches!(met, Met::Touches(_))
+    };
+    let odd = hits.into_iter().filter(|(_, count)| count % 2 == 1);
+    let around = odd.map(|(other, _)| other).filter(|&s| is_around(s));
+    around.min_by(|&a, &b| size(a).total_cmp(&size(b)).then(a.cmp(&b)))
 }
 
 /// The triangles around an edge, by groups.
