@@ -123,6 +123,10 @@ impl Freedoms {
 
     /// Keeps a vertex that is its own image on what the step leaves where it is.
     fn keep_on(&mut self, v: u32, set: FixedSet) {
+        // A curved face that touches a wall there, and nowhere around, leaves no direction along both.
+        if matches!(self.of(v), Freedom::Along(..)) {
+            self.fix(v);
+        }
         let exact = self.exact.entry(v).or_default();
         match set {
             FixedSet::All => {}

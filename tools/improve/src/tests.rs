@@ -322,6 +322,11 @@ fn vertices_move_along_a_curved_shape() {
     let freedoms = on_sphere(&template, true, -1.0);
     let kinds: Vec<bool> = (1..7).map(|v| freedoms.of(v) == Freedom::Fixed).collect();
     assert_eq!(kinds, [true, true, true, true, true, false]);
+    // Where it touches a wall in a point alone, that one stays.
+    template.gluings = vec![Gluing::seam("wall", 0, Isometry::FLIP, [[2, 2]], [])];
+    let freedoms = on_sphere(&template, true, -1.0);
+    let kinds: Vec<bool> = (1..7).map(|v| freedoms.of(v) == Freedom::Fixed).collect();
+    assert_eq!(kinds, [false, true, false, false, false, false]);
 }
 
 /// Beside a feature of a curved shape edges become others, and what was straight is so no more: along the feature a vertex goes where the shape
