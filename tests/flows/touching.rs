@@ -1,7 +1,7 @@
 //! Assemblies whose solids touch, overlap or cross themselves, each drawn for itself.
 
 use bodies::Dice;
-use bodies::facets::{Facet, ascii_stl, cuboid};
+use bodies::facets::{Facet, ascii_stl, binary_stl, cuboid};
 use bodies::rounds::{Circle, Scattered, cylinder, tube};
 use serde_json::Value;
 use support::{encode, pipe, run};
@@ -310,6 +310,106 @@ fn shells_of_one_solid_are_solids_where_that_is_asked_for() {
     let sum: f64 = exact.iter().sum();
     assert!((whole[0].1 / sum - 1.0).abs() < 1e-6, "{whole:?}");
     assert_eq!(whole.len(), 1);
+}
+
+/// An assembly that was written as one solid is the union of its shells, which touch as solids do: as symmetric as these, and without
+/// slivers between facets of faces that are one.
+#[test]
+fn shells_of_one_solid_that_touch_are_its_parts() {
+    // Three blocks, as single precision leaves them: two lie in each other by a rounding, and two are apart by one.
+    let rounding = 4e-9;
+    let arch = |gap: f64| {
+        [
+            cuboid([-0.015, 0.02, -0.06], [0.015, 0.05, 0.04]),
+            cuboid(
+                [-0.015, -0.02 + gap, -0.06],
+                [0.015, 0.02 + rounding, -0.025],
+            ),
+            cuboid([-0.015, -0.05, -0.06], [0.015, -0.02, 0.04]),
+        ]
+        .concat()
+    };
+    let single = |facets: Vec<Facet>| -> Vec<Facet> {
+        let rounded = |x: f64| f64::from(x as f32);
+        facets
+            .into_iter()
+            .map(|f| f.map(|p| p.map(rounded)))
+            .collect()
+    };
+    for gap in [-rounding, 0.0, rounding] {
+        let arch = binary_stl(b"", &single(arch(gap)));
+        let found = run("symdetect", &[], &arch);
+        assert!(
+            found.stderr.contains("C2v about"),
+            "{gap}: {}",
+            found.stderr
+        );
+        let stages: [&[&str]; 4] = [
+            &["symdetect"],
+            &["wedgecut"],
+            &["tetwedge"],
+            &["rotassemble", "--to", "tmesh"],
+        ];
+        let mesh = pipe(&stages, &arch).pop().expect("a stage").success();
+        let good = ["--check", "--fail-below", "min_dihedral_deg.min=15"];
+        run("meshqual", &good, &mesh).success();
+        let volumes = volumes_of(&mesh);
+        let exact = 2.0 * 0.03 * 0.03 * 0.1 + 0.03 * 0.04 * 0.035;
+        assert_eq!(volumes.len(), 1);
+        assert!((volumes[0].1 / exact - 1.0).abs() < 1e-6, "{volumes:?}");
+    }
+    // What is apart by more stays so.
+    let apart = run(
+        "symdetect",
+        &[],
+        &binary_stl(b"", &single(arch(1e-4))),
+    );
+    assert!(apart.stderr.contains("C1v about"), "{}", apart.stderr);
+}
+
+/// A shaft with 48 facets in a bore with 36, and pins in both that are drawn otherwise: facets of two faces that are one cross everywhere,
+/// and hardly any where their images do.
+#[test]
+fn curved_shells_of_one_solid_that_touch_are_its_parts() {
+    let circle = |radius: f64, corners: u32, phase: f64| Circle {
+        radius,
+        corners,
+        phase,
+    };
+    let shaft = cylinder(circle(5.0, 48, 0.1), [-2.0, 6.0]);
+    let hub = tube(circle(5.0, 36, 0.3), circle(9.0, 36, 0.0), [0.0, 4.0]);
+    let found = run(
+        "symdetect",
+        &[],
+        &binary_stl(b"", &[shaft.clone(), hub.clone()].concat()),
+    );
+    let apart = run("symdetect", &[], &ascii_stl(&[("a", shaft), ("b", hub)]));
+    let group = |told: &str| {
+        let line = told
+            .lines()
+            .find(|l| l.contains(" about "))
+            .map(str::to_owned);
+        line.and_then(|l| l.split_whitespace().nth(1).map(str::to_owned))
+    };
+    assert!(group(&apart.stderr).is_some(), "{}", apart.stderr);
+    assert_eq!(
+        group(&found.stderr),
+        group(&apart.stderr),
+        "{}",
+        found.stderr
+    );
+}
+
+/// Parts need not be symmetric for their union to be: a bar, and two stubs that make it a cross.
+#[test]
+fn the_union_of_parts_may_be_more_symmetric_than_they_are() {
+    let cross = [
+        cuboid([-5.0, -1.0, 0.0], [5.0, 1.0, 1.0]),
+        cuboid([-1.0, 0.5, 0.0], [1.0, 5.0, 1.0]),
+        cuboid([-1.0, -5.0, 0.0], [1.0, -1.0, 1.0]),
+    ];
+    let found = run("symdetect", &[], &binary_stl(b"", &cross.concat()));
+    assert!(found.stderr.contains("D4h about"), "{}", found.stderr);
 }
 
 /// A shell that looks inwards is no solid, whether or not another one fills it.

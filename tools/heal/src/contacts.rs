@@ -49,6 +49,8 @@ pub struct Joined {
     /// The solids as they are drawn, each closed by itself and with its region behind its triangles, where they are
     /// oriented alike. What is symmetric among them need not be so to the bit where they were joined.
     pub drawn: Option<Template>,
+    /// Whether the solids are closed shells that were one solid in the file, and are one again.
+    pub is_united: bool,
 }
 
 /// Space that two solids claimed.

@@ -43,13 +43,27 @@ pub fn detect(
             let holds = found.asymmetric.is_none() && keeps_claims(&found, joined, document);
             holds.then_some(found)
         });
+        let is_united = joined.is_some_and(|joined| joined.is_united);
         let mut found = match of_drawn {
-            Some(found) => found,
+            Some(found) if !is_united => found,
+            // Parts of one solid need not be symmetric for that to be.
+            Some(of_parts) => match of_template(template, precision, params, log) {
+                Ok(found) if size(&found) >= size(&of_parts) => found,
+                _ => of_parts,
+            },
             None => of_template(template, precision, params, log)?,
         };
         found.notes.extend(found.exchange(document));
         Ok(found)
     })
+}
+
+/// How many operations were found.
+fn size(found: &Detection) -> u32 {
+    match found.asymmetric {
+        None => found.symmetry.group.size(),
+        Some(_) => 1,
+    }
 }
 
 /// How precise the coordinates of a document are, world units, if that is known.

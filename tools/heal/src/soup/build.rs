@@ -1,9 +1,10 @@
 //! From polygons in groups to a document.
 
-use super::imprinted::{Unjoined, imprinted, touching};
+use super::imprinted::{Imprinted, Unjoined, imprinted, touching};
 use super::mended::Mended;
 use super::mending::Mending;
 use super::precision::less_precise;
+use super::shells::parts;
 use super::solids::label;
 use super::surface::{NONE, Surface};
 use super::undrawn::{Reading, Undrawn};
@@ -91,34 +92,55 @@ pub fn label_mended(
     let apart = apart.as_ref().unwrap_or(&surface);
     let tolerance = tolerance(&apart.points, relative_precision);
     let told = merged.and_then(|()| label(&surface, &edges, tolerance.flat()));
+    // The shells of a single solid touch and cross as solids do.
+    let parts = (!several && repairing != Repairing::Off)
+        .then(|| parts(&surface, &edges))
+        .flatten();
     let (mut joined, mut divided) = (None, None);
     let to_join = match (&told, repairing) {
         (_, Repairing::Off) => None,
-        (Ok(labels), Repairing::Auto(contacts)) if !labels.crosses => several
-            .then(|| touching(apart, &tolerance, contacts))
-            .flatten(),
+        (Ok(labels), Repairing::Auto(contacts)) if !labels.crosses => match &parts {
+            _ if several => touching(apart, &tolerance, contacts),
+            // What is apart was meant to be, unless it is as near as rounding explains.
+            Some(parts) => touching(parts, &tolerance, contacts.flat()),
+            None => None,
+        },
         (_, Repairing::Auto(contacts)) => Some(contacts),
     };
     let (surface, labels) = match to_join {
         None => (surface, told?),
         Some(contacts) => {
-            // Of several solids, another surface was labelled.
             let known = told.as_ref().ok().and_then(|labels| labels.met.as_ref());
-            let known = known.filter(|_| !several);
-            let mut made = imprinted(apart, &tolerance, contacts, known);
-            // What is sound as it is stays so.
             let precision = [relative_precision, printed_precision];
-            if told.is_err()
-                && let Some((wider, again)) = less_precise(apart, &made, precision, contacts)
-            {
-                let equal = self::tolerance(&apart.points, wider).equal();
-                notices.push(format!(
-                    "coordinates are known less well than their digits tell: what is nearer than {} is taken for one",
-                    short(equal)
-                ));
-                relative_precision = wider;
-                made = Ok(again);
-            }
+            let mut join = |solids: &Surface, known| {
+                let mut made = imprinted(solids, &tolerance, contacts, known);
+                // What is sound as it is stays so.
+                if told.is_err()
+                    && let Some((wider, again)) = less_precise(solids, &made, precision, contacts)
+                {
+                    let equal = self::tolerance(&solids.points, wider).equal();
+                    notices.push(format!(
+                        "coordinates are known less well than their digits tell: what is nearer than {} is taken for one",
+                        short(equal)
+                    ));
+                    relative_precision = wider;
+                    made = Ok(again);
+                }
+                made
+            };
+            let united = parts.as_ref().and_then(|parts| {
+                let mut made = join(parts, None).ok().filter(Imprinted::have_met)?;
+                let divided = made.divided.take();
+                let mut made = made.united(&surface);
+                made.divided = divided;
+                Some(made)
+            });
+            let whole = united.is_some().then(|| surface.clone());
+            // Of several solids, another surface was labelled.
+            let made = match united {
+                Some(united) => Ok(united),
+                None => join(apart, known.filter(|_| !several)),
+            };
             match made {
                 Ok(imprinted) if imprinted.is_slight && told.is_ok() => (surface, told?),
                 // What is drawn is a body as it is, and what looked like a contact is none; but where solids touch in edges or
@@ -133,7 +155,7 @@ pub fn label_mended(
                 }
                 Ok(imprinted) => {
                     joined = Some(imprinted.joined);
-                    divided = imprinted.divided;
+                    divided = imprinted.divided.map(|divided| (divided, whole));
                     (imprinted.surface, imprinted.labels)
                 }
                 Err(Unjoined { reason, .. }) => match told {
@@ -154,7 +176,7 @@ pub fn label_mended(
         notices,
         repairs,
     };
-    let undrawn = divided.map(|divided| Undrawn::new(&reading, divided));
+    let undrawn = divided.map(|(divided, whole)| Undrawn::new(&reading, divided, whole));
     let mut imported = reading.finished((surface, labels), joined)?;
     imported.undrawn = undrawn;
     Ok(imported)

@@ -32,6 +32,8 @@ pub struct Imprinted {
     /// Whether all that was done is to take out what a single solid has twice, and that is less of it than single
     /// precision tells: noise makes thin layers cross, and what is taken out leaves slivers.
     pub is_slight: bool,
+    /// The volume that solids have more than once by themselves, model units cubed.
+    doubled: f64,
     /// What the solids were before, where facets of both were divided at each other.
     pub divided: Option<Divided>,
 }
@@ -168,6 +170,37 @@ fn interfaces_once(
 }
 
 impl Imprinted {
+    /// Whether any of the solids touch or overlap.
+    pub fn have_met(&self) -> bool {
+        self.joined.interfaces > 0 || !self.joined.overlaps.is_empty()
+    }
+
+    /// The same, where the solids are parts of a single one, `whole`: what lies between them is within it.
+    pub fn united(mut self, whole: &Surface) -> Self {
+        let overlaps = self.joined.overlaps.iter().map(|c| c.volume);
+        let twice = overlaps.sum::<f64>() + self.doubled;
+        let Labels { front, back, .. } = &mut self.labels;
+        let is_outside: Vec<bool> = front.iter().map(|&s| s == NONE).collect();
+        self.surface.retain(|t| is_outside[t]);
+        front.retain(|&s| s == NONE);
+        let count = front.len();
+        *back = vec![0; count];
+        self.labels.turned.truncate(count);
+        self.labels.notices = vec![union_of_parts("the surface", twice)];
+        self.surface.solid.fill(0);
+        self.surface.partner.fill(NONE);
+        self.surface.solids.clone_from(&whole.solids);
+        self.joined.interfaces = 0;
+        self.joined.overlaps.clear();
+        self.joined.volumes = volumes(whole);
+        self.joined.is_united = true;
+        for t in self.joined.drawn.iter_mut().flat_map(|d| &mut d.triangles) {
+            t.back = 1;
+        }
+        self.claims.clear();
+        self
+    }
+
     /// Whether something is left of each solid.
     fn has_all(&self) -> bool {
         let sides = self.labels.front.iter().chain(&self.labels.back);
@@ -270,6 +303,7 @@ fn attempt(
         claims: thick().map(|c| [c.winner, c.loser]).collect(),
         thinnest: between.map(|c| c.thickness).fold(f64::INFINITY, f64::min),
         is_slight,
+        doubled,
         labels: labels(&settled, notices),
         surface: sided(surface, complex, &settled),
         joined,
@@ -456,6 +490,7 @@ fn joined(
     let thick = thick_overlaps(settled, tolerance);
     Joined {
         drawn: None,
+        is_united: false,
         interfaces: settled.triangles.iter().filter(|t| t.2[0] != NONE).count(),
         largest,
         points,
@@ -552,14 +587,7 @@ fn notices(
         _ => surface.solid_name(solid),
     };
     for &(solid, volume) in &settled.doubled {
-        let twice = match volume > 0.0 {
-            true => format!(", which have a volume of {} more than once", short(volume)),
-            false => String::new(),
-        };
-        notices.push(format!(
-            "{} crosses or touches itself: it is taken as the union of its parts{twice}; --solids shells makes each closed shell a solid",
-            name(solid)
-        ));
+        notices.push(union_of_parts(&name(solid), volume));
     }
     if joined.interfaces > 0 {
         let (one, many) = ("triangle", "triangles");
@@ -580,4 +608,15 @@ fn notices(
         });
     }
     notices
+}
+
+/// The sentence on a solid that crosses or touches itself; `twice` is the volume that it has more than once, model units cubed.
+fn union_of_parts(name: &str, twice: f64) -> String {
+    let twice = match twice > 0.0 {
+        true => format!(", which have a volume of {} more than once", short(twice)),
+        false => String::new(),
+    };
+    format!(
+        "{name} crosses or touches itself: it is taken as the union of its parts{twice}; --solids shells makes each closed shell a solid"
+    )
 }

@@ -77,6 +77,19 @@ pub fn solids_of_shells(surface: &Surface, edges: &Edges) -> Option<(Vec<u32>, V
     (groups.len() > surface.groups.len()).then_some((solid, groups))
 }
 
+/// A single solid with its closed shells as solids; `None` where it has one, or edges do not tell. n log n.
+pub fn parts(whole: &Surface, edges: &Edges) -> Option<Surface> {
+    let mut parts = whole.clone();
+    parts.group.fill(0);
+    parts.groups.truncate(1);
+    let (solid, of) = solids_of_shells(&parts, edges)?;
+    parts.solids = (1..=of.len()).map(|n| format!("part {n}")).collect();
+    parts.solid = solid;
+    parts.group.clone_from(&whole.group);
+    parts.groups.clone_from(&whole.groups);
+    Some(parts)
+}
+
 /// A closed shell.
 #[derive(Clone, Debug, Default)]
 struct Shell {

@@ -53,23 +53,32 @@ impl Reading {
 pub struct Undrawn {
     reading: Reading,
     divided: Divided,
+    /// The single solid that the solids are parts of, if they are.
+    whole: Option<Surface>,
 }
 
 impl Undrawn {
     /// Of solids that were read so; what was said of that is not said again.
-    pub fn new(reading: &Reading, divided: Divided) -> Self {
+    pub fn new(reading: &Reading, divided: Divided, whole: Option<Surface>) -> Self {
         let reading = Reading {
             notices: Vec::new(),
             repairs: Vec::new(),
             ..reading.clone()
         };
-        Self { reading, divided }
+        Self {
+            reading,
+            divided,
+            whole,
+        }
     }
 
     /// A document as it was read of these solids, with the facets of one solid for both where curved faces touch, and what is told of that; `None` where
     /// that cannot be. Linear, but for the search for what is near.
     pub fn draw_once(&self, read: &Document) -> Option<Imported> {
-        let made = self.divided.drawn_once()?;
+        let mut made = self.divided.drawn_once()?;
+        if let Some(whole) = &self.whole {
+            made = made.united(whole);
+        }
         let reading = self.reading.clone();
         let once = reading.finished((made.surface, made.labels), Some(made.joined));
         let mut once = once.ok()?;

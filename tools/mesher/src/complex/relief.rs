@@ -53,30 +53,27 @@ impl Relief {
         Some(self.trees.get(&facet)?.nearest(p, f64::INFINITY)?.point)
     }
 
-    /// Puts points that are on a single uneven facet onto it: of triangles with their facets, the vertices that `moves`. What
+    /// The points that are on a single uneven facet, of triangles with their facets, and where each is on it; in their order. What
     /// is on several facets is on the edges between them.
-    pub fn put(
+    pub fn places(
         &self,
-        points: &mut [DVec3],
+        points: &[DVec3],
         triangles: impl Iterator<Item = ([u32; 3], usize)>,
-        moves: impl Fn(u32) -> bool,
-    ) {
+    ) -> Vec<(u32, DVec3)> {
         if !self.is_there() {
-            return;
+            return Vec::new();
         }
         let mut of: Vec<(u32, usize)> = triangles
             .flat_map(|(corners, facet)| corners.map(|v| (v, facet)))
-            .filter(|&(v, _)| moves(v))
             .collect();
         of.sort_unstable();
         of.dedup();
-        for of_vertex in of.chunk_by(|a, b| a.0 == b.0) {
-            let &[(v, facet)] = of_vertex else { continue };
-            let p = &mut points[v as usize];
-            if let Some(there) = self.nearest(facet, *p) {
-                *p = there;
-            }
-        }
+        let alone = of.chunk_by(|a, b| a.0 == b.0).filter_map(|of| match of {
+            &[alone] => Some(alone),
+            _ => None,
+        });
+        let place = |(v, facet)| Some((v, self.nearest(facet, points[v as usize])?));
+        alone.filter_map(place).collect()
     }
 }
 
@@ -126,13 +123,12 @@ mod tests {
         let roof = faces.of_triangle[0] as usize;
         assert_eq!(relief.uneven().iter().filter(|u| **u).count(), 1);
         assert_eq!(relief.nearest(1 - roof, DVec3::ZERO), None);
-        let mut points = [DVec3::new(0.5, 0.25, 0.0), DVec3::X, DVec3::Y, DVec3::Z];
-        let before = points;
-        // The second one is on both facets, and the third one is to stay.
+        let points = [DVec3::new(0.5, 0.25, 0.0), DVec3::X, DVec3::Y, DVec3::Z];
+        // The second one is on both facets, and the fourth one on the even one.
         let triangles = [([0, 1, 2], roof), ([1, 3, 3], 1 - roof)];
-        relief.put(&mut points, triangles.into_iter(), |v| v != 2);
-        assert!((points[0] - DVec3::new(0.5, 0.25, 2e-4)).length() < 1e-6);
-        assert_eq!(points[1..], before[1..]);
+        let places = relief.places(&points, triangles.into_iter());
+        assert_eq!(places.iter().map(|p| p.0).collect::<Vec<_>>(), [0, 2]);
+        assert!((places[0].1 - DVec3::new(0.5, 0.25, 2e-4)).length() < 1e-6);
     }
 
     #[test]

@@ -102,8 +102,11 @@ fn surface_of(climb: &Climb<'_>, answer: Answer) -> Result<Refined, Error> {
     let first_new = refined.vertex_of_point.len() as u32;
     let facets = refined.facet.iter().map(|&f| f as usize);
     let triangles = refined.triangles.iter().copied().zip(facets);
-    plc.relief
-        .put(&mut refined.vertices, triangles, |v| v >= first_new);
+    for (v, there) in plc.relief.places(&refined.vertices, triangles) {
+        if v >= first_new {
+            refined.vertices[v as usize] = there;
+        }
+    }
     Ok(refined)
 }
 

@@ -2,6 +2,7 @@
 
 use super::filled::{Filled, NONE};
 use super::preserved::restore_preserved;
+use super::relief::on_relief;
 use super::walls::{on_shifted_facets, restore_walls};
 use glam::DVec3;
 use improve::Leaves;
@@ -96,42 +97,17 @@ pub fn fill(climb: &Climb<'_>, answer: &Answer, leaves: Leaves) -> Result<(Fille
     restore_preserved(input, plc, &faces, &mut filled).map_err(&unusable)?;
     let shifted = on_shifted_facets(plc, &facets, first_new, &filled.template);
     restore_walls(input, (plc, &faces, first_new), shifted, &mut filled).map_err(&unusable)?;
-    put_onto_relief(plc, &facets, &mut filled.template, |v| {
-        v as usize >= first_new
-    });
+    for (v, there) in on_relief(plc, &facets, &filled.template) {
+        if v as usize >= first_new {
+            filled.template.vertices[v as usize] = there;
+        }
+    }
     let origin = Origin {
         facets,
         faces,
         first_new,
     };
     Ok((filled, origin))
-}
-
-/// Puts vertices onto the uneven facets that they are inside of; `facets` has the facet of each triangle. Those of walls and of
-/// the axis stay there.
-pub fn put_onto_relief(
-    plc: &Plc,
-    facets: &[usize],
-    template: &mut Template,
-    moves: impl Fn(u32) -> bool,
-) {
-    if !plc.relief.is_there() {
-        return;
-    }
-    let mut stays = vec![false; template.vertices.len()];
-    let of_walls = template.gluings.iter().flat_map(|g| &g.vertex_pairs);
-    for &v in of_walls.flatten().chain(&template.axis) {
-        // The second of a pair may be another template's.
-        if let Some(stays) = stays.get_mut(v as usize) {
-            *stays = true;
-        }
-    }
-    let triangles = template.triangles.iter().zip(facets);
-    plc.relief.put(
-        &mut template.vertices,
-        triangles.map(|(t, &facet)| (t.vertices, facet)),
-        |v| !stays[v as usize] && moves(v),
-    );
 }
 
 /// Numbers for the points that the mesh uses: the template's own in their order there, then new ones.

@@ -1,10 +1,11 @@
 //! Improvement of a filled template, and the checks of all of it.
 
-use super::answer::{Origin, put_onto_relief};
+use super::answer::Origin;
 use super::doubled::doubled;
 use super::filled::Filled;
 use super::measures::{volumes, walls};
-use super::orientations::orientations;
+use super::orientations::Oriented;
+use super::relief::{move_within_elements, on_relief};
 use super::separation::separation;
 use geom::flat::FACE_FOLD_SINE;
 use geom::measure::corners;
@@ -63,6 +64,8 @@ pub fn finish(
             refined = None;
         }
     }
+    let reach = climb.piece.document.frame.origin.length() + plc.extent;
+    let oriented = Oriented::within(reach);
     let refined = refined.or_else(|| refine(climb, plc, (&origin.facets, None), filled));
     if let Some((improved, parents)) = refined {
         filled.improved = Some(improved);
@@ -74,13 +77,12 @@ pub fn finish(
         let shared: FxHashSet<u32> = shared
             .flat_map(|&t| filled.template.triangles[t as usize].vertices)
             .collect();
-        put_onto_relief(plc, &origin.facets, &mut filled.template, |v| {
-            !shared.contains(&v)
-        });
+        let mut places = on_relief(plc, &origin.facets, &filled.template);
+        places.retain(|(v, _)| !shared.contains(v));
+        move_within_elements(&mut filled.template, &places, &oriented);
     }
-    let reach = climb.piece.document.frame.origin.length() + plc.extent;
     let template = &filled.template;
-    orientations(template, origin.first_new, reach).map_err(unusable)?;
+    oriented.all(template, origin.first_new).map_err(unusable)?;
     let diagonal = climb.piece.document.diagonal();
     separation(template, climb.piece.index, diagonal).map_err(unusable)?;
     doubled(template, climb.piece.index, &origin.faces)?;

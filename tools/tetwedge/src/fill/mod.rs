@@ -7,6 +7,7 @@ mod finish;
 mod measures;
 mod orientations;
 mod preserved;
+mod relief;
 mod separation;
 mod touching;
 mod walls;
