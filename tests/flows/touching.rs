@@ -359,11 +359,7 @@ fn shells_of_one_solid_that_touch_are_its_parts() {
         assert!((volumes[0].1 / exact - 1.0).abs() < 1e-6, "{volumes:?}");
     }
     // What is apart by more stays so.
-    let apart = run(
-        "symdetect",
-        &[],
-        &binary_stl(b"", &single(arch(1e-4))),
-    );
+    let apart = run("symdetect", &[], &binary_stl(b"", &single(arch(1e-4))));
     assert!(apart.stderr.contains("C1v about"), "{}", apart.stderr);
 }
 

@@ -112,10 +112,10 @@ pub fn label_mended(
         Some(contacts) => {
             let known = told.as_ref().ok().and_then(|labels| labels.met.as_ref());
             let precision = [relative_precision, printed_precision];
-            let mut join = |solids: &Surface, known| {
+            let mut join = |solids: &Surface, known, is_sound: bool| {
                 let mut made = imprinted(solids, &tolerance, contacts, known);
                 // What is sound as it is stays so.
-                if told.is_err()
+                if !is_sound
                     && let Some((wider, again)) = less_precise(solids, &made, precision, contacts)
                 {
                     let equal = self::tolerance(&solids.points, wider).equal();
@@ -129,7 +129,7 @@ pub fn label_mended(
                 made
             };
             let united = parts.as_ref().and_then(|parts| {
-                let mut made = join(parts, None).ok().filter(Imprinted::have_met)?;
+                let mut made = join(parts, None, false).ok().filter(Imprinted::have_met)?;
                 let divided = made.divided.take();
                 let mut made = made.united(&surface);
                 made.divided = divided;
@@ -139,7 +139,7 @@ pub fn label_mended(
             // Of several solids, another surface was labelled.
             let made = match united {
                 Some(united) => Ok(united),
-                None => join(apart, known.filter(|_| !several)),
+                None => join(apart, known.filter(|_| !several), told.is_ok()),
             };
             match made {
                 Ok(imprinted) if imprinted.is_slight && told.is_ok() => (surface, told?),

@@ -29,7 +29,7 @@ pub struct Imprinted {
     claims: Vec<[u32; 2]>,
     /// How thick the thinnest claim is that one solid makes of another one that is not inside of it, model units; infinite where there is none.
     pub thinnest: f64,
-    /// Whether all that was done is to take out what a single solid has twice, and that is less of it than single
+    /// Whether all that was done is to take out what a single solid, or its parts, have twice, and that is less of it than single
     /// precision tells: noise makes thin layers cross, and what is taken out leaves slivers.
     pub is_slight: bool,
     /// The volume that solids have more than once by themselves, model units cubed.
@@ -179,6 +179,7 @@ impl Imprinted {
     pub fn united(mut self, whole: &Surface) -> Self {
         let overlaps = self.joined.overlaps.iter().map(|c| c.volume);
         let twice = overlaps.sum::<f64>() + self.doubled;
+        self.is_slight = is_slight(twice, &self.joined.volumes);
         let Labels { front, back, .. } = &mut self.labels;
         let is_outside: Vec<bool> = front.iter().map(|&s| s == NONE).collect();
         self.surface.retain(|t| is_outside[t]);
@@ -293,9 +294,7 @@ fn attempt(
     }
     let notices = notices(surface, &settled, &joined, tolerance);
     let doubled: f64 = settled.doubled.iter().map(|d| d.1).sum();
-    let volume: f64 = joined.volumes.iter().map(|v| v.before).sum();
-    let is_slight =
-        surface.solids.len() == 1 && doubled > 0.0 && doubled <= f64::from(f32::EPSILON) * volume;
+    let is_slight = surface.solids.len() == 1 && is_slight(doubled, &joined.volumes);
     let thick = || thick_overlaps(&settled, tolerance);
     let between = thick().filter(|c| !c.nested);
     Ok(Imprinted {
@@ -608,6 +607,12 @@ fn notices(
         });
     }
     notices
+}
+
+/// Whether the volume that solids have more than once is there, but less than single precision tells of them.
+fn is_slight(twice: f64, volumes: &[Changed]) -> bool {
+    let volume: f64 = volumes.iter().map(|v| v.before).sum();
+    twice > 0.0 && twice <= f64::from(f32::EPSILON) * volume
 }
 
 /// The sentence on a solid that crosses or touches itself; `twice` is the volume that it has more than once, model units cubed.
